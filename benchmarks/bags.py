@@ -18,9 +18,9 @@ from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
-from forcetorque.exchange.ros.bag import opened_bag
-from forcetorque.exchange.ros.streams import topic_stream
-from tests.exchange.ros.bags import FORMS, Types, write_bag
+from forcetorque.formats.ros.bag import opened_bag
+from forcetorque.formats.ros.streams import topic_stream
+from tests.formats.ros.bags import FORMS, Types, write_bag
 
 MESSAGES = 50_000
 JOINTS = [f"joint_{k}" for k in range(7)]

@@ -9,10 +9,15 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.harness import arguments, interleaved, write_result
-from forcetorque.recording import Recording, read_recording, write_recording
-from forcetorque.robot import read_urdf
-from forcetorque.simulation import FAMILIES, SimulatedSensor, Stand, random_movement, record
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.family import FAMILIES
+from forcetorque.simulation.motions.random_smooth import random_movement
+from forcetorque.simulation.motions.stand import Stand
 from forcetorque.simulation.robots import named_robot
+from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.trace import record
 
 
 def main() -> None:

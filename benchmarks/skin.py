@@ -14,20 +14,24 @@ import icub_models
 import numpy as np
 
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.estimation import Contact, Estimates, Evaluator, Question, TorqueSum, estimate, moving_joints
-from forcetorque.estimation.uncertain import (
-    SkinSource,
-    UncertainEstimates,
-    Uncertainty,
-    estimate_with_covariance,
-    skin_sources,
-)
-from forcetorque.robot import JointMotion, RootMotion, Wrenches, build_tree, read_urdf
-from forcetorque.skin import PressureTable, SkinLayout
-from forcetorque.skin.contact import PatchReader, SkinContacts, find_contacts
-from forcetorque.skin.wrench import SkinPatch
-from forcetorque.skin.wrench.thesis import DISC_POINTS, DISC_RADIUS_M
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.estimation.skin.known_wrenches import SkinSource, skin_sources
+from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
+from forcetorque.estimation.uncertain.estimates import UncertainEstimates
+from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.robot.contacts import Contact, Wrenches
+from forcetorque.robot.mechanics.estimate import Evaluator, estimate
+from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.question import Question, TorqueSum, moving_joints
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
+from forcetorque.skin.contact.reading import PatchReader
+from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.taxels.pressure_table import PressureTable
+from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.pressure_fields import DISC_POINTS, DISC_RADIUS_M
 
 PITCH_M = 6.6e-3
 FEW, MANY = 380, 4000

@@ -8,17 +8,12 @@ from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
-from forcetorque.arrays import FloatArray
-from forcetorque.evaluation.sphere import (
-    Ellipsoid,
-    SphereAnalysis,
-    analyse_sphere,
-    ellipsoid_distances,
-    ellipsoid_of_map,
-)
+from forcetorque.base.arrays import FloatArray
 from forcetorque.evaluation.sphere.algebraic import direct_fit, gradient_weighted_fit
-from forcetorque.evaluation.sphere.moments import QuadricMoments, extent
-from forcetorque.evaluation.sphere.refinement import refine_ellipsoid
+from forcetorque.evaluation.sphere.analysis import SphereAnalysis, analyse_sphere
+from forcetorque.evaluation.sphere.cloud import QuadricMoments, extent
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, ellipsoid_of_map
+from forcetorque.evaluation.sphere.geometric import ellipsoid_distances, refine_ellipsoid
 from forcetorque.evaluation.sphere.resampling import Resampled, resampled
 
 WEIGHT, NOISE = 46.4, 0.5

@@ -12,17 +12,22 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.harness import arguments, write_result
-from forcetorque.errors import ForceTorqueError, MissingFileError
-from forcetorque.exchange.icub import encode_matrix, write_matrix_file
-from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.recording import write_recording
-from forcetorque.robot import read_urdf
-from forcetorque.simulation import FAMILIES, SimulatedSensor, Stand, random_movement, record
+from forcetorque.base.errors import ForceTorqueError, MissingFileError
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
+from forcetorque.recording.storage import write_recording
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.family import FAMILIES
+from forcetorque.simulation.motions.random_smooth import random_movement
+from forcetorque.simulation.motions.stand import Stand
 from forcetorque.simulation.robots import named_robot
-from forcetorque.viewer import MOST_SAMPLES, BuiltScene, ViewerServer, build_scene, page_of, write_page
-from forcetorque.viewer.page import ASSETS, BUNDLE
+from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.trace import record
+from forcetorque.viewer.build import BuiltScene, build_scene
+from forcetorque.viewer.page import ASSETS, BUNDLE, MOST_SAMPLES, page_of, write_page
 from forcetorque.viewer.scene import scene_json
-from forcetorque.viewer.serve import DATA_URL
+from forcetorque.viewer.serve import DATA_URL, ViewerServer
 from forcetorque.viewer.video import find_browser, require_playwright
 
 SIZES, QUICK_SIZES = (20_000, 200_000, 1_000_000), (2_000, 20_000)

@@ -17,17 +17,13 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.calibration import read_calibration
-from forcetorque.exchange.icub import encode_matrix, write_matrix_file
-from forcetorque.recording import write_recording
-from forcetorque.robot import read_urdf
-from forcetorque.simulation import (
-    ARM_URDF,
-    SimulatedSensor,
-    distorted_by_mounting,
-    simulate_recording,
-    y_shaped_matrix,
-)
+from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
+from forcetorque.recording.storage import write_recording
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.robots import ARM_URDF
+from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
+from forcetorque.simulation.trace import simulate_recording
 
 EXPERIMENT = """\
 schema = "forcetorque/experiment/1"

@@ -13,12 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.analysis import SensorRun
-from forcetorque.calibration import calibrate
-from forcetorque.evaluation import offset_removed, wrench_errors
-from forcetorque.experiment import load_experiment
-from forcetorque.recording import Use
+from forcetorque.calibration.thesis.calibrate import calibrate
+from forcetorque.experiment.error_statistics import offset_removed, wrench_errors
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import seconds_since
+from forcetorque.recording.recording import Use
 
 
 def show_curve(run: SensorRun) -> None:

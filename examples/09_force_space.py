@@ -14,10 +14,11 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque import load_experiment
-from forcetorque.analysis import corrections_of, estimate_experiment
-from forcetorque.report.figures import force_space_figure
-from forcetorque.report.figures.canvas import png_bytes
+from forcetorque.app.python.experiment import load_experiment
+from forcetorque.estimation.estimate import estimate_experiment
+from forcetorque.evaluation.figures.sphere import force_space_figure
+from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.results.figures.canvas import png_bytes
 
 
 def main() -> None:

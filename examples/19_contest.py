@@ -16,12 +16,18 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.exchange.icub import encode_matrix, write_matrix_file
-from forcetorque.exsitu.device import BASE, DeviceTrajectory, device_load, device_model, read_device, twelve_steps
-from forcetorque.recording import write_recording
-from forcetorque.robot import write_urdf
-from forcetorque.simulation import SimulatedSensor, distorted_by_mounting, record, y_shaped_matrix
-from forcetorque.simulation.motions import MovementKind, Stand
+from forcetorque.device.description import device_load
+from forcetorque.device.file import read_device
+from forcetorque.device.model import BASE, device_model
+from forcetorque.device.sequence import twelve_steps
+from forcetorque.device.trajectory import DeviceTrajectory
+from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
+from forcetorque.recording.storage import write_recording
+from forcetorque.robot.urdf_text import write_urdf
+from forcetorque.simulation.motions.movement import MovementKind
+from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
+from forcetorque.simulation.trace import record
 
 DEVICE = read_device().with_sensors(3)
 SERIALS = dict(zip(DEVICE.sensor_names, ("BOUGHT58", "OURS01", "OURS02"), strict=True))

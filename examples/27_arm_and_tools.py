@@ -16,10 +16,16 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.analysis import SensorRun, calibrate_sensor
-from forcetorque.experiment import load_experiment
-from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches, read_urdf
-from forcetorque.spatial import Inertia, MeasureDirection
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
 
 BASE, JOINT, LINK = "base_link", "ee_fixed_joint", "ee_link"
 FULL_SCALE = np.array([150.0, 150.0, 150.0, 10.0, 10.0, 10.0])

@@ -6,14 +6,28 @@ from __future__ import annotations
 import gc
 import io
 import secrets
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from matplotlib.figure import Figure
 from PIL import Image
 
 from tests import fuzzing
+from tests.app.outcome import Run, typed
+from tests.scenes.experiment_folders import (
+    arm,
+    days,
+    intact,
+    intact_warm,
+    intact_warm_log,
+    recorded,
+    warm,
+    warm_log,
+)
+
+__all__ = ["arm", "days", "intact", "intact_warm", "intact_warm_log", "recorded", "warm", "warm_log"]
 
 # a slow machine is no failure
 settings.register_profile("patient", deadline=None)
@@ -82,10 +96,25 @@ def data_dir(request: pytest.FixtureRequest) -> Path:
     return folder
 
 
+@pytest.fixture(scope="session")
+def run() -> Run:
+    """Run `forcetorque` with words as typed in a shell."""
+    return typed
+
+
+@pytest.fixture
+def drawn() -> Iterator[list[Figure]]:
+    """Figures that were made so far during the test, not drawn, so that what is in them can be checked."""
+    from tests.report.drawing import recorded_figures  # here because few tests draw
+
+    with recorded_figures() as figures:
+        yield figures
+
+
 @pytest.fixture
 def blank_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Make pictures of a document or study, but leave them blank: drawing takes most of either, and words need none."""
     blank = io.BytesIO()
     Image.new("RGB", (1, 1)).save(blank, format="png")
-    for module in ("document.picture", "study_figures"):
-        monkeypatch.setattr(f"forcetorque.report.{module}.png_bytes", lambda figure: blank.getvalue())
+    for module in ("results.document.picture", "study.figure_files"):
+        monkeypatch.setattr(f"forcetorque.{module}.png_bytes", lambda figure: blank.getvalue())

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The maintainers' page is of this house: its picture has the packages in their order, its recipes real files."""
+"""The page for maintainers is true: its picture has the packages in their order, its recipes real files."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
-from tests.test_import_order import ORDER
+from tests.test_import_order import KERNEL, NEEDS, TOP
 from tests.test_import_order import ROOT as LIBRARY
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -15,21 +15,29 @@ SUFFIXES = (".py", ".md", ".toml", ".html", ".ts")
 
 
 def _floors(page: str) -> list[list[str]]:
-    """Packages of the picture, floor by floor, from the lowest up."""
-    return [line.split() for line in reversed(re.findall(r"^\|([ \w]+)\|   \S", page, re.MULTILINE))]
+    """Packages of the picture, floor by floor, from the lowest up; a floor may have several lines."""
+    _, picture, *_ = page.split("```text\n")
+    floors = re.split(r"^\+-+\+$", picture.split("```")[0], flags=re.MULTILINE)
+    lines = [
+        re.findall(r"^\|([\w ]+?)(?:   +(?:top|capabilities|kernel))? *\|", floor, re.MULTILINE) for floor in floors
+    ]
+    return [" ".join(names).split() for names in reversed(lines) if names]
 
 
-def test_the_picture_has_every_package_in_the_order_of_imports() -> None:
-    """From the lowest floor up, and from left to right: a package imports only what came before it."""
-    packages = [name for floor in _floors(PAGE) for name in floor]
-    present = {path.parent.name for path in LIBRARY.glob("*/__init__.py")}
-    assert packages == [name for name in ORDER if name in present]
-    assert len(_floors(PAGE)) > 5
+def test_the_picture_has_every_package_on_its_floor() -> None:
+    """Kernel, capabilities, top; from the top down and from left to right a package may need only what follows."""
+    kernel, capabilities, top = _floors(PAGE)
+    assert (set(kernel), set(capabilities), set(top)) == (set(KERNEL), set(NEEDS), set(TOP))
+    after = {name: set(capabilities[k + 1 :]) for k, name in enumerate(capabilities)}
+    assert {name: needs - after[name] for name, needs in NEEDS.items()} == dict.fromkeys(NEEDS, set())
 
 
-def test_a_floor_in_the_wrong_place_is_noticed() -> None:
-    """Negative control: floors are read from below."""
-    assert _floors("| cli |   hold\n+---+\n| robot    sensor |   URDF\n") == [["robot", "sensor"], ["cli"]]
+def test_a_package_on_the_wrong_floor_is_noticed() -> None:
+    """Negative control: floors are read from below, whatever the number of their lines."""
+    page = (
+        "```text\n+---+\n| app report      |   top\n+---+\n| skin |\n| sensor   |  capabilities\n+---+\n| base |\n```"
+    )
+    assert _floors(page) == [["base"], ["skin", "sensor"], ["app", "report"]]
 
 
 def _absent(page: str) -> list[str]:
@@ -53,9 +61,9 @@ def test_files_of_the_page_are_there() -> None:
 
 def test_a_file_that_moved_is_noticed() -> None:
     """Negative control: a wrong name, and the folder of a file to be written."""
-    assert _absent("`cli/main.py` `cli/mane.py` `exchange/<format>.py` `exchanges/<format>.py`") == [
-        "cli/mane.py",
-        "exchanges",
+    assert _absent("`app/command_line.py` `app/comand_line.py` `formats/<format>.py` `format/<format>.py`") == [
+        "app/comand_line.py",
+        "format",
     ]
 
 
@@ -69,11 +77,11 @@ def _unknown(section: str) -> list[str]:
 
 
 def test_modules_of_the_page_are_called_so() -> None:
-    """What is inside is told by the names that files and functions have now."""
-    _, inside = PAGE.split("\n## What is inside\n")
-    inside = inside.split("\n## ")[0]
-    assert len(re.findall(r"`[\w.]+`", inside)) > 150
-    assert _unknown(inside) == []
+    """Layout and nouns are described by the names that files and functions have now."""
+    described = PAGE.split("\n## To add something\n")[0]
+    names = " ".join(re.findall(r"`[\w.]+`", re.sub(r"`[\w.]+/[\w./]+`", "", described)))
+    assert len(names.split()) > 12
+    assert _unknown(names) == []
 
 
 def test_a_module_of_another_name_is_noticed() -> None:

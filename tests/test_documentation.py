@@ -11,11 +11,21 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque import analysis, interactive
-from forcetorque.cli.main import app
-from tests.cli.commands import typed_commands
+import forcetorque
+from forcetorque.app.command_line import app
+from forcetorque.app.python.experiment import Experiment
+from forcetorque.app.python.run import Run
+from tests.app.commands import typed_commands
 
 ROOT = Path(__file__).resolve().parents[1]
+PACKAGES = sorted(path.parent.name for path in Path(forcetorque.__file__).parent.glob("*/__init__.py"))
+HOLDERS = {
+    **{name: import_module(f"forcetorque.{name}") for name in PACKAGES},
+    "forcetorque": forcetorque,
+    "experiment": Experiment,
+    "run": Run,
+}
+"""What the lines of the page on Python call: an experiment, a sensor of it, the library and its packages."""
 INDEX = ROOT / "docs" / "README.md"
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").glob("*.md")])
 every_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
@@ -112,10 +122,8 @@ def test_the_index_says_when_to_take_every_command() -> None:
 
 def _absent(code: str) -> list[str]:
     """Calls of a line of Python whose name is in none of the things that the page on Python has."""
-    holders = {"experiment": interactive.Experiment, "run": interactive.Run, "analysis": analysis}
-    holders["interactive"] = interactive
-    called = re.findall(r"\b(experiment|run|analysis|interactive)\.(\w+)", code)
-    return [f"{holder}.{name}" for holder, name in called if not hasattr(holders[holder], name)]
+    called = re.findall(rf"(?<![\w\"])({'|'.join(HOLDERS)})\.(\w+)", code)
+    return [f"{holder}.{name}" for holder, name in called if not hasattr(HOLDERS[holder], name)]
 
 
 def test_the_page_on_python_has_a_line_for_every_command() -> None:
@@ -124,12 +132,12 @@ def test_the_page_on_python_has_a_line_for_every_command() -> None:
     rows = dict(re.findall(r"^\| `([a-z -]+)` \| (.+) \|$", page, re.MULTILINE))
     assert list(rows) == sorted(typed_commands(app))
     assert {command: _absent(line) for command, line in rows.items()} == dict.fromkeys(rows, [])
-    assert all(re.search(r"`(experiment|run|analysis|interactive)\.\w+", line) for line in rows.values())
+    assert all(re.search(rf"`({'|'.join(HOLDERS)})\.\w+", line) for line in rows.values())
 
 
 def test_an_absent_question_is_noticed() -> None:
     """Negative control."""
-    assert _absent('`run.accept("a.toml")`, `run.judge()`, `analysis.accepted`') == ["run.judge", "analysis.accepted"]
+    assert _absent('`run.accept("a.toml")`, `run.judge()`, `payload.weighed`') == ["run.judge", "payload.weighed"]
 
 
 def _unknown_names(code: str) -> list[str]:

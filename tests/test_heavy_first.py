@@ -11,7 +11,7 @@ from tests import conftest
 def test_heavy_files_begin_and_the_others_keep_their_order() -> None:
     """The tests of a file stay together and in order."""
     heavy = conftest._HEAVY[0]
-    paths = ["cli/test_view.py", heavy, "spatial/test_units.py", heavy, "cli/test_view.py"]
+    paths = ["viewer/test_view_command.py", heavy, "base/test_units.py", heavy, "viewer/test_view_command.py"]
     assert conftest.heavy_first(paths) == [1, 3, 0, 2, 4]
 
 

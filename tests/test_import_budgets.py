@@ -19,12 +19,12 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.calibration import write_calibration
-from forcetorque.interactive import load_experiment
+from forcetorque.app.python.experiment import load_experiment
+from forcetorque.experiment.calibration.artefact import write_calibration
 
 ROOT = Path(__file__).resolve().parents[1]
 RUNS = 3
-_START = "from forcetorque.cli import main; main()"
+_START = "from forcetorque.app.command_line import main; main()"
 _LIBRARIES = """import rich.console, typer, pydantic, numpy, scipy.linalg, scipy.special
 import pyarrow.compute, pyarrow.parquet
 """
@@ -60,7 +60,7 @@ def _run(code: str, environment: dict[str, str], *words: object) -> tuple[float,
 def _command(environment: dict[str, str], unused: Collection[str], *words: object) -> float:
     """CPU seconds of a command that loads nothing of what it does not use."""
     seconds, modules = _run(_START, environment, *words)
-    assert "forcetorque.cli" in modules
+    assert "forcetorque.app.command_line" in modules
     assert not modules.intersection(unused)
     return seconds
 

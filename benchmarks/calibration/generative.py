@@ -16,9 +16,11 @@ from scipy.linalg import cholesky, solve_triangular
 
 from benchmarks.calibration.measured import Measured
 from benchmarks.harness import interleaved, median_ratio
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Assumptions, WindowMeans, fit_generative
-from forcetorque.noise import CANDIDATES, SlowNoise
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise
+from forcetorque.calibration.generative.fit import fit_generative
+from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.window_means import WindowMeans
 
 RECORDINGS, ROWS, UNKNOWNS = 8, 6, 39
 """Recordings of one power-up; rows of the model; unknowns of sensor, frame, quadratic terms and derivative window."""

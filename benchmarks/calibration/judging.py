@@ -18,9 +18,9 @@ import numpy as np
 
 from benchmarks.calibration.measured import Measured
 from benchmarks.harness import interleaved, median_ratio
-from forcetorque.arrays import FloatArray
-from forcetorque.estimation import Evaluator
-from forcetorque.evaluation import candidate_errors
+from forcetorque.base.arrays import FloatArray
+from forcetorque.evaluation.candidate_errors import candidate_errors
+from forcetorque.robot.mechanics.estimate import Evaluator
 
 CANDIDATES = 351
 """Three data sets, nine types of estimation, thirteen lambdas."""

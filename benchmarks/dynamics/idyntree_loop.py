@@ -9,7 +9,7 @@ import idyntree.bindings as idyn
 import numpy as np
 
 from benchmarks.dynamics.problem import ROOT, TOUCHED, Problem
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
 
 
 class IDynTreeLoop:

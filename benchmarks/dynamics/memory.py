@@ -23,9 +23,10 @@ import numpy as np
 import numpy.typing as npt
 
 from benchmarks.dynamics.problem import Problem, icub_problem
-from forcetorque.arrays import FloatArray
-from forcetorque.estimation import Estimates, Evaluator, estimate
-from forcetorque.robot import JointMotion, RootMotion
+from forcetorque.base.arrays import FloatArray
+from forcetorque.robot.mechanics.estimate import Evaluator, estimate
+from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.motion import JointMotion, RootMotion
 
 _BATCH = 65_536
 _RESERVE = 5e9

@@ -10,7 +10,7 @@ import numpy as np
 
 from benchmarks.dynamics.pinocchio_peers import reading_matrix, with_sensor_joints
 from benchmarks.dynamics.problem import Problem
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
 
 
 class MujocoLoop:

@@ -15,9 +15,10 @@ import numpy as np
 import pinocchio as pin
 
 from benchmarks.dynamics.problem import Problem
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.pose import split_pose
+from forcetorque.base.wrench import MeasureDirection
 from forcetorque.robot.model import SensorFrame
-from forcetorque.spatial import MeasureDirection, split_pose
 
 
 class _Peer:

@@ -10,9 +10,15 @@ from pathlib import Path
 import icub_models
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.estimation import Contact, Estimates, Evaluator, Question, estimate, moving_joints
-from forcetorque.robot import BodyTree, JointMotion, RobotModel, RootMotion, Wrenches, build_tree, read_urdf
+from forcetorque.base.arrays import FloatArray
+from forcetorque.robot.contacts import Contact, Wrenches
+from forcetorque.robot.mechanics.estimate import Evaluator, estimate
+from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.question import Question, moving_joints
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.tree import BodyTree, build_tree
+from forcetorque.robot.urdf import read_urdf
 
 ROBOT = "iCubGazeboV2_7"
 ROOT = "root_link"

@@ -12,9 +12,10 @@ from unittest import mock
 import icub_models
 
 from benchmarks.dynamics.problem import ROOT, Ours, Problem, make_problem
-from forcetorque.estimation import Question
-from forcetorque.estimation.block import run
-from forcetorque.robot import build_tree, read_urdf
+from forcetorque.robot.mechanics.block import run
+from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
 
 CHAIN_JOINTS = (4, 8, 16, 32, 64)
 OTHER_ROBOTS = ("iCubGenova02", "iCubGenova03", "iCubLisboa01")

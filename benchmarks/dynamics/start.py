@@ -13,7 +13,7 @@ _PROGRAM = """
 import time
 start = time.perf_counter()
 import icub_models
-from forcetorque.estimation import Estimates, Evaluator, Question, estimate
+from forcetorque.robot.mechanics import Estimates, Evaluator, Question, estimate
 from forcetorque.robot import JointMotion, RootMotion, build_tree, read_urdf
 import numpy as np
 tree = build_tree(read_urdf(icub_models.get_model_file("iCubGazeboV2_7")), "root_link")

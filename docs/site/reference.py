@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pages of the API reference: one per public door, which is a package with `__all__`, made anew by every build."""
+"""Pages of the API reference, made anew by every build: one for each package or module that users import from."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from os.path import commonprefix
+from pathlib import Path
 from textwrap import indent
 
 from docs.site.definitions import Definition, definition, definitions, offered, package_names
 
-BESIDE = ("forcetorque.errors",)
-"""Modules that users import and that are no packages."""
+ROOT = Path(__file__).resolve().parents[2]
+ERRORS = "forcetorque.base.errors"
+"""Module that every user of the library may import, whatever the pages show."""
 MEMBERS = """\
    :members:
    :undoc-members:
@@ -25,15 +28,27 @@ def doors() -> dict[str, tuple[str, ...]]:
         Public names by package or module; a module that a package offers as one of its names is a door too.
     """
     found: dict[str, tuple[str, ...]] = {}
-    modules = list(BESIDE)
+    modules = [ERRORS, *documented_modules()]
     for package in package_names():
         names = [definition(package, name) for name in offered(package)]
         if names:
             modules += [f"{package}.{one.name}" for one in names if one.kind == "module"]
             found[package] = tuple(one.name for one in names if one.kind != "module")
     for module in modules:
-        found[module] = tuple(one.name for one in definitions(module) if not one.name.startswith("_"))
+        # of a module that is no package, names without a docstring are details of the others
+        found[module] = tuple(one.name for one in definitions(module) if one.docstring and not one.name.startswith("_"))
     return dict(sorted(found.items()))
+
+
+def documented_modules() -> list[str]:
+    """Find the modules that the pages for users import from.
+
+    Returns:
+        Their names, sorted; packages are not among them.
+    """
+    texts = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").glob("*.md"))]
+    imported = {name for text in texts for name in re.findall(r"^from (forcetorque[.\w]+) import ", text, re.MULTILINE)}
+    return sorted(imported - set(package_names()))
 
 
 def pages() -> Iterator[tuple[str, str]]:

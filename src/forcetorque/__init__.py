@@ -8,27 +8,27 @@ imported when they are first used, so that
 
 from typing import TYPE_CHECKING
 
-from forcetorque.lazy import lazy_names
+from forcetorque.base.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from forcetorque.analysis.calibration.calibrate import calibrate_sensor
-    from forcetorque.analysis.evaluate.evaluate import evaluate
-    from forcetorque.analysis.joint.plan import plan_jointly
-    from forcetorque.analysis.runs.sensor_run import SensorRun
-    from forcetorque.calibration.artefact import Calibration, read_calibration, write_calibration
-    from forcetorque.calibration.calibrate import calibrate
-    from forcetorque.calibration.data_set import DataSet
-    from forcetorque.errors import ForceTorqueError
-    from forcetorque.evaluation.wrench_errors import wrench_errors
-    from forcetorque.interactive.arrays import experiment_of_arrays
-    from forcetorque.interactive.contests import contest
-    from forcetorque.interactive.experiment import Experiment, calibrate_jointly, load_experiment
-    from forcetorque.interactive.skin import calibrate_skin, skin_wrench
+    from forcetorque.app.python.arrays import experiment_of_arrays
+    from forcetorque.app.python.experiment import Experiment, calibrate_jointly, load_experiment
+    from forcetorque.app.python.functions import calibrate_skin, contest, skin_wrench
+    from forcetorque.base.errors import ForceTorqueError
+    from forcetorque.calibration.calibrate import calibrate_sensor
+    from forcetorque.calibration.thesis.calibrate import calibrate
+    from forcetorque.evaluation.evaluation import evaluate
+    from forcetorque.experiment.calibration.artefact import Calibration, read_calibration, write_calibration
+    from forcetorque.experiment.calibration.moments import DataSet
+    from forcetorque.experiment.error_statistics import wrench_errors
+    from forcetorque.experiment.sensor_run import SensorRun
+    from forcetorque.planning.joint import plan_jointly
     from forcetorque.recording.recording import Recording
     from forcetorque.recording.storage import read_recording, write_recording
     from forcetorque.robot.model import RobotModel
     from forcetorque.robot.newton_euler import expected_wrenches
     from forcetorque.robot.urdf import read_urdf
+
 
 __all__ = [
     "Calibration",
@@ -60,29 +60,29 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "Calibration": "forcetorque.calibration.artefact",
-        "DataSet": "forcetorque.calibration.data_set",
-        "Experiment": "forcetorque.interactive.experiment",
-        "ForceTorqueError": "forcetorque.errors",
+        "Calibration": "forcetorque.experiment.calibration.artefact",
+        "DataSet": "forcetorque.experiment.calibration.moments",
+        "Experiment": "forcetorque.app.python.experiment",
+        "ForceTorqueError": "forcetorque.base.errors",
         "Recording": "forcetorque.recording.recording",
         "RobotModel": "forcetorque.robot.model",
-        "SensorRun": "forcetorque.analysis.runs.sensor_run",
-        "calibrate": "forcetorque.calibration.calibrate",
-        "calibrate_jointly": "forcetorque.interactive.experiment",
-        "calibrate_sensor": "forcetorque.analysis.calibration.calibrate",
-        "calibrate_skin": "forcetorque.interactive.skin",
-        "contest": "forcetorque.interactive.contests",
-        "evaluate": "forcetorque.analysis.evaluate.evaluate",
+        "SensorRun": "forcetorque.experiment.sensor_run",
+        "calibrate": "forcetorque.calibration.thesis.calibrate",
+        "calibrate_jointly": "forcetorque.app.python.experiment",
+        "calibrate_sensor": "forcetorque.calibration.calibrate",
+        "calibrate_skin": "forcetorque.app.python.functions",
+        "contest": "forcetorque.app.python.functions",
+        "evaluate": "forcetorque.evaluation.evaluation",
         "expected_wrenches": "forcetorque.robot.newton_euler",
-        "experiment_of_arrays": "forcetorque.interactive.arrays",
-        "load_experiment": "forcetorque.interactive.experiment",
-        "plan_jointly": "forcetorque.analysis.joint.plan",
-        "read_calibration": "forcetorque.calibration.artefact",
+        "experiment_of_arrays": "forcetorque.app.python.arrays",
+        "load_experiment": "forcetorque.app.python.experiment",
+        "plan_jointly": "forcetorque.planning.joint",
+        "read_calibration": "forcetorque.experiment.calibration.artefact",
         "read_recording": "forcetorque.recording.storage",
         "read_urdf": "forcetorque.robot.urdf",
-        "skin_wrench": "forcetorque.interactive.skin",
-        "wrench_errors": "forcetorque.evaluation.wrench_errors",
-        "write_calibration": "forcetorque.calibration.artefact",
+        "skin_wrench": "forcetorque.app.python.functions",
+        "wrench_errors": "forcetorque.experiment.error_statistics",
+        "write_calibration": "forcetorque.experiment.calibration.artefact",
         "write_recording": "forcetorque.recording.storage",
     },
 )

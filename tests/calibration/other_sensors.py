@@ -10,9 +10,10 @@ from types import MappingProxyType
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from forcetorque.arrays import FloatArray
-from forcetorque.simulation import distorted_by_mounting
-from forcetorque.spatial import make_pose, wrench_matrix
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.pose import make_pose
+from forcetorque.base.wrench import wrench_matrix
+from forcetorque.simulation.sensor import distorted_by_mounting
 from tests.calibration.push_error import Case
 
 NOISE_COUNTS = 3.0

@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration.generative import Assumptions, WindowMeans
-from forcetorque.simulation import distorted_by_mounting, y_shaped_matrix
+from forcetorque.base.arrays import FloatArray
+from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.simulation.sensor import distorted_by_mounting, y_shaped_matrix
 
 LIMIT_COUNTS = 32767.0
 PRIOR = y_shaped_matrix(arm_m=0.02, counts_per_newton=25.0)

@@ -19,10 +19,10 @@ import pytest
 import forcetorque
 from tests.scenes.experiments import edit
 
-TYPE = ("forcetorque", "calibration", "estimation_type.py")
+TYPE = ("forcetorque", "experiment", "calibration", "estimation_type.py")
 MEMBER = '    ONE_SHOT = "one-shot"\n'
 LETTER = 'OffsetStrategy.ONE_SHOT: "O"'
-REGRESSION = ("forcetorque", "calibration", "regression.py")
+REGRESSION = ("forcetorque", "calibration", "thesis", "regression.py")
 ORIGIN = "    if strategy is OffsetStrategy.CENTRALISED:\n"
 NO_OFFSET = """\
     if strategy is OffsetStrategy.TARED:
@@ -32,11 +32,13 @@ NO_OFFSET = """\
 SCRIPT = """
 import json
 import numpy as np
-from forcetorque.calibration import ESTIMATION_TYPES, DataSet, calibrate, estimation_type
-from forcetorque.errors import FitError
-from forcetorque.experiment.load import fit_options
-from forcetorque.experiment.schema import CalibrationTable
-from forcetorque.study import fit_candidates
+from forcetorque.calibration.thesis.calibrate import calibrate
+from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, estimation_type
+from forcetorque.experiment.calibration.moments import DataSet
+from forcetorque.base.errors import FitError
+from forcetorque.experiment.loading import fit_options
+from forcetorque.calibration.section import CalibrationTable
+from forcetorque.study.fitting import fit_candidates
 
 rng = np.random.default_rng(1)
 matrix, raw = rng.normal(size=(6, 6)), 100.0 * rng.normal(size=(200, 6)) + 50.0

@@ -10,9 +10,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from forcetorque.calibration import Estimation, Moments, WrenchModel, fit_matrix, solve
-from forcetorque.errors import FitError, ShapeError
-from forcetorque.spatial import make_pose, rotation_from_rpy, wrench_matrix
+from forcetorque.base.errors import FitError, ShapeError
+from forcetorque.base.pose import make_pose, rotation_from_rpy
+from forcetorque.base.wrench import wrench_matrix
+from forcetorque.calibration.thesis.regression import fit_matrix, solve
+from forcetorque.experiment.calibration.estimation_type import Estimation
+from forcetorque.experiment.calibration.moments import Moments
+from forcetorque.experiment.calibration.sensor_model import WrenchModel
 
 EXACT = 1e-9
 """Relative: rounding of double precision times the condition of the second moments, some 1e4."""

@@ -11,11 +11,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Estimation, LinearVariable, Moments, solve
-from forcetorque.calibration.generative import GenerativeFit, WindowMeans, fit_generative
-from forcetorque.errors import FitError
-from forcetorque.simulation import distorted_by_mounting
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError
+from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
+from forcetorque.calibration.thesis.regression import solve
+from forcetorque.experiment.calibration.estimation_type import Estimation
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.moments import Moments
+from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.simulation.sensor import distorted_by_mounting
 from tests.calibration.synthetic import (
     LIMIT_COUNTS,
     MOUNTED,

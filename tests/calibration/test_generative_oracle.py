@@ -8,10 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import LinearVariable
-from forcetorque.calibration.generative import GenerativeFit, WindowMeans, assumptions, fit_generative
-from forcetorque.calibration.generative.assumptions import Scale
+from forcetorque.base.arrays import FloatArray
+from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
+from forcetorque.experiment.calibration import assumptions
+from forcetorque.experiment.calibration.assumptions import Scale
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.window_means import WindowMeans
 from tests.calibration.synthetic import LIMIT_COUNTS, OFFSET, PRIOR, anyhow, hanging, read_by
 from tests.calibration.synthetic import assumptions as assumed
 

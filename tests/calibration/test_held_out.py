@@ -8,19 +8,19 @@ import math
 import numpy as np
 import pytest
 
-from forcetorque.calibration import (
-    DataSet,
-    Estimation,
-    EstimationType,
-    HeldOut,
-    LinearVariable,
-    Moments,
-    calibrate,
+from forcetorque.base.errors import FitError, ShapeError
+from forcetorque.calibration.thesis.calibrate import HeldOut, calibrate
+from forcetorque.calibration.thesis.held_out import (
+    FLOOR,
+    RULE,
+    candidate_lambdas,
     choose_lambda,
-    pooled,
+    jackknife_errors,
+    lambda_floor,
 )
-from forcetorque.calibration.held_out import FLOOR, RULE, candidate_lambdas, jackknife_errors, lambda_floor
-from forcetorque.errors import FitError, ShapeError
+from forcetorque.experiment.calibration.estimation_type import Estimation, EstimationType
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
 
 TRUTH = 0.02 * (np.eye(6) + 0.2 * np.random.default_rng(1).normal(size=(6, 6)))
 PRIOR = TRUTH * (1.0 + 0.1 * np.random.default_rng(2).normal(size=(6, 6)))

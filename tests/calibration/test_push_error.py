@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.calibration.generative import ACCURACY_SHARE, REPEATABILITY
-from forcetorque.simulation.scenario import LINEAR_ONLY
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, REPEATABILITY
+from forcetorque.simulation.scenario.sensor_section import LINEAR_ONLY
 from tests.calibration.other_sensors import FAMILIES, with_eight_channels, with_error
 from tests.calibration.push_error import Case, cases
 

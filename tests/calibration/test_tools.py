@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration.generative import ACCURACY_SHARE
+from forcetorque.base.arrays import FloatArray
+from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE
 from tests.calibration.tools import Wrist
 
 SPECIMENS = range(8)

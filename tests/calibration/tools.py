@@ -8,15 +8,22 @@ from functools import cache
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import DataSet
-from forcetorque.calibration.generative import Assumptions, GenerativeFit, WindowMeans, fit_generative
-from forcetorque.estimation import Evaluator, Processing, sensor_samples
-from forcetorque.evaluation import pushes
-from forcetorque.recording import Interval, Support, Use
-from forcetorque.robot import read_urdf
-from forcetorque.simulation import SimulatedSensor, Stand, Trace, random_movement, trace_movement, with_load
-from forcetorque.spatial import MeasureDirection
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
+from forcetorque.evaluation.push_error import pushes
+from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.moments import DataSet
+from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.recording.recording import Interval, Support, Use
+from forcetorque.robot.mechanics.estimate import Evaluator
+from forcetorque.robot.mechanics.samples import Processing, sensor_samples
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.load import with_load
+from forcetorque.simulation.motions.random_smooth import random_movement
+from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.trace import Trace, trace_movement
 from tests.calibration.push_error import LIMIT_COUNTS
 from tests.scenes.robots import example_robot
 

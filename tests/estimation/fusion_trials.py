@@ -16,21 +16,22 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.estimation import Contact, ContactType, Question, TorqueSum, estimate
-from forcetorque.estimation.fusion import (
-    Friction,
-    Fusion,
-    Motor,
-    TorqueSource,
-    fit_friction,
-    fuse,
-    motor_source,
-    wrench_source,
-)
-from forcetorque.estimation.uncertain import Uncertainty
-from forcetorque.robot import JointMotion, RobotModel, RootMotion, Wrenches, build_tree, read_urdf
-from forcetorque.simulation import ARM_URDF, SimulatedMotor, Stand, random_movement
+from forcetorque.base.arrays import FloatArray
+from forcetorque.estimation.fusion.fuse import Fusion, fuse
+from forcetorque.estimation.fusion.motor import Friction, Motor, fit_friction, motor_source
+from forcetorque.estimation.fusion.source import TorqueSource, wrench_source
+from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.robot.contacts import Contact, ContactType, Wrenches
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.question import Question, TorqueSum
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.motions.random_smooth import random_movement
+from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.motor import SimulatedMotor
+from forcetorque.simulation.robots import ARM_URDF
 from tests.estimation.fusion.sources import three
 
 JOINTS: Final = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll", "elbow")

@@ -14,10 +14,10 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.estimation import estimate
-from forcetorque.robot import Wrenches
-from forcetorque.simulation import RobotErrors
+from forcetorque.base.arrays import FloatArray
+from forcetorque.robot.contacts import Wrenches
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.simulation.robot_errors import RobotErrors
 from tests.estimation.fusion_trials import JOINTS, Arm, Faults, Trial, figures, pooled
 
 SEEDS: Final = 100

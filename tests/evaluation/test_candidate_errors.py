@@ -11,10 +11,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import ShapeError
-from forcetorque.estimation import Evaluator
-from forcetorque.evaluation import CandidateErrors, PooledErrors, candidate_errors, wrench_errors
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ShapeError
+from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors
+from forcetorque.experiment.error_statistics import wrench_errors
+from forcetorque.robot.mechanics.estimate import Evaluator
 
 EPS = float(np.finfo(np.float64).eps)
 
@@ -244,7 +245,7 @@ def test_threads_change_nothing_and_progress_is_told() -> None:
 def test_little_work_does_not_load_the_compiler() -> None:
     """It would take longer than the work; asked for, it is there."""
     code = (
-        "import sys, numpy as np; from forcetorque.evaluation import candidate_errors as judge\n"
+        "import sys, numpy as np; from forcetorque.evaluation.candidate_errors import candidate_errors as judge\n"
         "problem = np.ones((9, 6)), np.ones((9, 6)), np.ones((2, 6, 6)), np.ones((2, 6))\n"
         "judge(*problem); assert 'numba' not in sys.modules\n"
         "judge(*problem, evaluator='compiled'); assert 'numba' in sys.modules"

@@ -11,27 +11,32 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-import forcetorque.evaluation.contact_force as module
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import EstimationError, ForceTorqueError, RobotError, ShapeError
-from forcetorque.estimation import Contact, ContactType, Estimates, Processing, Question, estimate
-from forcetorque.estimation.samples import robot_motion_at
-from forcetorque.evaluation import (
-    ContactForces,
-    ContactForceValidation,
-    OtherSensors,
-    contact_forces,
-    errors_from_zero,
-)
-from forcetorque.recording import Recording, Support
+import forcetorque.evaluation.validation.contact_wrenches as module
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import EstimationError, ForceTorqueError, RobotError, ShapeError
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.evaluation.validation.contact_wrenches import ContactForces, contact_forces
+from forcetorque.experiment.error_statistics import errors_from_zero
+from forcetorque.experiment.sub_model_choice import ContactForceValidation, OtherSensors
 from forcetorque.recording.alignment import interpolate
-from forcetorque.robot import JointMotion, RobotModel, RootMotion, Wrenches, build_tree, joints_between
+from forcetorque.recording.recording import Recording, Support
+from forcetorque.robot.contacts import Contact, ContactType, Wrenches
+from forcetorque.robot.kinematics import joints_between
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.mechanics.samples import Processing, robot_motion_at
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.sub_model import SubModel
-from forcetorque.simulation import FAMILIES, SimulatedSensor, distorted_by_mounting, random_movement, record
-from forcetorque.spatial import MeasureDirection
-from tests.estimation.random_robots import robots
-from tests.estimation.simulated import Simulation, from_root, random_pose, random_root, to_root
-from tests.estimation.touched import humanoid, touched
+from forcetorque.robot.tree import build_tree
+from forcetorque.simulation.family import FAMILIES
+from forcetorque.simulation.motions.random_smooth import random_movement
+from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting
+from forcetorque.simulation.trace import record
+from tests.robot.mechanics.random_robots import robots
+from tests.robot.mechanics.simulated import Simulation, from_root, random_pose, random_root, to_root
+from tests.robot.mechanics.touched import humanoid, touched
 from tests.simulation.stands import on_foot
 
 SAME = 1e-12

@@ -1,121 +1,248 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Condition, full scale and offset change against numbers that were worked out by hand."""
+"""Static checks of whole experiments: samples that are lost, offsets by interval, and what cannot be checked."""
 
 from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-from forcetorque.errors import SensorError, ShapeError
-from forcetorque.evaluation import matrix_checks, offset_change
-from forcetorque.evaluation.static_checks import LEAST_TEMPERATURE_SPAN, matrix_condition
-from forcetorque.sensor import RawLimits, reachable_full_scale
-from tests.scenes.calibrations import MOUNTED, OFFSET
+from forcetorque.base.errors import ExperimentError, SerialNumberError
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.evaluation.acceptance.static_checks import StaticChecks, check
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Use
+from tests.scenes.experiments import MOUNTED, OFFSET, PARQUET, TWO, YARP, edit
+from tests.scenes.warm_experiments import (
+    PER_DEGREE,
+    SLOW_TEMPERATURE,
+    TEMPERATURE,
+    WARM_DEGC,
+    fixed_signal,
+    seconds_of,
+    true_temperature,
+    with_variables,
+)
 
-LIMIT = 32767.0
-EXACT = 1e-12
-"""Relative: a few roundings of well-conditioned numbers."""
-SLOPE = np.array([-0.4, 0.3, -1.2, 0.02, 0.01, -0.015])
-
-
-def test_condition_by_hand() -> None:
-    """One channel per axis is 1; two axes that share channels as 1 : a have (1 + a) / (1 - a)."""
-    assert matrix_condition(np.diag([1.0, 2.0, 3.0, 0.1, 0.2, 0.3])) == pytest.approx(1.0, rel=EXACT)
-    shared = np.eye(6)
-    shared[0, 1] = shared[1, 0] = 0.5
-    # rows over their sum: (2/3, 1/3) and (1/3, 2/3) have singular values 1 and 1/3, the others 1
-    assert matrix_condition(shared) == pytest.approx(3.0, rel=EXACT)
-    assert matrix_condition(np.hstack([np.eye(6), np.eye(6)])) == pytest.approx(1.0, rel=EXACT)
-
-
-def test_units_do_not_change_the_condition() -> None:
-    """Moments in N mm, or counts of another size, give the same; another mixture of channels does not."""
-    plain = matrix_condition(MOUNTED)
-    units = np.array([1.0, 1.0, 1.0, 1e3, 1e3, 1e3])[:, None]
-    assert matrix_condition(MOUNTED * units) == pytest.approx(plain, rel=1e-9)
-    assert matrix_condition(MOUNTED * 17.0) == pytest.approx(plain, rel=1e-9)
-    assert np.linalg.cond(MOUNTED * units) != pytest.approx(np.linalg.cond(MOUNTED), rel=0.1)
-    mixed = np.array(MOUNTED)
-    mixed[0] += 0.5 * mixed[1]
-    assert matrix_condition(mixed) != pytest.approx(plain, rel=1e-3)
+ROUNDING = 1e-9
+"""N, N m: means of 1e3 sums of counts up to 2e4 and coefficients up to 0.03."""
 
 
-def test_a_singular_matrix_has_no_finite_condition() -> None:
-    """Two equal rows, or a row of zeros; fewer channels than components are an error."""
-    equal, empty = np.array(MOUNTED), np.array(MOUNTED)
-    equal[4] = 3.0 * equal[3]
-    empty[2] = 0.0
-    assert matrix_condition(equal) == matrix_condition(empty) == np.inf
-    with pytest.raises(ShapeError, match="expected at least 6 channels, got 5"):
-        matrix_condition(MOUNTED[:, :5])
+def _rows(experiment: Experiment) -> list[int]:
+    """How many samples of the sensor are in each interval."""
+    stamps = experiment.recording.stream("arm_ft").stamp_ns
+    return [int(((stamps >= i.start_ns) & (stamps < i.end_ns)).sum()) for i in experiment.recording.intervals]
 
 
-def test_the_full_scale_is_the_reachable_one_of_both_directions() -> None:
-    """0.1 N per count, 1000 counts and an offset of 30 N: 130 N up, 70 N down, 100 N stated."""
-    checks = matrix_checks(0.1 * np.eye(6), np.array([30.0, 0, 0, 0, 0, 0]), limit_counts=1000.0)
-    assert checks.full_scale is not None
-    np.testing.assert_allclose(checks.full_scale.positive, [130.0, *[100.0] * 5], rtol=EXACT)
-    np.testing.assert_allclose(checks.full_scale.negative, [-70.0, *[-100.0] * 5], rtol=EXACT)
-    np.testing.assert_allclose(checks.stated_full_scale, np.full(6, 100.0), rtol=EXACT)
-    np.testing.assert_allclose(checks.resolution.rms, np.full(6, 0.1), rtol=EXACT)
-    mixed = matrix_checks(MOUNTED, OFFSET, limit_counts=LIMIT)
-    limits = RawLimits(matrix=MOUNTED, offset=OFFSET, lowest=np.full(6, -LIMIT), highest=np.full(6, LIMIT))
-    assert mixed.full_scale is not None
-    np.testing.assert_array_equal(mixed.full_scale.positive, reachable_full_scale(limits).positive)
-    assert (mixed.full_scale.positive < mixed.stated_full_scale + OFFSET).all()
+def _fitted(experiment: Experiment, **options: Any) -> tuple[str, Calibration]:
+    run = SensorRun(experiment, experiment.sensors[0])
+    return "new", calibrate_sensor(run, code_version="test", created="test", **options)
 
 
-def test_without_a_full_scale_the_reason_is_there() -> None:
-    """More channels than six, a singular matrix, a channel that is saturated without load."""
-    wide = matrix_checks(np.hstack([MOUNTED, MOUNTED]), OFFSET, limit_counts=LIMIT)
-    assert (wide.full_scale, wide.no_full_scale[:16]) == (None, "with 12 channels")
-    equal = np.array(MOUNTED)
+def _checked(
+    experiment: Experiment, calibration: Any = None, *, sensor: ExperimentSensor | None = None, population: Any = None
+) -> StaticChecks:
+    """Check the first sensor of an experiment, or a changed one."""
+    return check(SensorRun(experiment, sensor or experiment.sensors[0]), calibration, population=population)
+
+
+def _changed(experiment: Experiment, *, sequence: Any = None, saturated: Any = None, **values: float) -> Experiment:
+    """The same experiment with a sequence, a status, or channels of some rows set, such as r30c2=32767."""
+    stream = experiment.recording.stream("arm_ft")
+    raw = np.array(stream.signal("raw").values)
+    for place, value in values.items():
+        row, channel = place.removeprefix("r").split("c")
+        raw[int(row), int(channel)] = value
+    signals = {"raw": replace(stream.signal("raw"), values=raw)}
+    if saturated is not None:
+        signals["saturated"] = fixed_signal("saturated", saturated[:, None])
+    streams = {**experiment.recording.streams, "arm_ft": replace(stream, signals=signals, sequence=sequence)}
+    return replace(experiment, recording=replace(experiment.recording, streams=streams))
+
+
+def test_samples_are_counted_by_interval(arm: Path) -> None:
+    """Two samples at a limit and one missing in the first, none in the second; those outside do not count."""
+    plain = load_experiment(arm / PARQUET)
+    checks = _checked(plain)
+    fit, judge = _rows(plain)
+    assert min(fit, judge) > 400
+    assert [(row.label, row.samples) for row in checks.recording] == [("fit", fit), ("judge", judge)]
+    shares = [(row.saturated_share, row.missing_share, row.lost_share) for row in checks.recording]
+    assert shares == [(0.0, 0.0, None)] * 2
+    damaged = _changed(plain, r30c2=32767.0, r31c5=-32700.0, r50c0=float("nan"), r5c0=32767.0, r710c1=float("nan"))
+    first, second = _checked(damaged).recording
+    assert (first.saturated_share, first.missing_share) == (2 / fit, 1 / fit)
+    assert (second.saturated_share, second.missing_share) == (0.0, 0.0)
+    near = _changed(plain, r30c2=32600.0)  # 0.51 % below the limit
+    assert _checked(near).recording[0].saturated_share == 0.0
+
+
+def test_a_stretch_of_one_reading_is_saturated(arm: Path) -> None:
+    """A board that says nothing repeats its last valid sample: 40 samples in 0.8 s count, 20 in 0.4 s do not."""
+    plain = load_experiment(arm / PARQUET)
+    raw = plain.recording.stream("arm_ft").signal("raw").values
+    for length, counted in ((40, 40), (20, 0)):
+        held = {f"r{row}c{k}": raw[100, k] for row in range(100, 100 + length) for k in range(6)}
+        damaged = _changed(plain, **held)
+        shares = [row.saturated_share for row in _checked(damaged).recording]
+        assert shares == [counted / _rows(plain)[0], 0.0]
+
+
+def test_what_the_board_says_is_believed(arm: Path) -> None:
+    """With a status only its samples count, whatever the counts are."""
+    plain = load_experiment(arm / PARQUET)
+    status = np.zeros(len(plain.recording.stream("arm_ft")))
+    status[730:737] = 1.0
+    damaged = _changed(plain, saturated=status, r30c2=32767.0)
+    assert [row.saturated_share for row in _checked(damaged).recording] == [0.0, 7 / _rows(plain)[1]]
+
+
+def test_lost_messages_are_counted_where_they_were_lost(arm: Path) -> None:
+    """Three lost before row 100 and five before row 800; eight before row 10 are outside the intervals."""
+    plain = load_experiment(arm / PARQUET)
+    sequence = np.arange(len(plain.recording.stream("arm_ft")))
+    for row, lost in ((10, 8), (100, 3), (800, 5)):
+        sequence[row:] += lost
+    fit, judge = _rows(plain)
+    shares = [row.lost_share for row in _checked(_changed(plain, sequence=sequence)).recording]
+    assert shares == [3 / (3 + fit), 5 / (5 + judge)]
+
+
+def test_offsets_by_hand(arm: Path) -> None:
+    """Per interval the mean of reference less matrix times counts; the prior's full scale has the fitted one."""
+    experiment = load_experiment(arm / PARQUET)
+    sensor = experiment.sensors[0]
+    name, calibration = _fitted(experiment)
+    prior, new = _checked(experiment), _checked(experiment, (name, calibration))
+    assert sensor.prior is not None
+    for checks, matrix in ((prior, sensor.prior), (new, calibration.matrix)):
+        assert [each.label for each in checks.offsets] == ["fit", "judge"]
+        for each, use in zip(checks.offsets, (Use.CALIBRATION, Use.VALIDATION), strict=True):
+            (data,) = SensorRun(experiment, sensor).samples(use)
+            by_hand = (data.samples.reference - data.raw @ matrix.T).mean(axis=0)
+            np.testing.assert_allclose(each.offset, by_hand, atol=ROUNDING)
+        assert checks.offset_change is not None
+        apart = checks.offsets[0].offset - checks.offsets[1].offset
+        np.testing.assert_allclose(checks.offset_change, np.abs(apart), atol=ROUNDING)
+    assert prior.offset_force_change_N is not None
+    assert new.offset_force_change_N is not None
+    assert new.offset_force_change_N < 0.1 * prior.offset_force_change_N
+    assert (prior.candidate, new.candidate) == ("prior matrix_SIM001.txt", "new")
+    assert prior.full_scale_positive is not None
+    unloaded = -np.linalg.solve(sensor.prior, prior.offsets[0].offset)
+    at_limit = np.linalg.solve(sensor.prior, prior.full_scale_positive[2] * np.eye(6)[2]) + unloaded
+    assert np.abs(at_limit).max() == pytest.approx(sensor.limit_counts, rel=1e-9)
+
+
+def test_temperature_explains_the_change(warm_log: Path) -> None:
+    """With the true matrix the slope is the true coefficient; a calibration that has the variable leaves nothing."""
+    path = with_variables(warm_log / PARQUET, TEMPERATURE)
+    experiment = load_experiment(path)
+    sensor = experiment.sensors[0]
+    true = _checked(experiment, sensor=replace(sensor, prior=MOUNTED))
+    assert true.offset_per_degC is not None
+    np.testing.assert_allclose(true.offset_per_degC, PER_DEGREE, rtol=1e-6)
+    (data,) = SensorRun(experiment, sensor).samples(Use.CALIBRATION)
+    seconds = seconds_of(experiment.recording, data.samples.stamp_ns)
+    assert true.offsets[0].temperature_degC == pytest.approx(true_temperature(seconds).mean(), abs=1e-9)
+    moved = OFFSET + (true.offsets[0].temperature_degC - WARM_DEGC) * PER_DEGREE
+    np.testing.assert_allclose(true.offsets[0].offset, moved, atol=1e-6)
+    compensated = _checked(experiment, _fitted(experiment, regularisation=0.0))
+    assert compensated.offset_force_change_N is not None
+    assert true.offset_force_change_N is not None
+    assert compensated.offset_force_change_N < 1e-4 < 1e-2 * true.offset_force_change_N
+
+
+def test_temperature_of_another_stream_is_used(warm_log: Path) -> None:
+    """A slow board's temperature gives the same slope; without a variable there is none."""
+    slow = load_experiment(with_variables(warm_log / PARQUET, SLOW_TEMPERATURE))
+    slope = _checked(slow, sensor=replace(slow.sensors[0], prior=MOUNTED)).offset_per_degC
+    assert slope is not None
+    np.testing.assert_allclose(slope, PER_DEGREE, rtol=1e-6)
+
+
+def test_without_a_variable_there_is_no_slope(warm_log: Path) -> None:
+    """The stream holds a temperature, but the experiment does not say that it is the sensor's."""
+    experiment = load_experiment(warm_log / PARQUET)
+    checks = _checked(experiment)
+    assert checks.offset_change is not None
+    assert [row.temperature_degC for row in checks.offsets] == [None, None]
+    assert checks.offset_per_degC is None
+
+
+def test_recovered_counts_give_the_same_checks(arm: Path) -> None:
+    """A log of calibrated wrenches, with the matrix that they were made with, is checked like one of counts."""
+    raw, wrenches = (load_experiment(arm / form) for form in (PARQUET, YARP))
+    ours, theirs = _checked(raw), _checked(wrenches)
+    assert ours.condition is not None
+    assert ours.condition == theirs.condition
+    assert ours.full_scale_least is not None
+    assert theirs.full_scale_least is not None
+    np.testing.assert_allclose(theirs.full_scale_least, ours.full_scale_least, rtol=1e-3)
+
+
+def test_what_cannot_be_measured_has_a_reason(arm: Path) -> None:
+    """One interval, no population, and a log without counts; the rest is measured all the same."""
+    text = (arm / PARQUET).read_text(encoding="utf-8")
+    edit(arm / PARQUET, 'use = "validation"', 'use = "ignore"')
+    experiment = load_experiment(arm / PARQUET)
+    checks = _checked(experiment)
+    assert set(checks.not_measured) == {"offset", "population"}
+    assert "at least 2 recordings, got 1" in checks.not_measured["offset"]
+    assert "--population" in checks.not_measured["population"]
+    assert (checks.offset_change, len(checks.offsets)) == (None, 1)
+    assert (checks.population_count, checks.population) == (None, ())
+    assert checks.condition is not None
+    (arm / PARQUET).write_text(text, encoding="utf-8")
+    edit(arm / YARP, 'prior = "matrix_SIM001.txt"', 'prior = "identity"')
+    unknown = load_experiment(arm / YARP)
+    checks = _checked(unknown, population={str(k): MOUNTED for k in range(9)})
+    assert set(checks.not_measured) == {"matrix", "population"}
+    assert "not for counts" in checks.not_measured["matrix"]
+    assert [row.saturated_share for row in checks.recording] == [0.0, 0.0]
+    assert checks.offset_change is not None
+
+
+def test_the_sensor_itself_is_not_in_its_population(arm: Path) -> None:
+    """Its own serial number is left out, also where that leaves too few."""
+    experiment = load_experiment(arm / PARQUET)
+    rng = np.random.default_rng(3)
+    others = {f"SN{k}": MOUNTED * rng.uniform(0.9, 1.1, (6, 6)) for k in range(5)}
+    assert _checked(experiment, population={**others, "SIM001": MOUNTED}).population_count == 5
+    del others["SN0"]
+    reason = _checked(experiment, population={**others, "SIM001": MOUNTED}).not_measured["population"]
+    assert "expected at least 5 other sensors, got 4" in reason
+
+
+def test_the_checks_are_one_line_of_numbers_and_say_themselves_in_short(arm: Path) -> None:
+    """Components have their units in the keys, and what JSON cannot hold is null there but not in Python."""
+    experiment = load_experiment(arm / PARQUET)
+    name, calibration = _fitted(experiment)
+    equal = np.array(calibration.matrix)
     equal[4] = equal[3]
-    assert "singular" in matrix_checks(equal, OFFSET, limit_counts=LIMIT).no_full_scale
-    far = matrix_checks(MOUNTED, np.full(6, 1e5), limit_counts=LIMIT)
-    assert "without load" in far.no_full_scale
-    with pytest.raises(SensorError, match="offset"):
-        matrix_checks(MOUNTED, np.full(6, np.nan), limit_counts=LIMIT)
+    checks = _checked(experiment, (name, calibration.model_copy(update={"matrix": equal})))
+    assert checks.condition == np.inf
+    line = checks.flat()
+    assert (line["condition"], line["resolution_rms_fx_N"]) == (None, float(checks.resolution_rms[0]))  # type: ignore[index]
+    assert (checks.full_scale_least, "singular" in checks.not_measured["full_scale"]) == (None, True)
+    assert len(repr(checks)) < 1000
 
 
-def test_a_straight_drift_is_all_slope() -> None:
-    """Offsets on a line against temperature give its slope and leave nothing; a wrong sign would not."""
-    temperature = np.array([30.0, 33.5, 31.0, 40.0])
-    found = offset_change(OFFSET + np.outer(temperature, SLOPE), temperature)
-    assert found.per_degree is not None
-    assert found.left is not None
-    np.testing.assert_allclose(found.per_degree, SLOPE, rtol=1e-10)
-    assert np.abs(found.left).max() < 1e-10
-    np.testing.assert_allclose(found.change, 10.0 * np.abs(SLOPE), rtol=1e-10)
-    assert found.force_change == pytest.approx(10.0 * np.linalg.norm(SLOPE[:3]), rel=1e-10)
-    assert found.temperature_span == 10.0
-    bent = offset_change(OFFSET + np.outer([0.0, 1.0, 0.0], SLOPE), np.array([30.0, 31.0, 32.0]))
-    assert bent.per_degree is not None
-    assert bent.left is not None
-    np.testing.assert_allclose(bent.per_degree, np.zeros(6), atol=1e-12)
-    np.testing.assert_allclose(bent.left, 2.0 / 3.0 * np.abs(SLOPE), rtol=1e-10)
-
-
-def test_equal_temperatures_tell_no_slope() -> None:
-    """Just below the least span there is none, from it on there is; without temperature the change remains."""
-    offsets = np.array([OFFSET, OFFSET + SLOPE])
-    near = offset_change(offsets, np.array([30.0, 30.0 + 0.999 * LEAST_TEMPERATURE_SPAN]))
-    far = offset_change(offsets, np.array([30.0, 30.0 + LEAST_TEMPERATURE_SPAN]))
-    unknown = offset_change(offsets)
-    assert near.per_degree is None
-    assert far.per_degree is not None
-    assert (unknown.temperature_span, unknown.per_degree) == (None, None)
-    for found in (near, far, unknown):
-        np.testing.assert_allclose(found.change, np.abs(SLOPE), rtol=1e-10)
-
-
-def test_offsets_that_cannot_be_compared_are_refused() -> None:
-    """One recording, a missing number, a temperature too few."""
-    with pytest.raises(ShapeError, match="at least 2 recordings, got 1"):
-        offset_change(np.zeros((1, 6)))
-    with pytest.raises(ShapeError, match="finite"):
-        offset_change(np.full((2, 6), np.nan))
-    with pytest.raises(ShapeError, match="temperature"):
-        offset_change(np.zeros((3, 6)), np.zeros(2))
-    with pytest.raises(ShapeError, match="finite number for every recording"):
-        offset_change(np.zeros((2, 6)), np.array([30.0, np.nan]))
+def test_calibrations_of_others_and_sensors_without_matrix_are_refused(arm: Path) -> None:
+    """Another serial number; neither calibration nor prior; nothing but ignored intervals."""
+    experiment = load_experiment(arm / TWO)
+    foreign = calibrate_sensor(SensorRun(experiment, experiment.sensors[1]), code_version="test", created="test")
+    with pytest.raises(SerialNumberError, match="every sensor has its own matrix"):
+        _checked(experiment, ("foreign", foreign))
+    with pytest.raises(ExperimentError, match="expected a calibration, or a prior matrix"):
+        _checked(experiment, sensor=replace(experiment.sensors[0], prior=None))
+    ignored = [replace(interval, use=Use.IGNORE) for interval in experiment.recording.intervals]
+    empty = replace(experiment, recording=replace(experiment.recording, intervals=tuple(ignored)))
+    with pytest.raises(ExperimentError, match="an interval that is not ignored"):
+        _checked(empty)

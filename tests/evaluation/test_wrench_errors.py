@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import ShapeError
-from forcetorque.evaluation import errors_from_zero, offset_removed, wrench_errors
-from forcetorque.noise import mean_error
+from forcetorque.base.errors import ShapeError
+from forcetorque.base.noise.means import mean_error
+from forcetorque.experiment.error_statistics import errors_from_zero, offset_removed, wrench_errors
 
 
 def test_by_hand() -> None:

@@ -13,9 +13,10 @@ from typing import Any
 
 import pytest
 
-from forcetorque.calibration import read_calibration
-from forcetorque.exchange.icub import read_matrix_file
-from forcetorque.experiment import load_experiment, parse_experiment
+from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.formats.icub_matrix import read_matrix_file
 from tests.page_scripts import marked, printed
 from tests.scenes.device_designs import hardly_optimise
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.analysis import SkinCalibration
-from forcetorque.analysis.skin.rows import CandidateRow
-from forcetorque.interactive import calibrate_skin
+from forcetorque.app.python.functions import calibrate_skin
+from forcetorque.skin.taxels.calibrate import SkinCalibration
+from forcetorque.skin.taxels.result import CandidateRow
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "taxel_calibration.md").read_text(encoding="utf-8")
 EXAMPLES = sorted((Path(__file__).resolve().parents[2] / "examples").glob("1[678]_insole_*.toml"))

@@ -8,27 +8,27 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.simulation.scenario import SimulatedRecording
+from forcetorque.simulation.scenario.run import SimulatedRecording
 from tests.page_scripts import marked, unmarked
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
 RUN_ELSEWHERE = {
-    "balance.md": "tests/analysis/test_balance.py",
+    "balance.md": "tests/locomotion/test_balance.py",
     "calibration.md": "tests/examples/test_calibration_page.py",
-    "estimation.md": "tests/estimation/test_documentation.py",
+    "estimation.md": "tests/robot/mechanics/test_documentation.py",
     "recording.md": "tests/experiment/test_written_logs.py",
-    "joint.md": "tests/analysis/test_joint_calibration.py",
-    "robot_load.md": "tests/analysis/test_tare.py",
-    "coherence.md": "tests/cli/test_coherence.py",
-    "contest.md": "tests/cli/test_contest.py",
-    "response.md": "tests/analysis/test_response.py",
-    "motion.md": "tests/analysis/test_motion.py",
-    "thermal.md": "tests/analysis/test_thermal.py",
-    "torque_loop.md": "tests/cli/test_torque_loop.py",
-    "tutorial.md": "tests/cli/test_tutorial.py",
+    "joint.md": "tests/calibration/test_joint_calibration.py",
+    "robot_load.md": "tests/payload/test_tare.py",
+    "coherence.md": "tests/locomotion/test_coherence_command.py",
+    "contest.md": "tests/contests/test_contest_command.py",
+    "response.md": "tests/sensor/test_response.py",
+    "motion.md": "tests/locomotion/test_motion.py",
+    "thermal.md": "tests/sensor/test_thermal.py",
+    "torque_loop.md": "tests/locomotion/test_torque_loop_command.py",
+    "tutorial.md": "tests/inspection/test_tutorial.py",
     "simulation.md": "tests/examples/test_page_scripts.py",
-    "skin_layout.md": "tests/exchange/skin/test_documentation.py",
+    "skin_layout.md": "tests/skin/layout_formats/test_documentation.py",
     "simulation.md, both feet": "tests/examples/test_simulation_page.py",
     "simulation.md, contact switching": "tests/examples/test_simulation_page.py",
 }

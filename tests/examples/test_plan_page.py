@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.outcome import typed
+from tests.app.outcome import typed
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "plan.md").read_text(encoding="utf-8")

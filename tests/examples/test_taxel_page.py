@@ -7,8 +7,8 @@ import re
 import tomllib
 from pathlib import Path
 
-from forcetorque.experiment import ExperimentFile
-from forcetorque.skin.taxels import CurveKind
+from forcetorque.experiment.file import ExperimentFile
+from forcetorque.skin.taxels.curve import CurveKind
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "taxel_calibration.md").read_text(encoding="utf-8")
 

@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import SensorRun, weigh_load
-from forcetorque.errors import RecordingError
-from forcetorque.experiment import Experiment, load_experiment
+from forcetorque.base.errors import RecordingError
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.payload.payload import weigh_load
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 

@@ -12,22 +12,19 @@ from tempfile import TemporaryDirectory
 import numpy as np
 import pytest
 
-from forcetorque.analysis import (
-    CandidateErrors,
-    Evaluation,
-    PriorComparison,
-    SensorRun,
-    calibrate_sensor,
-    corrections_of,
-    estimate_experiment,
-    evaluate,
-)
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration.gate import examine
-from forcetorque.estimation import SensorSamples
-from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.recording import Use
+from forcetorque.base.arrays import FloatArray
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.calibration.plausibility.checks import examine
+from forcetorque.estimation.estimate import estimate_experiment
+from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation, evaluate
+from forcetorque.evaluation.load_cases.prior_comparison import PriorComparison
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Use
 from forcetorque.recording.smoothing import smooth
+from forcetorque.robot.mechanics.samples import SensorSamples
 from tests.page_scripts import printed
 
 ROOT = Path(__file__).resolve().parents[2]

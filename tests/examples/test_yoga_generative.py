@@ -9,12 +9,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import SensorRun
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import DataSet
-from forcetorque.calibration.generative import ACCURACY_SHARE, Assumptions, WindowMeans, fit_generative
-from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.recording import Use
+from forcetorque.base.arrays import FloatArray
+from forcetorque.calibration.generative.fit import fit_generative
+from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, Assumptions
+from forcetorque.experiment.calibration.moments import DataSet
+from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Use
 
 pytestmark = pytest.mark.real_data
 

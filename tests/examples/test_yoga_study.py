@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.analysis import read_study_data, study_sensor
-from forcetorque.calibration import ESTIMATION_TYPES
-from forcetorque.evaluation import Offset
-from forcetorque.study import SWEEP_LAMBDAS
+from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
+from forcetorque.experiment.offset_policy import Offset
+from forcetorque.study.candidate import SWEEP_LAMBDAS
+from forcetorque.study.data import read_study_data
+from forcetorque.study.study import study_sensor
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "10_icub_yoga_study.toml"
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque import load_experiment
-from forcetorque.errors import ExperimentError
+from forcetorque.app.python.experiment import load_experiment
+from forcetorque.base.errors import ExperimentError
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "23_icub_yoga_switching.toml"
 

@@ -7,9 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.analysis import JointTorqueErrors, SensorRun, calibrate_sensor, joint_torques
-from forcetorque.evaluation.offset import Offset
-from forcetorque.experiment import load_experiment
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, joint_torques
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.offset_policy import Offset
+from forcetorque.experiment.sensor_run import SensorRun
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "02_icub_yoga_forward.toml"
 

@@ -12,12 +12,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import SensorRun, calibrate_sensor
-from forcetorque.errors import RecordingError, UnitError
-from forcetorque.exchange.tabular import TableLayout, TableSignal, read_table
-from forcetorque.experiment import load_experiment
-from forcetorque.recording import QUANTITIES, Labels, Quantity, Signal, read_recording, recording_schema
-from forcetorque.spatial.units import SI_FACTORS
+from forcetorque.base.errors import RecordingError, UnitError
+from forcetorque.base.units import SI_FACTORS
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.formats.tabular.row_blocks import TableLayout, TableSignal
+from forcetorque.formats.tabular.table import read_table
+from forcetorque.recording.storage import read_recording, recording_schema
+from forcetorque.recording.stream import QUANTITIES, Labels, Quantity, Signal
 from tests.scenes.experiments import MOUNTED, PARQUET
 from tests.scenes.warm_experiments import EXACT, PER_DEGREE, fixed_signal, put, with_variables
 
@@ -46,9 +49,9 @@ def _renamed(folder: Path) -> Path:
 
 
 @pytest.mark.usefixtures("added")
-def test_a_fit_finds_what_it_does(warm: Path) -> None:
+def test_a_fit_finds_what_it_does(warm_log: Path) -> None:
     """It is written, read back, stated for the sensor, and its coefficients are exact."""
-    experiment = load_experiment(_renamed(warm))
+    experiment = load_experiment(_renamed(warm_log))
     run = SensorRun(experiment, "arm_ft")
     made = calibrate_sensor(run, code_version="1", created="now", regularisation=0.0)
     (variable,) = made.variables

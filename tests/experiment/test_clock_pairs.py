@@ -11,25 +11,22 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from forcetorque.arrays import FloatArray
-from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.errors import RecordingError
-from forcetorque.experiment.recipes.clocks import aligned_clocks
-from forcetorque.experiment.schema import ExperimentFile
-from forcetorque.recording import Recording, Signal, Stream
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import RecordingError
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.experiment.clocks import aligned_clocks
+from forcetorque.experiment.file import ExperimentFile
 from forcetorque.recording.clock import ClockShift
-from forcetorque.robot import (
-    JointMotion,
-    RobotModel,
-    RootMotion,
-    build_tree,
-    expected_wrenches,
-    link_pose,
-    motion_of_link,
-    read_urdf,
-)
-from forcetorque.simulation import ARM_URDF
-from forcetorque.spatial import Inertia
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.kinematics import link_pose, motion_of_link
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.robots import ARM_URDF
 
 SECONDS, BEGIN_S = 40.0, 3.0
 BEYOND, SENSOR = "upper_arm", "arm_ft"

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from forcetorque.estimation import Contact
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
-from forcetorque.experiment.content import ExperimentContact
-from forcetorque.recording import Interval, Recording, Support, Use
+from forcetorque.experiment.experiment import ExperimentContact
+from forcetorque.recording.recording import Interval, Recording, Support, Use
+from forcetorque.robot.contacts import Contact
 from tests.recording.recordings import even_stamps, recording, signal, stream
 
 SUPPORT = Support(frame="base", gravity_direction=np.array([0.0, 0.0, -1.0]))

@@ -10,14 +10,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.estimation import Processing, sensor_samples
-from forcetorque.experiment import load_experiment
-from forcetorque.experiment.content import Experiment
-from forcetorque.experiment.simulated.recordings import write_scenario
-from forcetorque.recording import Interval, MovingSupport, Recording, SavitzkyGolay, Signal, Use
+from forcetorque.base.arrays import FloatArray
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.simulation.scenario import Scenario, ScenarioFile, build_scenario
+from forcetorque.recording.recording import Interval, MovingSupport, Recording, Use
+from forcetorque.recording.smoothing import SavitzkyGolay
+from forcetorque.recording.stream import Signal
+from forcetorque.robot.mechanics.samples import Processing, sensor_samples
+from forcetorque.simulation.recordings.recordings import write_scenario
+from forcetorque.simulation.scenario.file import ScenarioFile
+from forcetorque.simulation.scenario.run import Scenario, build_scenario
 from tests.scenes.experiments import edit
 
 LIMITS_N = {"l_foot_ft": (1e-3, 0.1, 0.02), "l_leg_ft": (4e-3, 0.4, 0.1)}

@@ -11,12 +11,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.errors import ExperimentError
-from forcetorque.exchange.icub import read_matrix_file
-from forcetorque.experiment import load_experiment
-from forcetorque.recording import Use, read_recording, write_recording
-from forcetorque.robot import SensorFrame
-from forcetorque.spatial import MeasureDirection
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.formats.icub_matrix import read_matrix_file
+from forcetorque.recording.recording import Use
+from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.robot.model import SensorFrame
 from tests.scenes.experiments import ARM_LOG, FT_LOG, JOINTS, PARQUET, TWO, YARP, add, edit, edit_line
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.errors import (
+from forcetorque.base.errors import (
     ExperimentError,
     ForceTorqueError,
     FormatError,
@@ -17,8 +17,10 @@ from forcetorque.errors import (
     RecordingError,
     RobotError,
 )
-from forcetorque.experiment import load_experiment
-from forcetorque.recording import Recording, Signal, Stream, write_recording
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import write_recording
+from forcetorque.recording.stream import Signal, Stream
 from tests.scenes.experiments import PARQUET, SECOND_SENSOR, TWO, YARP, add, edit
 
 Damage = Callable[[Path], object]

@@ -9,24 +9,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.errors import ForceTorqueError
-from forcetorque.estimation import Processing, sensor_samples
-from forcetorque.experiment import load_experiment
+from forcetorque.base.errors import ForceTorqueError
 from forcetorque.experiment.contacts import contacts_in
-from forcetorque.recording import (
-    Interval,
-    MovingSupport,
-    Recording,
-    Signal,
-    Stream,
-    Support,
-    Use,
-    read_recording,
-    write_recording,
-)
-from forcetorque.recording.joints import joint_motion_at
-from forcetorque.robot import RootMotion, build_tree, joints_between, motion_of_link, read_urdf
-from forcetorque.simulation import ARM_URDF
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
+from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.joint_motion import joint_motion_at
+from forcetorque.robot.kinematics import joints_between, motion_of_link
+from forcetorque.robot.mechanics.samples import Processing, sensor_samples
+from forcetorque.robot.motion import RootMotion
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.robots import ARM_URDF
 from tests.scenes.experiments import JOINTS, PARQUET, edit
 
 IMU_LINK = "forearm"

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.errors import FormatError, MissingFileError
-from forcetorque.exchange.parquet import ParquetLog
-from forcetorque.exchange.ros import RosLog
-from forcetorque.exchange.tabular.log_format import TabularLog
-from forcetorque.exchange.yarp.log_tables import StateExtPort, YarpLog
-from forcetorque.experiment import ExperimentFile, parse_experiment
-from forcetorque.experiment.tables.processing import Smoothing
-from forcetorque.recording import Use
+from forcetorque.base.errors import FormatError, MissingFileError
+from forcetorque.experiment.file import ExperimentFile, parse_experiment
+from forcetorque.experiment.processing_section import Smoothing
+from forcetorque.formats.parquet import ParquetLog
+from forcetorque.formats.ros.log_format import RosLog
+from forcetorque.formats.tabular.log_format import TabularLog
+from forcetorque.formats.yarp.log_tables import StateExtPort, YarpLog
+from forcetorque.recording.recording import Use
 from tests.scenes.experiments import JOINTS, PARQUET, TEXTS, TWO, YARP
 
 OPTIONAL = """

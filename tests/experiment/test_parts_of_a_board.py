@@ -10,15 +10,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import SensorRun
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import FormatError
-from forcetorque.exchange.yarp import PortKind, StreamPort, write_ports
-from forcetorque.experiment import load_experiment
-from forcetorque.recording import Recording, Signal, Stream, Use, read_recording
-from forcetorque.simulation import calibrated_by_board
-from tests.exchange.robometry.logger import Leaf, write_log
-from tests.exchange.ros.bags import Types, write_bag
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FormatError
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.formats.yarp.discover import PortKind
+from forcetorque.formats.yarp.writing import StreamPort, write_ports
+from forcetorque.recording.recording import Recording, Use
+from forcetorque.recording.storage import read_recording
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.simulation.sensor import calibrated_by_board
+from tests.formats.robometry.logger import Leaf, write_log
+from tests.formats.ros.bags import Types, write_bag
 from tests.scenes.experiments import FACTORY, JOINTS, YARP, edit
 
 ROWS = 400

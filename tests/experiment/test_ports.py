@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.errors import ForceTorqueError
-from forcetorque.experiment import load_experiment
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.experiment.loading import load_experiment
 from tests.scenes.experiments import JOINTS, YARP, add, edit
 
 EXTRA = """

@@ -9,17 +9,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import SensorRun, calibrate_sensor, evaluate
-from forcetorque.errors import ExperimentError, ForceTorqueError
-from forcetorque.exchange.icub import encode_matrix
-from forcetorque.exchange.prior import (
-    FirmwareFile,
-    PolynomialModel,
-    read_prior_file,
-    write_firmware_file,
-    write_polynomial_model,
-)
-from forcetorque.experiment import load_experiment
+from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.formats.icub_matrix import encode_matrix
+from forcetorque.formats.prior.firmware_updater import FirmwareFile, write_firmware_file
+from forcetorque.formats.prior.polynomial_model import PolynomialModel, write_polynomial_model
+from forcetorque.formats.prior.registry import read_prior_file
 from tests.scenes.tutorial_log import distortion, motion, robot_text, truth
 
 VOLTS_PER_COUNT = 20.0 / 65536.0
@@ -169,7 +167,7 @@ def test_a_board_file_and_a_plain_table_are_priors(tmp_path: Path) -> None:
 )
 def test_what_is_no_prior_of_counts_is_refused(tmp_path: Path, prior: str, serial: str, words: str) -> None:
     """With the table of the experiment file, what was expected, and what to write."""
-    from tests.exchange.prior.test_prior_files import ati_text
+    from tests.formats.prior.test_prior_files import ati_text
 
     _, matrix = _board(tmp_path)
     (tmp_path / "ati.cal").write_text(ati_text(), encoding="utf-8")

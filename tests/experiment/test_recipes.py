@@ -12,12 +12,16 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from forcetorque.analysis import SensorRun, inspect_experiment, inspect_log
-from forcetorque.analysis.calibration.sensor_calibration import data_doubts
-from forcetorque.arrays import BoolArray
-from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, RecordingError, RobotError
-from forcetorque.experiment import load_experiment
-from forcetorque.recording import Recording, Stream, Use, read_recording, write_recording
+from forcetorque.base.arrays import BoolArray
+from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, RecordingError, RobotError
+from forcetorque.calibration.sensor_calibration import data_doubts
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.inspection.findings import inspect_experiment
+from forcetorque.inspection.inspect import inspect_log
+from forcetorque.recording.recording import Recording, Use
+from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.recording.stream import Stream
 from tests.scenes.experiments import PARQUET, add, edit
 
 HEAD = """\

@@ -10,17 +10,16 @@ from typing import Literal
 import numpy as np
 import pytest
 
-from forcetorque.analysis import (
-    SensorRun,
-    calibrate_sensor,
-)
-from forcetorque.analysis.calibration.doubts import fit_doubts
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration
-from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, FormatError, RecordingError
-from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.recording import SavitzkyGolay, Use, read_recording
-from forcetorque.recording.smoothing import EvenGrid, smooth
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, FormatError, RecordingError
+from forcetorque.calibration.calibrate import calibrate_sensor, fit_doubts
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Use
+from forcetorque.recording.smoothing import EvenGrid, SavitzkyGolay, smooth
+from forcetorque.recording.storage import read_recording
 from tests.scenes.experiments import MOUNTED, OFFSET, PARQUET, TWO, add, edit
 from tests.scenes.warm_experiments import (
     EXACT,
@@ -60,9 +59,9 @@ def _close(found: FloatArray, truth: FloatArray) -> bool:
 
 
 @pytest.mark.parametrize("place", [TEMPERATURE, SLOW_TEMPERATURE], ids=["own stream", "slow stream"])
-def test_the_truth_is_found_with_the_temperature(warm: Path, place: str) -> None:
+def test_the_truth_is_found_with_the_temperature(warm_log: Path, place: str) -> None:
     """Matrix, offset and coefficients are exact; the reference value is the first fitted sample's."""
-    experiment = load_experiment(with_variables(warm / PARQUET, place))
+    experiment = load_experiment(with_variables(warm_log / PARQUET, place))
     made = _fitted(experiment)
     assert made.estimation_type == "OwTrTO"
     assert _close(made.matrix, MOUNTED)
@@ -78,10 +77,10 @@ def test_the_truth_is_found_with_the_temperature(warm: Path, place: str) -> None
     assert made.provenance.dropped == 0
 
 
-def test_without_the_temperature_the_drift_stays(warm: Path) -> None:
+def test_without_the_temperature_the_drift_stays(warm_log: Path) -> None:
     """Negative control: the same data without the variable give another matrix and leave newtons."""
-    with_variable = _fitted(load_experiment(with_variables(warm / PARQUET, TEMPERATURE)))
-    plain = _fitted(load_experiment(edit(warm / PARQUET, TEMPERATURE, "")))
+    with_variable = _fitted(load_experiment(with_variables(warm_log / PARQUET, TEMPERATURE)))
+    plain = _fitted(load_experiment(edit(warm_log / PARQUET, TEMPERATURE, "")))
     assert (plain.estimation_type, plain.variables) == ("OnTdTO", ())
     assert not np.abs(plain.matrix - MOUNTED).max() < 1e3 * EXACT * np.abs(MOUNTED).max()
     # N, N m; the mean square of a residual is a difference of moments of some 1e3 N2, so its root keeps half the digits
@@ -89,9 +88,9 @@ def test_without_the_temperature_the_drift_stays(warm: Path) -> None:
 
 
 @pytest.mark.parametrize("place", [TEMPERATURE, SLOW_TEMPERATURE], ids=["own stream", "slow stream"])
-def test_values_are_those_at_the_instants_of_the_sensor(warm: Path, place: str) -> None:
+def test_values_are_those_at_the_instants_of_the_sensor(warm_log: Path, place: str) -> None:
     """Interpolated over time: a temperature that comes back to a value has that value both times."""
-    experiment = load_experiment(with_variables(warm / PARQUET, place))
+    experiment = load_experiment(with_variables(warm_log / PARQUET, place))
     (part,) = SensorRun(experiment, experiment.sensors[0]).samples(
         Use.CALIBRATION, variables=[v.linear.name for v in experiment.sensors[0].variables]
     )
@@ -107,13 +106,13 @@ def test_values_are_those_at_the_instants_of_the_sensor(warm: Path, place: str) 
     assert np.abs(over_unique - values).max() > 1.0
 
 
-def test_samples_in_a_gap_of_the_thermometer_are_left_out(warm: Path) -> None:
+def test_samples_in_a_gap_of_the_thermometer_are_left_out(warm_log: Path) -> None:
     """Four seconds of silence take out the samples inside, which are counted; the fit stays exact."""
-    board = read_recording(warm / "recording").stream("board")
+    board = read_recording(warm_log / "recording").stream("board")
     kept = np.r_[:12, 20 : len(board)]  # silent between the stamps at 5.5 s and at 10 s
     signals = {name: replace(signal, values=signal.values[kept]) for name, signal in board.signals.items()}
-    put(warm, replace(board, stamp_ns=board.stamp_ns[kept], signals=signals))
-    experiment = load_experiment(with_variables(warm / PARQUET, SLOW_TEMPERATURE))
+    put(warm_log, replace(board, stamp_ns=board.stamp_ns[kept], signals=signals))
+    experiment = load_experiment(with_variables(warm_log / PARQUET, SLOW_TEMPERATURE))
     (fit,) = experiment.intervals(Use.CALIBRATION)
     stamps = experiment.recording.stream("arm_ft").stamp_ns
     silent = (stamps > board.stamp_ns[11]) & (stamps < board.stamp_ns[20])
@@ -127,14 +126,14 @@ def test_samples_in_a_gap_of_the_thermometer_are_left_out(warm: Path) -> None:
     assert without.samples.dropped == 0
 
 
-def test_a_missing_temperature_leaves_its_sample_out(warm: Path) -> None:
+def test_a_missing_temperature_leaves_its_sample_out(warm_log: Path) -> None:
     """In the sensor's own stream one NaN costs one sample, and none where the variable is not fitted."""
-    stream = read_recording(warm / "recording").stream("arm_ft")
+    stream = read_recording(warm_log / "recording").stream("arm_ft")
     temperature = stream.signal("temperature")
     values = np.array(temperature.values)
     values[[200, 300]] = np.nan
-    put(warm, replace(stream, signals={**stream.signals, "temperature": replace(temperature, values=values)}))
-    experiment = load_experiment(with_variables(warm / PARQUET, TEMPERATURE))
+    put(warm_log, replace(stream, signals={**stream.signals, "temperature": replace(temperature, values=values)}))
+    experiment = load_experiment(with_variables(warm_log / PARQUET, TEMPERATURE))
     assert _fitted(experiment).provenance.dropped == 2
     without = replace(experiment, fit_options=replace(experiment.fit_options, with_variables=False))
     plain = calibrate_sensor(
@@ -166,14 +165,14 @@ def test_two_variables_are_fitted_together(intact: Path, tmp_path: Path) -> None
         assert variable.maximum == pytest.approx(fitted.max(), abs=0.02)
 
 
-def test_a_missing_current_is_nothing_to_the_voltage(warm: Path) -> None:
+def test_a_missing_current_is_nothing_to_the_voltage(warm_log: Path) -> None:
     """A gap in one column of a stream takes no value from another."""
-    board = read_recording(warm / "recording").stream("board")
+    board = read_recording(warm_log / "recording").stream("board")
     scalar = board.signal("scalar")
     values = np.array(scalar.values)
     values[:, 1] = np.nan
-    put(warm, replace(board, signals={**board.signals, "scalar": replace(scalar, values=values)}))
-    experiment = load_experiment(with_variables(warm / PARQUET, SUPPLY))
+    put(warm_log, replace(board, signals={**board.signals, "scalar": replace(scalar, values=values)}))
+    experiment = load_experiment(with_variables(warm_log / PARQUET, SUPPLY))
     (part,) = SensorRun(experiment, experiment.sensors[0]).samples(
         Use.CALIBRATION, variables=[v.linear.name for v in experiment.sensors[0].variables]
     )
@@ -182,28 +181,28 @@ def test_a_missing_current_is_nothing_to_the_voltage(warm: Path) -> None:
     assert np.abs(part.samples.variables[:, 0] - true_supply(seconds)).max() < INTERPOLATED
 
 
-def test_coefficients_that_are_known_pull_the_fit(warm: Path) -> None:
+def test_coefficients_that_are_known_pull_the_fit(warm_log: Path) -> None:
     """A strong lambda keeps matrix and coefficients of the file; without prior coefficients only the matrix."""
     known = PER_DEGREE + 0.5
     stated = f"prior_coefficients = {known.tolist()}\n"
-    pulled = _fitted(load_experiment(with_variables(warm / PARQUET, TEMPERATURE, stated)), regularisation=1e15)
-    free = _fitted(load_experiment(edit(warm / PARQUET, stated, "")), regularisation=1e15)
+    pulled = _fitted(load_experiment(with_variables(warm_log / PARQUET, TEMPERATURE, stated)), regularisation=1e15)
+    free = _fitted(load_experiment(edit(warm_log / PARQUET, stated, "")), regularisation=1e15)
     assert pulled.variables[0].prior is not None
     np.testing.assert_array_equal(pulled.variables[0].prior, known)
     np.testing.assert_allclose(pulled.variables[0].coefficients, known, rtol=1e-6)
     assert np.abs(free.variables[0].coefficients - known).min() > 1e-3
 
 
-def test_smoothing_takes_the_temperature_along(warm: Path) -> None:
+def test_smoothing_takes_the_temperature_along(warm_log: Path) -> None:
     """One filter on reading, reference and temperature keeps the model exact, where a fast temperature is smoothed."""
-    recording = read_recording(warm / "recording")
+    recording = read_recording(warm_log / "recording")
     stream = recording.stream("arm_ft")
     jumps = 4.0 * np.sign(np.sin(2.0 * np.pi * seconds_of(recording, stream.stamp_ns) / 0.7))
     raw, temperature = stream.signal("raw"), stream.signal("temperature")
     drifted = replace(raw, values=raw.values - np.linalg.solve(MOUNTED, np.outer(jumps, PER_DEGREE).T).T)
     jumping = replace(temperature, values=temperature.values + jumps[:, None])
-    put(warm, replace(stream, signals={"raw": drifted, "temperature": jumping}))
-    file = with_variables(warm / PARQUET, TEMPERATURE)
+    put(warm_log, replace(stream, signals={"raw": drifted, "temperature": jumping}))
+    file = with_variables(warm_log / PARQUET, TEMPERATURE)
     add(file, "\n[processing]\nsmoothing = { window_s = 0.5, order = 2 }\n")
     experiment = load_experiment(file)
     made = _fitted(experiment)
@@ -222,9 +221,9 @@ def test_smoothing_takes_the_temperature_along(warm: Path) -> None:
     )  # negative control: it was no smooth temperature
 
 
-def test_a_first_calibration_needs_no_prior(warm: Path) -> None:
+def test_a_first_calibration_needs_no_prior(warm_log: Path) -> None:
     """A sensor that nobody calibrated gets matrix and coefficients from lambda 0; nothing else is possible."""
-    file = edit(with_variables(warm / PARQUET, TEMPERATURE), 'prior = "matrix_SIM001.txt"\n', "")
+    file = edit(with_variables(warm_log / PARQUET, TEMPERATURE), 'prior = "matrix_SIM001.txt"\n', "")
     experiment = load_experiment(file)
     made = _fitted(experiment)
     assert made.prior is None
@@ -234,22 +233,22 @@ def test_a_first_calibration_needs_no_prior(warm: Path) -> None:
         _fitted(experiment, regularisation="held-out")
 
 
-def test_lambda_is_chosen_with_the_temperature(warm: Path) -> None:
+def test_lambda_is_chosen_with_the_temperature(warm_log: Path) -> None:
     """Data without noise trust no prior: the held-out choice keeps the matrix exact to a thousandth of its error."""
-    made = _fitted(load_experiment(with_variables(warm / PARQUET, TEMPERATURE)), regularisation="held-out")
+    made = _fitted(load_experiment(with_variables(warm_log / PARQUET, TEMPERATURE)), regularisation="held-out")
     assert made.prior is not None
     assert "held-out" in made.selection.rule
     assert np.abs(made.matrix - MOUNTED).max() < 1e-3 * np.abs(made.prior.matrix - MOUNTED).max()
     np.testing.assert_allclose(made.variables[0].coefficients, PER_DEGREE, rtol=1e-3)
 
 
-def test_a_constant_is_refused(warm: Path) -> None:
+def test_a_constant_is_refused(warm_log: Path) -> None:
     """A temperature that does not change is named with its value, its unit and the way out."""
-    stream = read_recording(warm / "recording").stream("arm_ft")
+    stream = read_recording(warm_log / "recording").stream("arm_ft")
     temperature = stream.signal("temperature")
     still = replace(temperature, values=np.full_like(temperature.values, 31.5))
-    put(warm, replace(stream, signals={**stream.signals, "temperature": still}))
-    experiment = load_experiment(with_variables(warm / PARQUET, TEMPERATURE))
+    put(warm_log, replace(stream, signals={**stream.signals, "temperature": still}))
+    experiment = load_experiment(with_variables(warm_log / PARQUET, TEMPERATURE))
     for regularisation in (0.0, 100.0, "held-out"):
         with pytest.raises(FitError, match="'temperature': its value is 31.5 degC throughout .* or a type without var"):
             _fitted(experiment, regularisation=regularisation)
@@ -260,9 +259,9 @@ def test_a_constant_is_refused(warm: Path) -> None:
     assert any("temperature is 31.5 degC throughout" in doubt for doubt in fit_doubts(made))
 
 
-def test_a_sensor_without_variables_stands_beside_one_with(warm: Path) -> None:
+def test_a_sensor_without_variables_stands_beside_one_with(warm_log: Path) -> None:
     """By default each sensor gets the type that its variables allow; a type that needs one is refused by name."""
-    file = with_variables(warm / TWO, TEMPERATURE)
+    file = with_variables(warm_log / TWO, TEMPERATURE)
     experiment = load_experiment(file)
     assert [len(sensor.variables) for sensor in experiment.sensors] == [1, 0]
     kinds = [_fitted(experiment, sensor=k, regularisation=1.0).estimation_type for k in (0, 1)]
@@ -273,24 +272,24 @@ def test_a_sensor_without_variables_stands_beside_one_with(warm: Path) -> None:
         _fitted(asked, sensor=1, regularisation=1.0)
 
 
-def test_another_clock_is_refused(warm: Path) -> None:
+def test_another_clock_is_refused(warm_log: Path) -> None:
     """Values of a stream that another clock stamped have no place among the samples."""
-    board = read_recording(warm / "recording").stream("board")
-    put(warm, replace(board, clock="board"))
-    experiment = load_experiment(with_variables(warm / PARQUET, SLOW_TEMPERATURE))
+    board = read_recording(warm_log / "recording").stream("board")
+    put(warm_log, replace(board, clock="board"))
+    experiment = load_experiment(with_variables(warm_log / PARQUET, SLOW_TEMPERATURE))
     with pytest.raises(
         RecordingError, match="'arm_ft' and 'board' were stamped by the clocks 'simulation' and 'board'"
     ):
         _fitted(experiment)
 
 
-def test_no_value_over_an_interval_is_refused(warm: Path) -> None:
+def test_no_value_over_an_interval_is_refused(warm_log: Path) -> None:
     """A thermometer that was silent all along is named with its stream and column."""
-    board = read_recording(warm / "recording").stream("board")
+    board = read_recording(warm_log / "recording").stream("board")
     temperature = board.signal("temperature")
     silent = replace(temperature, values=np.full_like(temperature.values, np.nan))
-    put(warm, replace(board, signals={**board.signals, "temperature": silent}))
-    experiment = load_experiment(with_variables(warm / PARQUET, SLOW_TEMPERATURE))
+    put(warm_log, replace(board, signals={**board.signals, "temperature": silent}))
+    experiment = load_experiment(with_variables(warm_log / PARQUET, SLOW_TEMPERATURE))
     with pytest.raises(RecordingError, match=r"interval 'fit': none of \d+ samples of 'arm_ft'.* board temperature"):
         _fitted(experiment)
 
@@ -342,18 +341,18 @@ REFUSED: dict[str, tuple[tuple[str, ...], type[ForceTorqueError], str]] = {
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_what_does_not_fit_is_refused(warm: Path, name: str) -> None:
+def test_what_does_not_fit_is_refused(warm_log: Path, name: str) -> None:
     """The error names the file, the sensor, the variable and what is known; nothing is guessed."""
     variables, error, message = REFUSED[name]
     with pytest.raises(error, match=message) as caught:
-        load_experiment(with_variables(warm / PARQUET, *variables))
-    assert str(warm / PARQUET) in str(caught.value)
+        load_experiment(with_variables(warm_log / PARQUET, *variables))
+    assert str(warm_log / PARQUET) in str(caught.value)
 
 
-def test_intervals_have_a_kind_and_a_session(warm: Path) -> None:
+def test_intervals_have_a_kind_and_a_session(warm_log: Path) -> None:
     """What an interval is to a study stands in the file; else its kind is its label, and its session the recording."""
-    edit(warm / PARQUET, 'label = "fit"\n', 'label = "fit"\nkind = "grid"\nsession = "day 3"\n')
-    roles = load_experiment(warm / PARQUET).roles
+    edit(warm_log / PARQUET, 'label = "fit"\n', 'label = "fit"\nkind = "grid"\nsession = "day 3"\n')
+    roles = load_experiment(warm_log / PARQUET).roles
     assert {label: (role.kind, role.session) for label, role in roles.items()} == {
         "fit": ("grid", "day 3"),
         "judge": ("judge", None),

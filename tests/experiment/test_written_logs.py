@@ -10,16 +10,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.analysis import (
-    SensorRun,
-    calibrate_sensor,
-    inspect_experiment,
-)
-from forcetorque.exchange.icub import read_matrix_file
-from forcetorque.exchange.yarp import PortKind, StreamPort, write_ports
-from forcetorque.experiment import load_experiment
-from forcetorque.recording import Recording, read_recording
-from forcetorque.simulation import calibrated_by_board, fail_groups, lose_messages
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.formats.icub_matrix import read_matrix_file
+from forcetorque.formats.yarp.discover import PortKind
+from forcetorque.formats.yarp.writing import StreamPort, write_ports
+from forcetorque.inspection.findings import inspect_experiment
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import read_recording
+from forcetorque.simulation.network import fail_groups, lose_messages
+from forcetorque.simulation.sensor import calibrated_by_board
 from tests.scenes.experiments import PARQUET, YARP, edit
 
 PORTS = (

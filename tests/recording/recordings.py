@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.errors import ForceTorqueError
-from forcetorque.recording import QUANTITIES, Interval, Labels, Recording, Signal, Stream
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.recording.recording import Interval, Recording
+from forcetorque.recording.stream import QUANTITIES, Labels, Signal, Stream
 
 EPOCH_NS = 1_700_000_000_000_000_000
 """A stamp of the year 2023, so large that a float of it in seconds errs by some 100 ns."""

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.errors import RecordingError
+from forcetorque.base.errors import RecordingError
 from forcetorque.recording.alignment import (
     GAP_PERIODS,
     gap_limit_ns,

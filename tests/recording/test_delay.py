@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import RecordingError
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import RecordingError
 from forcetorque.recording.delay import Delay, estimate_delay
 
 READING_HZ, REFERENCE_HZ, SECONDS = 97.0, 61.0, 40.0

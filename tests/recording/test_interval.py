@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from forcetorque.errors import RecordingError, ShapeError
-from forcetorque.recording import Interval, Support, Use
+from forcetorque.base.errors import RecordingError, ShapeError
+from forcetorque.recording.recording import Interval, Support, Use
 from tests.recording.recordings import refused
 
 UNIT = 4 * np.finfo(np.float64).eps

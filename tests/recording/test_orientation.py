@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from forcetorque.errors import FormatError, UnitError
-from forcetorque.recording import (
+from forcetorque.base.errors import FormatError, UnitError
+from forcetorque.recording.orientation import (
     ROLL_PITCH_YAW,
     EulerAxes,
     OrientationForm,
     OrientationLayout,
     OrientationSense,
-    Signal,
     orientation_signals,
 )
+from forcetorque.recording.stream import Signal
 
 ROUNDING = 1e-12
 """A few products of numbers up to 10."""

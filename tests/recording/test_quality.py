@@ -6,9 +6,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.recording import Finding, Signal, Stream
+from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.recording.quality import saturation_findings, stream_findings
-from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.recording.recording import Finding
+from forcetorque.recording.stream import Signal, Stream
 
 PERIOD_NS = 10_000_000
 COUNT = 1000

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.recording.sample_quality import (
     SampleQuality,
     UnusableCounts,

@@ -8,8 +8,9 @@ import re
 import numpy as np
 import pytest
 
-from forcetorque.errors import RecordingError
-from forcetorque.recording import ScalarSource, Signal
+from forcetorque.base.errors import RecordingError
+from forcetorque.recording.column import ScalarSource
+from forcetorque.recording.stream import Signal
 from tests.recording.recordings import EPOCH_NS, recording, refused, signal, stream
 
 SECOND = 1_000_000_000

@@ -13,7 +13,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from forcetorque.recording import QUANTITIES, Labels, recording_schema, write_recording
+from forcetorque.recording.storage import recording_schema, write_recording
+from forcetorque.recording.stream import QUANTITIES, Labels
 from tests.recording.recordings import recording, signal, stream
 
 

@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 from scipy.signal import savgol_coeffs
 
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.errors import RecordingError
-from forcetorque.recording import SavitzkyGolay
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.errors import RecordingError
 from forcetorque.recording.alignment import GAP_PERIODS, seconds_since
-from forcetorque.recording.smoothing import smooth
+from forcetorque.recording.smoothing import SavitzkyGolay, smooth
 from tests.recording.recordings import EPOCH_NS, even_stamps, jittered_stamps, refused
 
 PERIOD = 0.01

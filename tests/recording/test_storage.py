@@ -18,21 +18,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from forcetorque.errors import MissingFileError, RecordingError
-from forcetorque.recording import (
-    QUANTITIES,
-    Finding,
-    Interval,
-    Labels,
-    Recording,
-    Signal,
-    Stream,
-    Support,
-    Use,
-    read_recording,
-    storage,
-    write_recording,
-)
+from forcetorque.base.errors import MissingFileError, RecordingError
+from forcetorque.recording import storage
+from forcetorque.recording.recording import Finding, Interval, Recording, Support, Use
+from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.recording.stream import QUANTITIES, Labels, Signal, Stream
 from tests.fuzzing import examples
 from tests.recording.recordings import described, even_stamps, recording, refused, signal, stream
 

@@ -14,8 +14,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from forcetorque.errors import ForceTorqueError, FormatError, MissingFileError
-from forcetorque.recording import Interval, Recording, Support, Use, read_recording, write_recording
+from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError
+from forcetorque.recording.recording import Interval, Recording, Support, Use
+from forcetorque.recording.storage import read_recording, write_recording
 from tests.recording.recordings import described, even_stamps, recording, refused, signal, stream
 
 

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.errors import ForceTorqueError, RecordingError, ShapeError
-from forcetorque.recording import QUANTITIES, Finding, Interval, Labels, Recording, Signal, Stream, Use
+from forcetorque.base.errors import ForceTorqueError, RecordingError, ShapeError
+from forcetorque.recording.recording import Finding, Interval, Recording, Use
+from forcetorque.recording.stream import QUANTITIES, Labels, Signal, Stream
 from tests.recording.recordings import recording, refused, signal, stream
 
 WRENCH = {

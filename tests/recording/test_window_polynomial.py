@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.signal import savgol_filter
 
-from forcetorque.recording.window_polynomial import polynomials_through_windows
+from forcetorque.recording.smoothing import polynomials_through_windows
 
 WINDOWS = [(1, 0), (3, 1), (5, 2), (11, 3), (25, 3), (101, 2), (21, 5)]
 """Samples and order. Longer windows of high order are left out: SciPy, which does not scale, loses digits there."""

@@ -17,80 +17,56 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.text import Text
 
-from forcetorque.analysis import (
-    BenchPicture,
-    Coherence,
-    ContestLoadRow,
-    DecayCurve,
-    LearntDirection,
-    PhaseForce,
-    Reason,
-    Response,
-    ResponseCurve,
-    SensorSphere,
-    SensorThermal,
-    SkinWrenchPicture,
-    ThermalCurve,
-    ThermalDriftRow,
-    TorqueLoopRow,
-    TorqueLoopStudy,
-    TrialGroup,
-    TrialSphere,
-    UseError,
-    UseVerdict,
-    group_trials,
-    motion,
-    motion_signals_of_arrays,
-)
-from forcetorque.analysis.balance.interval_balance import FootPressure, IntervalBalance, RobotBalance
-from forcetorque.analysis.device.demand_rows import GradeRow
-from forcetorque.analysis.device.span_rows import DirectionRow
-from forcetorque.analysis.skin.event_rows import SkinEventPicture
-from forcetorque.analysis.skin.picture import TaxelPicture
-from forcetorque.calibration.joint import PartResidual
-from forcetorque.estimation.balance import ContactThresholds, Sole, centre_of_pressure, support_phases
-from forcetorque.evaluation import Offset
-from forcetorque.evaluation.response import ExcitationKind, SecondOrder
-from forcetorque.evaluation.sphere import analyse_sphere
-from forcetorque.exsitu.device import VIEWS, Silhouette
-from forcetorque.report.figures import (
-    balance_figure,
-    bench_figure,
-    coherence_figure,
-    comparison_figure,
-    contact_figure,
-    contest_figure,
-    device_figure,
-    difference_figure,
-    envelope_figure,
-    excitation_figure,
-    force_space_figure,
-    held_out_figure,
-    index_figure,
-    joint_figure,
-    lambda_difference_figure,
-    lambda_force_figure,
-    learnt_figure,
-    motion_figure,
-    reference_error_figure,
-    remedies_figure,
-    residual_figure,
-    response_figure,
-    skin_event_figure,
-    skin_layout_figure,
-    skin_wrench_figure,
-    space_figure,
-    sphere_figure,
-    taxel_figure,
-    thermal_figure,
-    torque_figure,
-    torque_loop_figure,
-    use_figure,
-)
-from forcetorque.report.figures.canvas import png_bytes
-from forcetorque.robot import JointMotion
-from forcetorque.skin.surface import skin_surface, unrolled
-from forcetorque.spatial import WRENCH_COMPONENTS
+from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.calibration.figures.excitation import excitation_figure, space_figure
+from forcetorque.calibration.figures.held_out import held_out_figure
+from forcetorque.calibration.figures.information import learnt_figure
+from forcetorque.calibration.figures.joint import joint_figure
+from forcetorque.calibration.figures.lambda_axis import lambda_difference_figure
+from forcetorque.calibration.joint.residuals import PartResidual
+from forcetorque.calibration.summary import LearntDirection
+from forcetorque.contests.figure import contest_figure
+from forcetorque.contests.result import ContestLoadRow
+from forcetorque.device.demand_result import GradeRow
+from forcetorque.device.envelope import VIEWS, Silhouette
+from forcetorque.device.figures import device_figure, envelope_figure, reference_error_figure, remedies_figure
+from forcetorque.device.span import DirectionRow
+from forcetorque.estimation.figures import contact_figure, torque_figure
+from forcetorque.evaluation.figures.compare import index_figure
+from forcetorque.evaluation.figures.errors import comparison_figure, residual_figure
+from forcetorque.evaluation.figures.load_cases import use_figure
+from forcetorque.evaluation.figures.matrix_differences import difference_figure
+from forcetorque.evaluation.figures.sphere import force_space_figure, sphere_figure
+from forcetorque.evaluation.load_cases.verdict import Reason, UseError, UseVerdict
+from forcetorque.evaluation.sphere.analysis import analyse_sphere
+from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
+from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials
+from forcetorque.experiment.offset_policy import Offset
+from forcetorque.locomotion.figures import balance_figure, coherence_figure, motion_figure, torque_loop_figure
+from forcetorque.locomotion.movement.movement import motion
+from forcetorque.locomotion.movement.signals import motion_signals_of_arrays
+from forcetorque.locomotion.net_force.result import Coherence, PhaseForce
+from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance, RobotBalance
+from forcetorque.locomotion.standing.pressure import Sole, centre_of_pressure
+from forcetorque.locomotion.standing.support_phases import ContactThresholds, support_phases
+from forcetorque.locomotion.torque_control.result import TorqueLoopRow
+from forcetorque.locomotion.torque_control.study import TorqueLoopStudy
+from forcetorque.results.figures.canvas import png_bytes
+from forcetorque.robot.motion import JointMotion
+from forcetorque.sensor.bandwidth.bandwidth import Response
+from forcetorque.sensor.bandwidth.figure import response_figure
+from forcetorque.sensor.bandwidth.records import ExcitationKind
+from forcetorque.sensor.bandwidth.result import DecayCurve, ResponseCurve
+from forcetorque.sensor.bandwidth.second_order import SecondOrder
+from forcetorque.sensor.temperature.figure import thermal_figure
+from forcetorque.sensor.temperature.result import SensorThermal, ThermalCurve, ThermalDriftRow
+from forcetorque.skin.figures import skin_event_figure, skin_layout_figure, skin_wrench_figure, taxel_figure
+from forcetorque.skin.surface.surface import skin_surface, unrolled
+from forcetorque.skin.taxels.figure_data import TaxelPicture
+from forcetorque.skin.wrench.result import SkinEventPicture, SkinWrenchPicture
+from forcetorque.study.figures.contact_force import lambda_force_figure
+from forcetorque.workbench.figure import bench_figure
+from forcetorque.workbench.result import BenchPicture
 from tests.scenes.patches import cylinder_patch
 from tests.skin.skins import cylinder
 

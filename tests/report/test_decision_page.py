@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from forcetorque.analysis import VerdictLine
-from forcetorque.analysis.use.verdict import Reason
+from forcetorque.evaluation.load_cases.verdict import Reason
+from forcetorque.report.assessment.verdict import VerdictLine
 from forcetorque.report.decision_page import decision_page
-from forcetorque.report.document import Block, List, Verdict
 from forcetorque.report.next_steps import NextSteps
+from forcetorque.results.document.content import Block, List, Verdict
 from tests.report.drawing import use_of
 from tests.scenes.calibrations import make_calibration
 

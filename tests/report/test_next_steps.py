@@ -8,10 +8,10 @@ from typing import cast
 
 import numpy as np
 
-from forcetorque.analysis import Reason, SensorRun, UseVerdict
-from forcetorque.report.next_steps import next_steps
-from forcetorque.report.repeated import gathered, said_once
-from forcetorque.report.uses import Undecided
+from forcetorque.evaluation.load_cases.verdict import Reason, UseVerdict
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.report.load_cases import Undecided
+from forcetorque.report.next_steps import gathered, next_steps, said_once
 from tests.report.drawing import use_of
 from tests.scenes.calibrations import make_calibration
 

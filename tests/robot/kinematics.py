@@ -8,8 +8,8 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from forcetorque.arrays import FloatArray
-from forcetorque.robot import JointType, RobotModel
+from forcetorque.base.arrays import FloatArray
+from forcetorque.robot.model import JointType, RobotModel
 
 
 def link_poses(model: RobotModel, coordinates: Mapping[str, float]) -> dict[str, FloatArray]:

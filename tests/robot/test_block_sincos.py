@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
 from forcetorque.robot.block.sincos import cosine_sine
 
 LAST_PLACES = 3.0

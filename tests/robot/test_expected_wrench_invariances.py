@@ -8,17 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.robot import (
-    BodyTree,
-    JointMotion,
-    RobotModel,
-    RootMotion,
-    build_tree,
-    expected_wrenches,
-    read_urdf,
-)
-from forcetorque.spatial import rotation_from_rpy
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.pose import rotation_from_rpy
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import BodyTree, build_tree
+from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import (
     PENDULUM_URDF,
     icub,

@@ -8,8 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches
+from forcetorque.base.arrays import FloatArray
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree
 from tests.robot.kinematics import link_poses
 from tests.scenes.robots import joint_xml, link_xml, read_text, robot_xml, sensor_xml
 

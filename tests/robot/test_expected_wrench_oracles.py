@@ -9,10 +9,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.robot import JointMotion, RootMotion, build_tree, expected_wrenches, read_urdf
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.base.wrench import MeasureDirection
 from forcetorque.robot.model import RobotModel, SensorFrame
-from forcetorque.spatial import MeasureDirection
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import example_robot, icub, random_motion
 
 AGREEMENT = 1e-10

@@ -8,18 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.errors import RobotError
-from forcetorque.robot import (
-    JointMotion,
-    RobotModel,
-    RootMotion,
-    SensorFrame,
-    build_tree,
-    expected_wrenches,
-    read_urdf,
-)
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import RobotError
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.robot.model import RobotModel, SensorFrame
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
 from tests.robot.kinematics import link_poses, links_below
 from tests.scenes.robots import (
     PENDULUM_URDF,

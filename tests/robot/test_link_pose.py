@@ -6,9 +6,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import RobotError
-from forcetorque.robot import Joint, JointType, build_tree, link_pose, read_urdf
-from forcetorque.spatial import invert_pose
+from forcetorque.base.errors import RobotError
+from forcetorque.base.pose import invert_pose
+from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.model import Joint, JointType
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
 from tests.robot.kinematics import link_poses
 from tests.scenes.robots import example_robot, icub, random_motion
 

@@ -10,9 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.errors import ShapeError
-from forcetorque.robot import JointMotion, RootMotion, build_tree, expected_wrenches
+from forcetorque.base.errors import ShapeError
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree
 from tests.scenes.robots import PENDULUM_URDF, read_text
 
 

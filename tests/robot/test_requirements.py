@@ -8,16 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.errors import RobotError
-from forcetorque.robot import (
-    JointMotion,
-    RobotModel,
-    RootMotion,
-    build_tree,
-    expected_wrenches,
-    read_urdf,
-    required_joints,
-)
+from forcetorque.base.errors import RobotError
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree, required_joints
+from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import icub, joint_xml, link_xml, random_motion, read_text, robot_xml, sensor_xml
 
 UPRIGHT = RootMotion.fixed([0.0, 0.0, -1.0])

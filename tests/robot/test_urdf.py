@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.robot import JointType, Mimic, read_urdf
+from forcetorque.robot.model import JointType, Mimic
+from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import PENDULUM_URDF, icub, joint_xml, link_xml, read_text, robot_xml
 
 ROUNDING = 1e-15

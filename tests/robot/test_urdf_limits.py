@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.robot import JointLimit, JointType, read_urdf
+from forcetorque.robot.model import JointLimit, JointType
+from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import example_robot, icub, joint_xml, link_xml, read_text, robot_xml
 
 

@@ -9,8 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from forcetorque.errors import ForceTorqueError, FormatError, MissingFileError, RobotError
-from forcetorque.robot import RobotModel, build_tree, read_urdf
+from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError, RobotError
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import PENDULUM_URDF, joint_xml, link_xml, read_text, robot_xml
 
 A_B = (link_xml("a"), link_xml("b"))

@@ -12,21 +12,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from forcetorque.errors import MissingFileError, RobotError
-from forcetorque.robot import (
-    ForceTorqueSensor,
-    Joint,
-    JointLimit,
-    JointType,
-    Mimic,
-    RobotModel,
-    SensorFrame,
-    read_urdf,
-    urdf_text,
-    write_urdf,
-)
+from forcetorque.base.errors import MissingFileError, RobotError
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.pose import make_pose, rotation_from_rpy, rpy_from_rotation
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, Mimic, RobotModel, SensorFrame
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.robot.urdf_text import urdf_text, write_urdf
 from forcetorque.simulation.robots import named_robot
-from forcetorque.spatial import Inertia, MeasureDirection, make_pose, rotation_from_rpy, rpy_from_rotation
 from tests.scenes.robots import example_robot, icub
 
 ROUNDING = 1e-14

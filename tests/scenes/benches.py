@@ -7,9 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.exchange.icub import encode_matrix, write_matrix_file
-from forcetorque.exsitu import THESIS_TABLE, BenchFaults, BenchLoads, Placement, Specimen, read_loads, simulate_specimen
-from forcetorque.spatial import MeasureDirection
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
+from forcetorque.workbench.bench import Placement
+from forcetorque.workbench.loads import THESIS_TABLE, BenchLoads, read_loads
+from forcetorque.workbench.simulated_benches import BenchFaults, Specimen, simulate_specimen
 
 PLACEMENT = Placement(angle_rad=np.deg2rad(0.1), position_m=0.5e-3, nonlinearity=1e-3)
 """How well weights hang: 0.1 degrees, 0.5 mm, 0.1 %."""

@@ -5,18 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import (
-    CalibratedVariable,
-    Calibration,
-    Prior,
-    Provenance,
-    Selection,
-    SensorIdentity,
-    Validity,
-)
-from forcetorque.simulation import distorted_by_mounting, y_shaped_matrix
-from forcetorque.spatial import MeasureDirection
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration, Prior
+from forcetorque.experiment.calibration.provenance import Provenance, Selection, SensorIdentity, Validity
+from forcetorque.simulation.sensor import distorted_by_mounting, y_shaped_matrix
 
 FACTORY = y_shaped_matrix(arm_m=0.02, counts_per_newton=60.0)
 """Prior matrix; N/count, N m/count."""

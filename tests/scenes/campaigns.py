@@ -8,11 +8,13 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.analysis import Campaign, SensorRun, calibrate_sensor
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration, SessionOffset
-from forcetorque.experiment import load_experiment
-from forcetorque.recording import Use
+from forcetorque.base.arrays import FloatArray
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.experiment.calibration.artefact import Calibration, SessionOffset
+from forcetorque.experiment.campaign import Campaign
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Use
 from tests.scenes.studies import SENSOR, VALIDATION
 
 FITTED = "move_cold.toml"

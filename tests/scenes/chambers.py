@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.recording import Recording, write_recording
-from forcetorque.simulation.skin import REFERENCE_PA, TaxelResponses, chamber_recording
-from forcetorque.skin.taxels import Ailment
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import write_recording
+from forcetorque.skin.simulation.chamber import REFERENCE_PA, TaxelResponses, chamber_recording
+from forcetorque.skin.taxels.health import Ailment
 
 TAXELS = 60
 BROKEN = {

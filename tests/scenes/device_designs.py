@@ -7,7 +7,7 @@ from functools import partial
 
 import pytest
 
-from forcetorque.analysis.device.span import device_span
+from forcetorque.device.span import device_span
 
 
 def hardly_optimise(patch: pytest.MonkeyPatch) -> None:
@@ -16,4 +16,4 @@ def hardly_optimise(patch: pytest.MonkeyPatch) -> None:
     Args:
         patch: What takes it back.
     """
-    patch.setattr("forcetorque.analysis.device.device.device_span", partial(device_span, swaps=5))
+    patch.setattr("forcetorque.device.device.device_span", partial(device_span, swaps=5))

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
 
 FINER = 16
 """Steps of the truth in a sample."""

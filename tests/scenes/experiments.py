@@ -10,18 +10,15 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.exchange.icub import encode_matrix, read_matrix_file, write_matrix_file
-from forcetorque.recording import Recording, write_recording
-from forcetorque.robot import read_urdf
-from forcetorque.simulation import (
-    ARM_URDF,
-    SimulatedSensor,
-    distorted_by_mounting,
-    simulate_recording,
-    y_shaped_matrix,
-)
-from forcetorque.spatial import MeasureDirection
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, write_matrix_file
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import write_recording
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.robots import ARM_URDF
+from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
+from forcetorque.simulation.trace import simulate_recording
 from tests.scenes.robots import joint_xml, link_xml
 
 DURATION_S, RATE_HZ = 24.0, 50.0

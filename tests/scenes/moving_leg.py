@@ -9,14 +9,17 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from forcetorque.arrays import FloatArray
-from forcetorque.estimation import Contact
-from forcetorque.recording import Recording, Signal, Stream, read_recording, write_recording
-from forcetorque.robot import JointMotion, RootMotion, read_urdf
-from forcetorque.simulation import SimulatedMotor
-from forcetorque.simulation.skin import Loading
-from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
-from tests.estimation.simulated import Simulation
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.contacts import Contact
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.motor import SimulatedMotor
+from forcetorque.skin.simulation.recording import Loading
+from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.robots import joint_xml, link_xml, robot_xml, sensor_xml
 from tests.scenes.touched import shank_layout, write_table, write_touched
 

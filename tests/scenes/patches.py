@@ -8,14 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.skin import (
-    MODULE_COLUMNS,
-    MODULE_TAXELS,
-    MODULE_THERMAL,
-    PatchDescription,
-    placed_pads,
-)
+from forcetorque.base.arrays import FloatArray
+from forcetorque.skin.layout.layout import PatchDescription
+from forcetorque.skin.layout.modules import MODULE_COLUMNS, MODULE_TAXELS, MODULE_THERMAL, placed_pads
 
 RADIUS_M = 0.06
 """Of a shank; m."""

@@ -9,7 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.robot import JointMotion, RobotModel, read_urdf
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.urdf import read_urdf
 
 PENDULUM_URDF = """
 <robot name="pendulum">

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.exchange.yarp.port_logs import INFO_TWO_STAMPS, write_port
+from tests.formats.yarp.port_logs import INFO_TWO_STAMPS, write_port
 
 EVENTS = ("right forearm", "left forearm")
 FRAMES = ("r_forearm_dh_frame", "l_forearm_dh_frame")

@@ -10,11 +10,13 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.analysis import calibrate_skin
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.exchange.yarp.skin_event import COLUMNS, UNITS
-from forcetorque.recording import Recording, Signal, Stream, read_recording, write_recording
-from forcetorque.simulation.skin import ContactTruth
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.formats.yarp.skin_events import COLUMNS, UNITS
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.skin.simulation.contact import ContactTruth
+from forcetorque.skin.taxels.calibrate import calibrate_skin
 from tests.scenes.experiments import PARQUET, add
 from tests.scenes.touched import write_touched
 

@@ -9,9 +9,10 @@ import tomllib
 from functools import cache
 from pathlib import Path
 
-from forcetorque.exchange.icub import encode_matrix, write_matrix_file
-from forcetorque.recording import write_recording
-from forcetorque.simulation.scenario import Scenario, ScenarioFile, build_scenario, simulate
+from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
+from forcetorque.recording.storage import write_recording
+from forcetorque.simulation.scenario.file import ScenarioFile
+from forcetorque.simulation.scenario.run import Scenario, build_scenario, simulate
 
 SENSOR, SERIAL = "arm_ft", "SIM001"
 

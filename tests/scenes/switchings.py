@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from forcetorque.simulation.scenario import ScenarioFile, bundled_scenario
-from forcetorque.toml_table import read_toml
+from forcetorque.base.toml_file import read_toml
+from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
 
 
 def short_switching(**sensors: Any) -> ScenarioFile:

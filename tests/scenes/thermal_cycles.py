@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
 
 PER_DEGREE = np.array([0.5, -0.3, 2.0, 0.02, 0.01, -0.01])
 """N/degC, N m/degC."""

@@ -10,20 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.analysis import calibrate_skin
-from forcetorque.exchange.skin import write_layout_table
-from forcetorque.recording import Recording, write_recording
-from forcetorque.simulation.skin import (
-    REFERENCE_PA,
-    ContactTruth,
-    Loading,
-    SkinBody,
-    TaxelResponses,
-    chamber_recording,
-    contact_recording,
-    contacts,
-)
-from forcetorque.skin import SkinLayout
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import write_recording
+from forcetorque.skin.layout.formats.layout_table import write_layout_table
+from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.simulation.chamber import REFERENCE_PA, TaxelResponses, chamber_recording
+from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
+from forcetorque.skin.simulation.recording import Loading, contact_recording
+from forcetorque.skin.taxels.calibrate import calibrate_skin
 from tests.scenes.patches import cylinder_patch
 
 OBJECTS = 3

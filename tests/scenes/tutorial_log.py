@@ -13,9 +13,13 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches, read_urdf
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import ARM_URDF
 
 FOLDER = Path(__file__).resolve().parents[2] / "docs" / "tutorial"

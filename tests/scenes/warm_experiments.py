@@ -13,10 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.analysis.runs.samples import samples_over
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.experiment import load_experiment
-from forcetorque.recording import QUANTITIES, Recording, Signal, Stream, read_recording, write_recording
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_samples import samples_over
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.recording.stream import QUANTITIES, Signal, Stream
 from tests.scenes.experiments import MOUNTED, OFFSET, PARQUET, edit
 
 PER_DEGREE = np.array([-0.4, 0.3, -1.2, 0.02, 0.01, -0.015])

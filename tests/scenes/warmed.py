@@ -9,23 +9,20 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.exchange.skin import write_layout_table
-from forcetorque.recording import Recording, write_recording
-from forcetorque.simulation.skin import (
+from forcetorque.base.arrays import FloatArray
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import write_recording
+from forcetorque.skin.layout.formats.layout_table import write_layout_table
+from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.simulation.chamber import (
     NOISE_COUNTS,
     REFERENCE_PA,
     REST_COUNTS,
-    ContactTruth,
-    HeatResponses,
-    SkinBody,
     TaxelResponses,
-    Warmth,
     chamber_recording,
-    contacts,
-    warm_recording,
 )
-from forcetorque.skin import SkinLayout
+from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
+from forcetorque.skin.simulation.heat import HeatResponses, Warmth, warm_recording
 from tests.scenes.patches import cylinder_patch
 from tests.scenes.touched import EXPERIMENT
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
 
 MASS, CENTRE = 1.4, np.array([0.02, -0.01, 0.06])
 BIAS = np.array([12.0, -7.0, 25.0, 0.4, -0.3, 0.2])

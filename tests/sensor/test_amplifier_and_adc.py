@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from forcetorque.errors import SensorError, ShapeError
-from forcetorque.sensor import Adc, Amplifier, Rounding
+from forcetorque.base.errors import SensorError, ShapeError
+from forcetorque.sensor.electronics import Adc, Amplifier, Rounding
 
 STRAIN_2 = Amplifier(amplifier_gain=np.array([8.0, 24, 24, 10, 10, 24]), offset=np.array([0.0, 0.1, 0, 0, 0, -0.2]))
 SIGNED = Adc(bits=16, reference=2.5, signed=True)

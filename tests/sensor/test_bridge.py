@@ -10,18 +10,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from forcetorque.errors import SensorError, ShapeError
-from forcetorque.sensor import (
+from forcetorque.base.errors import SensorError, ShapeError
+from forcetorque.sensor.electronics import (
     FULL_BRIDGE,
     HALF_BRIDGE,
     OPPOSITE_HALF_BRIDGE,
     QUARTER_BRIDGE,
     QUARTER_BRIDGE_WITH_DUMMY,
     Bridge,
-    ResistiveGauge,
     bridge_ratio,
     linearised_bridge_ratio,
 )
+from forcetorque.sensor.gauge.resistive import ResistiveGauge
 
 GAUGE = ResistiveGauge(gauge_factor=2.0, resistance=350.0, temperature_coefficient=1e-3)
 ALL = (QUARTER_BRIDGE, QUARTER_BRIDGE_WITH_DUMMY, HALF_BRIDGE, OPPOSITE_HALF_BRIDGE, FULL_BRIDGE)

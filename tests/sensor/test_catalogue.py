@@ -5,9 +5,15 @@ from __future__ import annotations
 
 import pytest
 
-from forcetorque.errors import FormatError, SensorError
-from forcetorque.sensor import CatalogueSensor, Technology, find_sensor, sensor_catalogue, sensors_with_range
-from forcetorque.sensor.catalogue import read_catalogue
+from forcetorque.base.errors import FormatError, SensorError
+from forcetorque.sensor.catalogue import (
+    CatalogueSensor,
+    Technology,
+    find_sensor,
+    read_catalogue,
+    sensor_catalogue,
+    sensors_with_range,
+)
 
 # Table 1.2 as printed, typed a second time: Fx and Fy, Fz, Tx and Ty, Tz, and the two dimensions in mm
 TABLE_1_2 = {

@@ -6,22 +6,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.sensor import (
-    FULL_BRIDGE,
-    QUARTER_BRIDGE,
-    Adc,
-    Amplifier,
-    Bridge,
-    RawLimits,
-    ResistiveGauge,
-    axis_resolution,
-    coverage,
-    hold_on_saturation,
-    reachable_full_scale,
-    y_shaped_element,
-)
-from forcetorque.sensor.elastic import Beam, Material, RectangularSection
+from forcetorque.base.arrays import FloatArray
+from forcetorque.sensor.elastic.beam import Beam, Material, RectangularSection
+from forcetorque.sensor.elastic.element import y_shaped_element
+from forcetorque.sensor.electronics import FULL_BRIDGE, QUARTER_BRIDGE, Adc, Amplifier, Bridge, hold_on_saturation
+from forcetorque.sensor.full_scale import RawLimits, axis_resolution, coverage, reachable_full_scale
+from forcetorque.sensor.gauge.resistive import ResistiveGauge
 
 ELEMENT = y_shaped_element(
     beam=Beam(

@@ -6,8 +6,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import SensorError, ShapeError
-from forcetorque.sensor import FullScale, all_channels_full_scale, axis_resolution, full_scale, quantisation_noise
+from forcetorque.base.errors import SensorError, ShapeError
+from forcetorque.sensor.full_scale import (
+    FullScale,
+    all_channels_full_scale,
+    axis_resolution,
+    full_scale,
+    quantisation_noise,
+)
 
 MATRIX = np.vstack(
     [0.02 * np.array([[1.0, -2, 0, 0, 0, 1], [0, 1, 1, 0, -1, 0], [1, 1, 1, 0, 0, 3]]), 1e-4 * np.eye(6)[:3]]

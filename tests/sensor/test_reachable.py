@@ -8,8 +8,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from forcetorque.errors import SensorError, ShapeError
-from forcetorque.sensor import RawLimits, all_channels_full_scale, coverage, reachable_full_scale
+from forcetorque.base.errors import SensorError, ShapeError
+from forcetorque.sensor.full_scale import RawLimits, all_channels_full_scale, coverage, reachable_full_scale
 
 RNG = np.random.default_rng(1)
 UNITS = np.array([1.0, 1, 1, 0.02, 0.02, 0.02])[:, None]

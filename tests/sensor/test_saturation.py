@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import SensorError, ShapeError
-from forcetorque.sensor import hold_on_saturation
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import SensorError, ShapeError
+from forcetorque.sensor.electronics import hold_on_saturation
 
 COUNTS = arrays(
     np.float64,

@@ -9,17 +9,16 @@ from types import MappingProxyType
 
 import numpy as np
 
-from forcetorque.robot import RobotModel
-from forcetorque.simulation import (
-    Movement,
-    Stance,
-    Stand,
-    random_placement,
+from forcetorque.robot.model import RobotModel
+from forcetorque.simulation.motions.movement import Movement
+from forcetorque.simulation.motions.on_both_feet import (
     squat_movement,
     standing_movement,
     stepping_movement,
     sway_movement,
 )
+from forcetorque.simulation.motions.stance import Stance, random_placement
+from forcetorque.simulation.motions.stand import Stand
 from tests.simulation.stands import DOWN, robot
 
 DURATION_S = 10.0

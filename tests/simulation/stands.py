@@ -10,9 +10,13 @@ from types import MappingProxyType
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.robot import JointMotion, RobotModel, read_urdf
-from forcetorque.simulation import ARM_URDF, BIPED_URDF, Movement, Stand
+from forcetorque.base.arrays import FloatArray
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.motions.movement import Movement
+from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.robots import ARM_URDF, BIPED_URDF
 from tests.scenes.robots import icub
 
 ROBOTS: Mapping[str, Callable[[], Path]] = MappingProxyType(

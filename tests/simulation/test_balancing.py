@@ -6,11 +6,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import RobotError, ShapeError
-from forcetorque.simulation import balancing_movement
-from forcetorque.simulation.motions.balancing import balancing_postures
-from forcetorque.simulation.motions.legs import legs_of
-from forcetorque.simulation.motions.weight import weight_at_support
+from forcetorque.base.errors import RobotError, ShapeError
+from forcetorque.simulation.motions.insitu import balancing_movement, balancing_postures, weight_at_support
+from forcetorque.simulation.motions.limbs import legs_of
 from tests.simulation.stands import POLES, ROBOTS, arm, on_foot, on_pole, times
 
 

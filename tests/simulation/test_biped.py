@@ -6,9 +6,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.robot import JointMotion, build_tree, link_pose
-from forcetorque.simulation import BIPED_URDF
-from forcetorque.spatial import MeasureDirection, skew
+from forcetorque.base.pose import skew
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.tree import build_tree
+from forcetorque.simulation.robots import BIPED_URDF
 from tests.simulation.stands import robot
 
 

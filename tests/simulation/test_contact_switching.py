@@ -10,10 +10,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import RobotError, ShapeError
-from forcetorque.simulation import Movement, PhaseKind, contact_switching_movement
-from forcetorque.spatial import cross, transform_wrench
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import RobotError, ShapeError
+from forcetorque.base.pose import cross
+from forcetorque.base.wrench import transform_wrench
+from forcetorque.simulation.motions.contact_switching import contact_switching_movement
+from forcetorque.simulation.motions.movement import Movement, PhaseKind
 from tests.simulation.stances import IMU_LINKS, stance
 from tests.simulation.stands import ROBOTS, on_pole, require_exact_derivatives, require_inside_limits, robot
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import ShapeError
+from forcetorque.base.errors import ShapeError
 from forcetorque.simulation.effects import Creep, Crosstalk, Noise, ScrewPattern, ThermalDrift, mounted
 
 RATE = 100.0

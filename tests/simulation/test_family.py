@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from scipy.stats import ks_2samp
 
-from forcetorque.exchange.icub import read_matrix_file
-from forcetorque.simulation import FAMILIES
-from forcetorque.simulation.family import CHANNEL_ANGLES, IN_PLANE, Y_ELEMENT
+from forcetorque.formats.icub_matrix import read_matrix_file
+from forcetorque.simulation.family import CHANNEL_ANGLES, FAMILIES, IN_PLANE, Y_ELEMENT
 
 SPECIMENS = 300
 SIGNIFICANCE = 0.05

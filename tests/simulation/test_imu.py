@@ -6,9 +6,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import RobotError
+from forcetorque.base.errors import RobotError
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.simulation import SimulatedImu, trace_movement
+from forcetorque.simulation.imu import SimulatedImu
+from forcetorque.simulation.trace import trace_movement
 from tests.simulation.stances import on_both_feet
 
 

@@ -6,10 +6,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.errors import RobotError
-from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches
-from forcetorque.simulation import with_load
+from forcetorque.base.errors import RobotError
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree
+from forcetorque.simulation.load import with_load
 from tests.simulation.stands import robot
 
 AT = np.array([0.03, -0.02, 0.05])

@@ -8,20 +8,14 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from forcetorque.errors import RobotError, ShapeError
-from forcetorque.estimation import Contact
-from forcetorque.robot import expected_wrenches
-from forcetorque.simulation import (
-    Movement,
-    MovementKind,
-    Stand,
-    Touch,
-    balancing_movement,
-    grid_movement,
-    random_movement,
-    z_torque_movement,
-)
-from forcetorque.spatial import invert_pose
+from forcetorque.base.errors import RobotError, ShapeError
+from forcetorque.base.pose import invert_pose
+from forcetorque.robot.contacts import Contact
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.simulation.motions.insitu import balancing_movement, grid_movement, z_torque_movement
+from forcetorque.simulation.motions.movement import Movement, MovementKind, Touch
+from forcetorque.simulation.motions.random_smooth import random_movement
+from forcetorque.simulation.motions.stand import Stand
 from tests.simulation.stances import MOVEMENTS
 from tests.simulation.stands import (
     DOWN,

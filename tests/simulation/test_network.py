@@ -10,13 +10,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.errors import RecordingError
-from forcetorque.exchange.yarp import PortKind, StreamPort, read_analog, read_state_ext, write_ports
-from forcetorque.recording import Finding, Recording, Stream
+from forcetorque.base.errors import RecordingError
+from forcetorque.formats.yarp.discover import PortKind
+from forcetorque.formats.yarp.plain_ports import read_analog
+from forcetorque.formats.yarp.state_ext import read_state_ext
+from forcetorque.formats.yarp.writing import StreamPort, write_ports
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.quality import stream_findings
-from forcetorque.simulation import (
-    calibrated_by_board,
+from forcetorque.recording.recording import Finding, Recording
+from forcetorque.recording.stream import Stream
+from forcetorque.simulation.network import (
     fail_groups,
     jitter_stamps,
     lose_messages,
@@ -24,6 +27,7 @@ from forcetorque.simulation import (
     repeat_stamps,
     step_back,
 )
+from forcetorque.simulation.sensor import calibrated_by_board
 from tests.recording.recordings import described, even_stamps, recording, refused, signal, stream
 
 N = 500

@@ -8,12 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.estimation import Question, estimate
-from forcetorque.robot import Wrenches, build_tree, expected_wrenches, link_pose
-from forcetorque.robot.kinematics import body_pose
-from forcetorque.simulation import Movement
-from forcetorque.spatial import transform_wrench
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.wrench import transform_wrench
+from forcetorque.robot.contacts import Wrenches
+from forcetorque.robot.kinematics import body_pose, link_pose
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree
+from forcetorque.simulation.motions.movement import Movement
 from tests.simulation.stances import IMU_LINKS, MOVEMENTS, on_both_feet, stance
 from tests.simulation.stands import ROBOTS, require_exact_derivatives, times
 

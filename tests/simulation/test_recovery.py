@@ -8,10 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.calibration import DataSet, calibrate
-from forcetorque.robot import read_urdf
-from forcetorque.simulation import ARM_URDF, FAMILIES, SimulatedSensor, Stand, random_movement
+from forcetorque.calibration.thesis.calibrate import calibrate
+from forcetorque.experiment.calibration.moments import DataSet
+from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.effects import Creep, Crosstalk, ThermalDrift
+from forcetorque.simulation.family import FAMILIES
+from forcetorque.simulation.motions.random_smooth import random_movement
+from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.robots import ARM_URDF
+from forcetorque.simulation.sensor import SimulatedSensor
 
 RATE = 100.0
 SECONDS = np.arange(0.0, 120.0, 1.0 / RATE)

@@ -6,10 +6,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import RobotError
-from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches, link_pose
-from forcetorque.simulation import RobotErrors, sway_movement
-from forcetorque.spatial import skew
+from forcetorque.base.errors import RobotError
+from forcetorque.base.pose import skew
+from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree
+from forcetorque.simulation.motions.on_both_feet import sway_movement
+from forcetorque.simulation.robot_errors import RobotErrors
 from tests.simulation.stances import stance
 from tests.simulation.stands import ROBOTS, robot
 

@@ -6,17 +6,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.recording import Recording
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches, read_urdf
-from forcetorque.simulation import (
-    ARM_URDF,
-    SimulatedSensor,
-    distorted_by_mounting,
-    random_smooth_motion,
-    simulate_recording,
-    y_shaped_matrix,
-)
+from forcetorque.recording.recording import Recording
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.motions.random_smooth import random_smooth_motion
+from forcetorque.simulation.robots import ARM_URDF
+from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
+from forcetorque.simulation.trace import simulate_recording
 
 RANGES = {"a": (-1.0, 2.0), "b": (0.0, 0.1)}
 

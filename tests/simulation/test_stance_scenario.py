@@ -8,16 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.errors import RobotError
-from forcetorque.simulation.scenario import (
-    Scenario,
-    ScenarioFile,
-    build_scenario,
-    bundled_scenario,
-    simulate,
-    trace_recordings,
-)
-from forcetorque.toml_table import read_toml
+from forcetorque.base.errors import RobotError
+from forcetorque.base.toml_file import read_toml
+from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
+from forcetorque.simulation.scenario.run import Scenario, build_scenario, simulate, trace_recordings
 
 
 def _content(*motions: dict[str, Any], **changes: Any) -> dict[str, Any]:

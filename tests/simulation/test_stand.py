@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.errors import RobotError, ShapeError
-from forcetorque.robot import RobotModel
-from forcetorque.simulation import Stand
+from forcetorque.base.errors import RobotError, ShapeError
+from forcetorque.robot.model import RobotModel
+from forcetorque.simulation.motions.stand import Stand
 from tests.scenes.robots import joint_xml, link_xml, read_text, robot_xml
 from tests.simulation.stands import DOWN, arm, robot
 

@@ -9,17 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.errors import FormatError
+from forcetorque.base.errors import FormatError
+from forcetorque.base.toml_file import read_toml
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.simulation.scenario import (
-    Scenario,
-    ScenarioFile,
-    build_scenario,
-    bundled_scenario,
-    simulate,
-    trace_recordings,
-)
-from forcetorque.toml_table import read_toml
+from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
+from forcetorque.simulation.scenario.run import Scenario, build_scenario, simulate, trace_recordings
 from tests.scenes.switchings import short_switching
 
 READ_N = 1e-6

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from forcetorque.errors import ShapeError
-from forcetorque.simulation import Waypoints
+from forcetorque.base.errors import ShapeError
+from forcetorque.simulation.motions.waypoints import Waypoints
 from tests.simulation.stands import require_exact_derivatives
 
 NAMES = ("a", "b")

@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.errors import RobotError, ShapeError
-from forcetorque.simulation import Stand, grid_movement, z_torque_movement
+from forcetorque.base.errors import RobotError, ShapeError
+from forcetorque.simulation.motions.insitu import grid_movement, z_torque_movement
+from forcetorque.simulation.motions.stand import Stand
 from tests.scenes.robots import PENDULUM_URDF, read_text
 from tests.simulation.stands import DOWN, ROBOTS, arm, on_foot, on_pole, times
 

@@ -16,21 +16,20 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.exchange.skin import describe_patch
-from forcetorque.simulation.skin import (
-    REFERENCE_PA,
-    ContactTruth,
-    SkinBody,
-    TaxelResponses,
-    chamber_recording,
-    contacts,
-)
-from forcetorque.skin import PressureTable, SkinLayout, rebuilt_normals
-from forcetorque.skin.contact import PatchReader, PressureFrame, find_contacts
-from forcetorque.skin.taxels import CurveKind, fit_curve, pressure_cycle, taxel_response
-from forcetorque.skin.taxels.cycle import REST_SHARE
-from forcetorque.skin.wrench import SkinPatch, WrenchMethod
+from forcetorque.base.arrays import FloatArray
+from forcetorque.skin.contact.contacts import find_contacts
+from forcetorque.skin.contact.reading import PatchReader, PressureFrame
+from forcetorque.skin.layout.formats.registry import describe_patch
+from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.layout.normals import rebuilt_normals
+from forcetorque.skin.simulation.chamber import REFERENCE_PA, TaxelResponses, chamber_recording
+from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
+from forcetorque.skin.taxels.curve import CurveKind, fit_curve
+from forcetorque.skin.taxels.cycle import REST_SHARE, pressure_cycle
+from forcetorque.skin.taxels.health import taxel_response
+from forcetorque.skin.taxels.pressure_table import PressureTable
+from forcetorque.skin.wrench.operator import WrenchMethod
+from forcetorque.skin.wrench.patch import SkinPatch
 
 TUNED_SEED: Final = 1
 JUDGED_SEED: Final = 2

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.skin.surface import SkinSurface, rim_strip
-from forcetorque.skin.wrench import SkinPatch
+from forcetorque.base.arrays import FloatArray
+from forcetorque.skin.surface.rim import rim_strip
+from forcetorque.skin.surface.surface import SkinSurface
+from forcetorque.skin.wrench.patch import SkinPatch
 
 
 def outline_wrench(patch: SkinPatch) -> FloatArray:

@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.skin import SkinLayout
+from forcetorque.base.arrays import FloatArray
+from forcetorque.skin.layout.layout import SkinLayout
 
 PITCH_M: Final = 6.533e-3
 

@@ -15,22 +15,19 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.recording import Recording
-from forcetorque.simulation.skin import (
-    ON_SKIN,
-    ContactTruth,
-    HeatResponses,
-    SkinBody,
-    TaxelResponses,
-    Warmth,
-    contacts,
-    warm_recording,
-)
-from forcetorque.skin import PressureTable, SkinLayout
-from forcetorque.skin.contact import PatchFollower, PatchReader, SkinContacts, find_contacts
-from forcetorque.skin.temperature import HeatGains, TaxelDrift, fit_warm_up
-from forcetorque.skin.wrench import SkinPatch
+from forcetorque.base.arrays import FloatArray
+from forcetorque.recording.recording import Recording
+from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
+from forcetorque.skin.contact.following import PatchFollower
+from forcetorque.skin.contact.reading import PatchReader
+from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.simulation.chamber import TaxelResponses
+from forcetorque.skin.simulation.contact import ON_SKIN, ContactTruth, SkinBody, contacts
+from forcetorque.skin.simulation.heat import HeatResponses, Warmth, warm_recording
+from forcetorque.skin.taxels.pressure_table import PressureTable
+from forcetorque.skin.temperature.gains import HeatGains, TaxelDrift
+from forcetorque.skin.temperature.warm_up import fit_warm_up
+from forcetorque.skin.wrench.patch import SkinPatch
 from tests.skin.contact_trials import chamber_table, leg_layout
 
 MASS_KG: Final = 1.0

@@ -8,10 +8,12 @@ from typing import Final
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import ShapeError, SkinError
-from forcetorque.skin.contact import NO_CONTACT, PressureFrame, clusters, find_contacts, lobes
-from forcetorque.skin.wrench import SkinPatch
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ShapeError, SkinError
+from forcetorque.skin.contact.clusters import NO_CONTACT, clusters
+from forcetorque.skin.contact.contacts import find_contacts, lobes
+from forcetorque.skin.contact.reading import PressureFrame
+from forcetorque.skin.wrench.patch import SkinPatch
 from tests.skin.skins import PITCH_M, plane_layout
 
 PLATE: Final = plane_layout(rows=20, columns=24)

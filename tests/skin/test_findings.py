@@ -9,9 +9,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.skin import Defect, LayoutFinding, PatchDescription, layout_findings, placed_pads
-from forcetorque.skin.module import MODULE_TAXELS
+from forcetorque.base.arrays import FloatArray
+from forcetorque.skin.layout.findings import layout_findings
+from forcetorque.skin.layout.findings.finding import Defect, LayoutFinding
+from forcetorque.skin.layout.layout import PatchDescription
+from forcetorque.skin.layout.modules import MODULE_TAXELS, placed_pads
 from tests.scenes.patches import HEAD_LINES, collapsed, cylinder_patch, moved_module, without_modules
 
 SOUND = cylinder_patch()

@@ -8,12 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.simulation.skin import Warmth
-from forcetorque.skin import PressureTable
-from forcetorque.skin.contact import PatchFollower, PatchReader, SkinContacts
-from forcetorque.skin.temperature import HeatGains, fit_warm_up
-from forcetorque.skin.wrench import SkinPatch
+from forcetorque.base.arrays import FloatArray
+from forcetorque.skin.contact.contacts import SkinContacts
+from forcetorque.skin.contact.following import PatchFollower
+from forcetorque.skin.contact.reading import PatchReader
+from forcetorque.skin.simulation.heat import Warmth
+from forcetorque.skin.taxels.pressure_table import PressureTable
+from forcetorque.skin.temperature.gains import HeatGains
+from forcetorque.skin.temperature.warm_up import fit_warm_up
+from forcetorque.skin.wrench.patch import SkinPatch
 from tests.scenes.warmed import HAND, HELD, WARM_UP, WarmShank, counts_of
 from tests.skin.contact_trials import chamber_table
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.errors import ShapeError, SkinError
-from forcetorque.skin import SkinLayout
+from forcetorque.base.errors import ShapeError, SkinError
+from forcetorque.skin.layout.layout import SkinLayout
 
 SOUND: dict[str, Any] = {
     "name": "palm",

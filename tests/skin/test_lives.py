@@ -6,9 +6,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.skin.contact import ContactLives
-from forcetorque.skin.contact.lives import PAUSE_S, REACH_M
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.skin.contact.identities import PAUSE_S, REACH_M, ContactLives
 
 PITCH_M = 0.0065
 SIZE = 40

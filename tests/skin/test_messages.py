@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import SkinError
+from forcetorque.base.errors import SkinError
 from forcetorque.skin.messages import require_counts
 
 MESSAGES = np.full((5, 3), 240.0)

@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import SkinError
-from forcetorque.skin import PatchDescription, patch_normals, rebuilt_normals
-from forcetorque.skin.surface import skin_surface
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import SkinError
+from forcetorque.skin.layout.layout import PatchDescription
+from forcetorque.skin.layout.normals import patch_normals, rebuilt_normals
+from forcetorque.skin.surface.surface import skin_surface
 from tests.scenes.patches import cylinder_patch, ellipsoid_patch
 
 CYLINDER = cylinder_patch(across=9, along=4)

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from forcetorque.errors import SkinError
-from forcetorque.skin import match_pressure
+from forcetorque.base.errors import SkinError
+from forcetorque.formats.array_file.pressure_clock import match_pressure
 
 PERIOD_S, ROWS = 0.0205, 6000
 RIGHT_S = 0.1

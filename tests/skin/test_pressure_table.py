@@ -10,11 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.errors import FormatError, MissingFileError, ShapeError, SkinError
-from forcetorque.exchange.skin.pressure_table import write_pressure_table
-from forcetorque.skin import PatchCalibration, PressureTable, read_patch_calibration
-from forcetorque.skin.patch_calibration import CalibratedTaxel, PatchProvenance
-from forcetorque.skin.taxels import CurveKind
+from forcetorque.base.errors import FormatError, MissingFileError, ShapeError, SkinError
+from forcetorque.skin.taxels.curve import CurveKind
+from forcetorque.skin.taxels.patch_calibration import (
+    CalibratedTaxel,
+    PatchCalibration,
+    PatchProvenance,
+    read_patch_calibration,
+)
+from forcetorque.skin.taxels.pressure_table import PressureTable, write_pressure_table
 
 REST = np.array([240.0, 0.0, 241.5, 239.0])
 """The second column is no taxel, the last one is broken."""

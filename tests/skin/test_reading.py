@@ -8,10 +8,9 @@ from typing import Final
 import numpy as np
 import pytest
 
-from forcetorque.errors import SkinError
-from forcetorque.skin import PressureTable
-from forcetorque.skin.contact import PatchReader
-from forcetorque.skin.contact.reading import WAKING
+from forcetorque.base.errors import SkinError
+from forcetorque.skin.contact.reading import WAKING, PatchReader
+from forcetorque.skin.taxels.pressure_table import PressureTable
 from tests.skin.skins import plane_layout
 
 TAXELS: Final = 2000

@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.skin import SkinLayout
-from forcetorque.skin.wrench import SkinPatch
-from forcetorque.spatial import make_pose, rotation_from_rpy, transform_wrench
+from forcetorque.base.pose import make_pose, rotation_from_rpy
+from forcetorque.base.wrench import transform_wrench
+from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.wrench.patch import SkinPatch
 from tests.skin.contact_trials import leg_drawing, leg_layout
 from tests.skin.outline import outline_wrench
 

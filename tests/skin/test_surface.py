@@ -6,10 +6,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import SkinError
-from forcetorque.skin.surface import HALF_PITCH_M, LONGEST_EDGE_M, edge_taxels, rim_strip, skin_surface, unrolled
-from forcetorque.skin.surface.triangulation import surface_triangles
-from forcetorque.spatial import rotation_from_rpy
+from forcetorque.base.errors import SkinError
+from forcetorque.base.pose import rotation_from_rpy
+from forcetorque.skin.surface.rim import HALF_PITCH_M, edge_taxels, rim_strip
+from forcetorque.skin.surface.surface import skin_surface, unrolled
+from forcetorque.skin.surface.triangulation import LONGEST_EDGE_M, surface_triangles
 from tests.skin.skins import PITCH_M, cylinder, plane_lattice
 
 ROUNDING = 1e-12

@@ -12,8 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.simulation.skin import SkinBody, Warmth
-from forcetorque.skin.wrench import SkinPatch
+from forcetorque.skin.simulation.contact import SkinBody
+from forcetorque.skin.simulation.heat import Warmth
+from forcetorque.skin.wrench.patch import SkinPatch
 from tests.skin.contact_trials import leg_layout
 from tests.skin.temperature_trials import INSIDE, MINUTES, OUTSIDE, HeldContact, WarmPatch, share_within
 

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
 
 GRAVITY: Final = 9.81
 """That of the thesis; m/s2."""

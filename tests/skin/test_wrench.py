@@ -9,11 +9,13 @@ from typing import Final
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import ShapeError, SkinError
-from forcetorque.skin import SkinLayout
-from forcetorque.skin.wrench import SkinPatch, WrenchMethod
-from forcetorque.spatial import make_pose, rotation_from_rpy, transform_wrench
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ShapeError, SkinError
+from forcetorque.base.pose import make_pose, rotation_from_rpy
+from forcetorque.base.wrench import transform_wrench
+from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.wrench.operator import WrenchMethod
+from forcetorque.skin.wrench.patch import SkinPatch
 from tests.scenes.patches import cylinder_patch, ellipsoid_patch
 from tests.skin.outline import outline_wrench
 from tests.skin.skins import plane_layout

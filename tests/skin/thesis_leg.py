@@ -14,32 +14,25 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.analysis import calibrate_skin
-from forcetorque.arrays import FloatArray
-from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.estimation import Contact
-from forcetorque.exchange.skin import write_layout_table
-from forcetorque.recording import Recording, Signal, Stream, write_recording
-from forcetorque.robot import JointMotion, RootMotion, read_urdf
-from forcetorque.simulation import BIPED_URDF
-from forcetorque.simulation.skin import (
-    ON_SKIN,
-    ClothStrip,
-    ContactTruth,
-    FlatWeight,
-    HeatResponses,
-    Loading,
-    MotorHeat,
-    SkinBody,
-    SkinContact,
-    TaxelResponses,
-    Warmth,
-    contact_recording,
-    warm_recording,
-)
-from forcetorque.skin import SkinLayout
-from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
-from tests.estimation.simulated import Simulation
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import write_recording
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.contacts import Contact
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.robots import BIPED_URDF
+from forcetorque.skin.layout.formats.layout_table import write_layout_table
+from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.simulation.chamber import TaxelResponses
+from forcetorque.skin.simulation.contact import ON_SKIN, ContactTruth, SkinBody, SkinContact
+from forcetorque.skin.simulation.heat import HeatResponses, MotorHeat, Warmth, warm_recording
+from forcetorque.skin.simulation.objects import ClothStrip, FlatWeight
+from forcetorque.skin.simulation.recording import Loading, contact_recording
+from forcetorque.skin.taxels.calibrate import calibrate_skin
+from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.warmed import chamber_messages
 
 LINK: Final = "r_shin"

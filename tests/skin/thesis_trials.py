@@ -16,12 +16,14 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.analysis import WrenchChoice, corrections_of, estimate_experiment, skin_wrench
-from forcetorque.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.experiment import load_touched_robot
-from forcetorque.simulation.skin import Loading
-from forcetorque.skin import SkinLayout
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.estimation.estimate import estimate_experiment
+from forcetorque.experiment.loading import load_touched_robot
+from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.simulation.recording import Loading
+from forcetorque.skin.wrench.wrench import WrenchChoice, skin_wrench
 from tests.skin.contact_trials import SIMPLE_AREA_M2, leg_layout
 from tests.skin.thesis_leg import KNEE, LOADS, Load, LoadTruth, write_leg
 

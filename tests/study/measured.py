@@ -7,14 +7,13 @@ from functools import cache
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import DataSet, LinearVariable, WrenchModel
-from forcetorque.evaluation.offset import Offset
-from forcetorque.study import (
-    Study,
-    ValidationSet,
-    run_study,
-)
+from forcetorque.base.arrays import FloatArray
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.moments import DataSet
+from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from forcetorque.experiment.offset_policy import Offset
+from forcetorque.experiment.validation_set import ValidationSet
+from forcetorque.study.one_sensor import Study, run_study
 
 RATE_HZ = 100.0
 NOISE = np.array([0.3, 0.3, 0.3, 0.01, 0.01, 0.01])

@@ -10,27 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import (
-    ESTIMATION_TYPES,
-    DataSet,
-    Moments,
-    WrenchModel,
-    calibrate,
-    pooled,
-    sphere_centre,
-)
-from forcetorque.errors import FitError
-from forcetorque.study import (
-    SWEEP_LAMBDAS,
-    TABLE_FACTOR,
-    TABLE_LAMBDAS,
-    Candidate,
-    Fits,
-    fit_candidates,
-    relative_lambda,
-    run_study,
-)
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError
+from forcetorque.calibration.thesis.calibrate import calibrate, sphere_centre
+from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
+from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
+from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from forcetorque.study.candidate import SWEEP_LAMBDAS, TABLE_FACTOR, TABLE_LAMBDAS, Candidate, relative_lambda
+from forcetorque.study.fitting import Fits, fit_candidates
+from forcetorque.study.one_sensor import run_study
 from tests.study.measured import COMBINATIONS, FITTED, JUDGED, PRIOR, TEMPERATURE, TRUTH, grid, moving, study
 
 SAME = 1e-8

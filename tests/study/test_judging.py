@@ -10,18 +10,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import WrenchModel
-from forcetorque.errors import FitError, ShapeError
-from forcetorque.evaluation import PooledErrors
-from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
-from forcetorque.study import (
-    OFFSET_S,
-    Judgement,
-    ValidationSet,
-    judge,
-    with_offset,
-)
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError, ShapeError
+from forcetorque.evaluation.candidate_errors import PooledErrors
+from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
+from forcetorque.experiment.validation_set import OFFSET_S, ValidationSet
+from forcetorque.study.validation import Judgement, judge, with_offset
 from tests.study import measured
 from tests.study.measured import JUDGED, NOISE, TRUTH, errors_by_samples, judged, study
 

@@ -9,18 +9,12 @@ from itertools import product
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import WrenchModel
-from forcetorque.evaluation import CandidateErrors, PooledErrors
-from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
-from forcetorque.study import (
-    Judgement,
-    assembled,
-    best_by_axis,
-    best_by_magnitude,
-    judge,
-    scored_across_sessions,
-)
+from forcetorque.base.arrays import FloatArray
+from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors
+from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
+from forcetorque.study.selection import assembled, best_by_axis, best_by_magnitude, scored_across_sessions
+from forcetorque.study.validation import Judgement, judge
 from tests.study.measured import JUDGED, PRIOR, TRUTH, study
 
 EXACT = 1e-10

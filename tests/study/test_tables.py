@@ -9,18 +9,15 @@ from functools import cache
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import ESTIMATION_TYPES, WrenchModel
-from forcetorque.errors import FitError
-from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
-from forcetorque.spatial import WRENCH_COMPONENTS
-from forcetorque.study import (
-    TABLE_LAMBDAS,
-    Candidate,
-    Study,
-    run_study,
-    tables,
-)
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError
+from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
+from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
+from forcetorque.study import thesis_tables as tables
+from forcetorque.study.candidate import TABLE_LAMBDAS, Candidate
+from forcetorque.study.one_sensor import Study, run_study
 from tests.study.measured import COMBINATIONS, FITTED, JUDGED, PRIOR, TEMPERATURE, errors_by_samples, study
 
 EXACT = 1e-9

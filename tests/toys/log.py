@@ -10,9 +10,10 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading, LogTable
-from forcetorque.recording import Finding, Recording, Signal, Stream
-from forcetorque.toml_table import Text
+from forcetorque.base.toml_file import Text
+from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable
+from forcetorque.recording.recording import Finding, Recording
+from forcetorque.recording.stream import Signal, Stream
 
 FILE = "toy.json"
 

@@ -7,13 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.experiment import load_experiment
-from forcetorque.viewer import BuiltScene, build_scene
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.viewer.build import BuiltScene, build_scene
 from forcetorque.viewer.page import ASSETS
-from tests.scenes.arm_folder import arm, intact
 from tests.scenes.experiments import PARQUET
-
-__all__ = ["arm", "intact"]
 
 
 @pytest.fixture(scope="session")

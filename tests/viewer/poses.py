@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from forcetorque.arrays import FloatArray
-from forcetorque.viewer import BuiltScene
-from forcetorque.viewer.block import read_array
+from forcetorque.base.arrays import FloatArray
+from forcetorque.viewer.arrays import read_array
+from forcetorque.viewer.build import BuiltScene
 
 
 def link_poses(built: BuiltScene, sample: int) -> dict[str, FloatArray]:

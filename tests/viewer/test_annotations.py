@@ -15,12 +15,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from forcetorque.errors import ForceTorqueError
-from forcetorque.experiment import load_experiment
-from forcetorque.viewer import BuiltScene, build_scene
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.experiment.loading import load_experiment
 from forcetorque.viewer.annotations import Annotations, intervals_toml, samples_csv, save_annotations
-from forcetorque.viewer.block import read_array
-from tests.experiment.test_wrist_load import _write as write_wrist
+from forcetorque.viewer.arrays import read_array
+from forcetorque.viewer.build import BuiltScene, build_scene
+from tests.payload.test_wrist_load import _write as write_wrist
 from tests.scenes.experiments import JOINTS, PARQUET, add, edit
 
 

@@ -11,20 +11,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import (
-    SensorRun,
-    calibrate_sensor,
-)
-from forcetorque.analysis.runs.samples import samples_over
-from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.calibration import Calibration
-from forcetorque.errors import ExperimentError, RecordingError, SerialNumberError
-from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.recording import Stream, Use
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.errors import ExperimentError, RecordingError, SerialNumberError
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.sensor_samples import samples_over
 from forcetorque.recording.alignment import interpolate
-from forcetorque.spatial import MeasureDirection
-from forcetorque.viewer import BuiltScene, build_scene
-from forcetorque.viewer.block import read_array
+from forcetorque.recording.recording import Use
+from forcetorque.recording.stream import Stream
+from forcetorque.viewer.arrays import read_array
+from forcetorque.viewer.build import BuiltScene, build_scene
 from forcetorque.viewer.scene import ArrayRef, Sensor, WrenchSeries, scene_json
 from tests.scenes.experiments import DURATION_S, JOINTS, PARQUET, RATE_HZ, TWO, YARP, add, edit
 

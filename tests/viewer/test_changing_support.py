@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from forcetorque.arrays import FloatArray
-from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.experiment.simulated.recordings import write_scenario
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.pose import invert_pose, make_pose
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.simulation import Movement
-from forcetorque.simulation.scenario import build_scenario, simulate
-from forcetorque.spatial import invert_pose, make_pose
+from forcetorque.simulation.motions.movement import Movement
+from forcetorque.simulation.recordings.recordings import write_scenario
+from forcetorque.simulation.scenario.run import build_scenario, simulate
 from forcetorque.viewer.instants import posture_at, shown_stream
 from forcetorque.viewer.root_pose import root_poses
 from tests.scenes.switchings import short_switching

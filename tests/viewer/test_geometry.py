@@ -9,13 +9,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.errors import FormatError, MissingExtraError
-from forcetorque.robot import read_urdf
-from forcetorque.viewer.block import Block, read_array
-from forcetorque.viewer.geometry import Geometry, robot_geometry
-from forcetorque.viewer.mesh_files import Triangles, find_mesh, package_folders, read_mesh
-from forcetorque.viewer.simplify import MOST_TRIANGLES, clustered, simplified
-from forcetorque.viewer.visuals import GREY, read_visuals
+from forcetorque.base.errors import FormatError, MissingExtraError
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.viewer.arrays import Block, read_array
+from forcetorque.viewer.geometry import GREY, Geometry, read_visuals, robot_geometry
+from forcetorque.viewer.meshes import (
+    MOST_TRIANGLES,
+    Triangles,
+    clustered,
+    find_mesh,
+    package_folders,
+    read_mesh,
+    simplified,
+)
 from tests.scenes.robots import PENDULUM_URDF, icub, joint_xml, robot_xml
 
 pytest.importorskip("trimesh")

@@ -11,13 +11,20 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.recording import Interval, Recording, Signal, Stream, Support, Use
-from forcetorque.robot import JointMotion, RobotModel, build_tree, link_pose, read_urdf
-from forcetorque.spatial import MeasureDirection, invert_pose
-from forcetorque.viewer import BuiltScene, build_scene
+from forcetorque.base.pose import invert_pose
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.recording.recording import Interval, Recording, Support, Use
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.viewer.build import BuiltScene, build_scene
 from forcetorque.viewer.root_pose import upright
-from tests.estimation.random_robots import robots
+from tests.robot.mechanics.random_robots import robots
 from tests.scenes.experiments import PARQUET
 from tests.scenes.robots import example_robot, icub
 from tests.viewer.poses import link_poses

@@ -13,8 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.errors import ForceTorqueError, MissingFileError
-from forcetorque.viewer import MOST_SAMPLES, BuiltScene, page_of, write_page
+from forcetorque.base.errors import ForceTorqueError, MissingFileError
+from forcetorque.viewer.build import BuiltScene
+from forcetorque.viewer.page import MOST_SAMPLES, page_of, write_page
 from forcetorque.viewer.scene import scene_json
 
 EVIL = "</script><script>alert(1)</script><!-- <b>& é \u2028"

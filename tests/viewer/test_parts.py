@@ -9,15 +9,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import SensorRun, calibrate_sensor
-from forcetorque.analysis.joint.part_residuals import part_residuals
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration
-from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.recording import Use
-from forcetorque.viewer import View, build_scene
-from forcetorque.viewer.block import read_array
+from forcetorque.base.arrays import FloatArray
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.calibration.joint.interval import part_residuals
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Use
+from forcetorque.viewer.arrays import read_array
+from forcetorque.viewer.build import build_scene
 from forcetorque.viewer.scene import Sensor
+from forcetorque.viewer.view import View
 from tests.scenes.experiments import TWO
 
 FLOAT32 = 1e-5

@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.experiment import load_experiment, parse_experiment
-from forcetorque.viewer import BuiltScene, build_scene
-from forcetorque.viewer.block import read_array
+from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.viewer.arrays import read_array
+from forcetorque.viewer.build import BuiltScene, build_scene
 from tests.viewer.poses import link_poses
 
 pytestmark = pytest.mark.real_data

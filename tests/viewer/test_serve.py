@@ -14,7 +14,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from forcetorque.errors import ForceTorqueError
+from forcetorque.base.errors import ForceTorqueError
 from forcetorque.viewer.annotations import Annotations
 from forcetorque.viewer.serve import MOST_BYTES, ViewerServer, byte_range
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.errors import ForceTorqueError, MissingExtraError, MissingFileError
+from forcetorque.base.errors import ForceTorqueError, MissingExtraError, MissingFileError
 from forcetorque.viewer.serve import ViewerServer
 from forcetorque.viewer.video import Film, film_page, find_browser, require_playwright
 

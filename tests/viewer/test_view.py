@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.errors import ForceTorqueError, FormatError
-from forcetorque.viewer import View, view_source
+from forcetorque.base.errors import ForceTorqueError, FormatError
+from forcetorque.viewer.view import View, view_source
 
 VIEW = View(
     experiment="arm",

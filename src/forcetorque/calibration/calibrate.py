@@ -1,204 +1,188 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From samples of one sensor to its matrix, offset, lambda and what they are worth."""
+"""Calibrate a sensor, by the generative model or by a type of the thesis, and warn of what makes it doubtful."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass
-from enum import StrEnum
+from collections.abc import Collection, Iterator, Sequence
+from typing import Literal
 
-import numpy as np
+from forcetorque.base.errors import ExperimentError, FitError
+from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.calibration.generative.artefact import generative_calibration
+from forcetorque.calibration.reduce_recordings import recording_moments
+from forcetorque.calibration.thesis.from_samples import thesis_calibration
+from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration
+from forcetorque.experiment.calibration.estimation_type import EstimationType, estimation_type
+from forcetorque.experiment.calibration.stored_moments import RecordingMoments
+from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.free_sub_model import possible_touch
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration.data_set import DataSet
-from forcetorque.calibration.estimation import Estimation
-from forcetorque.calibration.estimation_type import EstimationType, OffsetStrategy
-from forcetorque.calibration.fit import MatrixFit, fit_matrix, require_determined
-from forcetorque.calibration.held_out import (
-    BLOCKS,
-    LambdaCurve,
-    StandardErrors,
-    choose_lambda,
-    fewest_samples,
-    jackknife_errors,
-)
-from forcetorque.calibration.linear_variable import LinearVariable
-from forcetorque.calibration.moments import Moments, pooled
-from forcetorque.calibration.regression import solve
-from forcetorque.calibration.sphere import sphere_centre
-from forcetorque.errors import FitError, ShapeError, known_names
+_MOMENTS = "stored moments are fitted by the generative model; leave out the estimation type and lambda"
 
 
-class HeldOut(StrEnum):
-    """What the blocks are on which lambda is chosen."""
-
-    RECORDINGS = "whole recordings"
-    """Each recording is a block: what is learnt in one must hold in the others."""
-    PIECES = "equal contiguous pieces of the intervals"
-    """There is one recording, or one that can be fitted alone."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class CalibrationFit:
-    """A fit with the choice of lambda and its uncertainty."""
-
-    fit: MatrixFit
-    """The model, its residual and excitation."""
-    estimation: Estimation
-    """What was estimated: type, prior, variables, their reference values and the raw offset of the sphere types."""
-    curve: LambdaCurve | None
-    """Held-out error over lambda; None where lambda was given."""
-    held_out: HeldOut | None
-    """What was held out to choose it; None where lambda was given."""
-    standard_errors: StandardErrors | None
-    """Standard errors by leaving out blocks; None with one block."""
-    prior_offset: FloatArray | None
-    """Offset that the same data give with the prior matrix; shape (6,); N, N m; None without prior."""
-
-
-def calibrate(
-    data_sets: Sequence[DataSet],
-    prior: FloatArray | None,
+def calibrate_sensor(
+    runs: Runs | None,
     *,
-    regularisation: float | None = None,
-    kind: EstimationType | None = None,
-    variables: Sequence[LinearVariable] = (),
-    sphere: Collection[str] | None = None,
-) -> CalibrationFit:
-    """Fit matrix, offset and linear variables of a sensor to the reference wrenches.
+    code_version: str,
+    created: str,
+    moments: Sequence[RecordingMoments] = (),
+    regularisation: float | Literal["held-out"] | None = None,
+    kind: EstimationType | str | None = None,
+    nonlinear: bool | None = None,
+) -> Calibration:
+    """Fit a sensor on the calibration intervals of any number of recordings.
 
     Args:
-        data_sets: Stretches of calibration data, at least one; they share one offset.
-        prior: Matrix to stay close to; shape (6, c); None for a sensor without one.
-        regularisation: Lambda; counts2; None to choose it on held-out recordings, or pieces of a single one.
-        kind: Estimation type; if None, one-shot, with variables from their reference values if there are any.
-        variables: What the columns of `variables` in the data sets are.
-        sphere: For the sphere types, labels of the data sets that draw the sphere; may be None if there is only one.
+        runs: The sensor, in one experiment or several; None where moments are all there is.
+        code_version: Version of this library, for the record.
+        created: Date and time, ISO 8601, for the record.
+        moments: What was kept of other recordings, for the generative model.
+        regularisation: Lambda of a type of the thesis; counts2; `held-out` to choose it on held-out data; None for what
+            the experiment says.
+        kind: `generative`, or an estimation type of the thesis, also by its name, such as `OwTrTO`; None for what the
+            experiment says, which is the generative model unless it names a type or a lambda, or one is given here.
+        nonlinear: Whether quadratic terms may correct readings; None for what the experiment says.
 
     Returns:
-        The fit, the choice of lambda and standard errors.
+        The calibration, with everything that tells how far to trust it.
 
     Raises:
-        FitError: If there are no data, lambda is to be chosen without a prior, or the data leave an
-            unpenalised unknown undetermined.
-        ShapeError: If the data sets have different numbers of channels or variables.
+        ExperimentError: If files ask for different estimators.
+        FitError: If no estimation type is called so; the data cannot be those of the sensor under the modelled load, or
+            do not determine the fit; or moments are to be fitted by a type of the thesis, which needs samples; or
+            quadratic terms are asked for of such a type, or of a single recording.
     """
-    if kind is None:
-        kind = EstimationType(with_variables=bool(variables), from_reference=bool(variables))
-    if not data_sets:
-        raise FitError("expected at least one calibration interval, got none")
-    shapes = {(data.raw.shape[1], data.variables.shape[1]) for data in data_sets}
-    if len(shapes) > 1:
-        raise ShapeError(f"data sets: expected one number of raw channels and of variables, got {sorted(shapes)}")
-    raw_offset = _raw_offset(data_sets, sphere) if kind.offset is OffsetStrategy.SPHERE else None
-    estimation = estimation_of(data_sets[0], prior, kind=kind, variables=variables, raw_offset=raw_offset)
-    blocks = _blocks(data_sets)
-    moments = pooled(blocks)
-    curve = held_out = None
-    if regularisation is None:
-        if prior is None:
-            raise FitError("lambda cannot be chosen without a prior matrix; give a prior, or lambda 0")
-        require_determined(moments, estimation, 0.0)
-        recordings = _recordings(data_sets)
-        held_out = HeldOut.RECORDINGS if len(recordings) > 1 else HeldOut.PIECES
-        curve = choose_lambda(recordings if held_out is HeldOut.RECORDINGS else blocks, estimation)
-        regularisation = curve.chosen
-    fit = fit_matrix(moments, estimation, regularisation)
-    return CalibrationFit(
-        fit=fit,
-        estimation=estimation,
-        curve=curve,
-        held_out=held_out,
-        standard_errors=jackknife_errors(blocks, estimation, regularisation) if len(blocks) > 1 else None,
-        prior_offset=None if prior is None else solve(moments, Estimation(prior=prior), math.inf).offset,
-    )
-
-
-def estimation_of(
-    first: DataSet,
-    prior: FloatArray | None,
-    *,
-    kind: EstimationType,
-    variables: Sequence[LinearVariable] = (),
-    raw_offset: FloatArray | None = None,
-) -> Estimation:
-    """Settle what a type takes from the data: the reference values of variables.
-
-    Args:
-        first: First data set; variables without a reference value of their own get that of its first sample.
-        prior: Matrix to stay close to; shape (6, c); None for a sensor without one.
-        kind: Estimation type.
-        variables: What the columns of `variables` in the data are.
-        raw_offset: Raw reading without load, for the sphere types; shape (c,); counts.
-
-    Returns:
-        Settings of the fit.
-
-    Raises:
-        ShapeError: If the data have another number of variables.
-    """
-    columns = first.variables.shape[1]
-    if columns != len(variables):
-        raise ShapeError(f"variables: {len(variables)} are described, the data sets have {columns}")
-    values = np.zeros(columns)
-    if kind.from_reference:
-        own = [variable.reference_value for variable in variables]
-        pairs = zip(first.variables[0], own, strict=True)
-        values = np.array([value if given is None else given for value, given in pairs])
-    return Estimation(
-        kind=kind, prior=prior, variables=tuple(variables), reference_values=values, raw_offset=raw_offset
-    )
-
-
-def sphere_labels(labels: Sequence[str], named: Collection[str] | None) -> tuple[str, ...]:
-    """Tell which data sets draw the sphere of the sphere types.
-
-    Args:
-        labels: Labels of the data sets.
-        named: Those that the user names; None if there is only one data set.
-
-    Returns:
-        Their labels.
-
-    Raises:
-        FitError: If there are several and none is named, or a name is unknown.
-    """
-    if named is None and len(labels) > 1:
-        raise FitError(
-            f"sphere offset: name the data sets that draw the sphere, out of {', '.join(labels)}; "
-            "in an experiment file they are sphere_intervals of [calibration]"
+    if runs is None:
+        if kind not in (None, "generative") or regularisation is not None:
+            raise FitError(_MOMENTS)
+        return generative_calibration(moments, code_version=code_version, created=created, nonlinear=nonlinear)
+    campaign = Campaign.of(runs)
+    if kind is None and regularisation is None:
+        _require_one_estimator(campaign)
+    try:
+        return _fitted(
+            campaign,
+            code_version=code_version,
+            created=created,
+            moments=moments,
+            regularisation=regularisation,
+            kind=kind,
+            nonlinear=nonlinear,
         )
-    for label in named or ():
-        if label not in labels:
-            raise FitError(f"sphere offset: no data set is called {label!r}; {known_names(label, labels)}")
-    return tuple(label for label in labels if named is None or label in named)
+    except FitError as error:
+        sentences = dict.fromkeys(sentence for run in campaign.runs if (sentence := possible_touch(run)) is not None)
+        if not sentences:
+            raise
+        raise FitError("; ".join([str(error), *sentences])) from error
 
 
-def _raw_offset(data_sets: Sequence[DataSet], sphere: Collection[str] | None) -> FloatArray:
-    chosen = sphere_labels([data.label for data in data_sets], sphere)
-    return sphere_centre(pooled(Moments.of(data.raw, data.reference) for data in data_sets if data.label in chosen))
+def _fitted(
+    campaign: Campaign,
+    *,
+    code_version: str,
+    created: str,
+    moments: Sequence[RecordingMoments],
+    regularisation: float | Literal["held-out"] | None,
+    kind: EstimationType | str | None,
+    nonlinear: bool | None,
+) -> Calibration:
+    experiment = campaign.runs[0].experiment
+    options = experiment.fit_options
+    if kind == "generative" or (kind is None and regularisation is None and options.generative):
+        recordings = [*moments, *recording_moments(campaign)]
+        return generative_calibration(recordings, code_version=code_version, created=created, nonlinear=nonlinear)
+    if nonlinear:
+        raise FitError("nonlinear: the types of the thesis are linear; leave out the estimation type and lambda")
+    if moments:
+        raise FitError(_MOMENTS)
+    if isinstance(regularisation, str) and regularisation != "held-out":
+        raise FitError(f"regularisation: expected lambda in counts2, or 'held-out', got {regularisation!r}")
+    named = estimation_type(kind) if isinstance(kind, str) else kind
+    given = experiment.regularisation if regularisation is None else regularisation
+    return thesis_calibration(
+        campaign,
+        options.kind(has_variables=bool(campaign.sensor.variables)) if named is None else named,
+        regularisation=None if given == "held-out" else given,
+        code_version=code_version,
+        created=created,
+    )
 
 
-def _blocks(data_sets: Sequence[DataSet]) -> list[Moments]:
-    """Divide every stretch in equal contiguous pieces, so that there are at least `BLOCKS` in all."""
-    pieces = math.ceil(BLOCKS / len(data_sets))
-    return [
-        Moments.of(data.raw[part], data.reference[part], data.variables[part])
-        for data in data_sets
-        for part in np.array_split(np.arange(len(data.raw)), min(pieces, max(len(data.raw), 1)))
-    ]
+def _require_one_estimator(campaign: Campaign) -> None:
+    """Refuse files that ask for different estimators: one of them would be overruled in silence."""
+    first, *others = (run.experiment for run in campaign.runs)
+    for other in others:
+        if _estimator(other) != _estimator(first):
+            raise ExperimentError(
+                f"{other.file}: expected the estimator that [calibration] of {first.file} asks for, got another; state "
+                "the same type, offset, variables and lambda in both, or give an estimation type for all"
+            )
 
 
-def _recordings(data_sets: Sequence[DataSet]) -> list[Moments]:
-    """Pool the data sets of every recording; one too short to be fitted alone goes with its neighbour."""
-    moments: dict[str, list[Moments]] = {}
-    for data in data_sets:
-        moments.setdefault(data.recording, []).append(Moments.of(data.raw, data.reference, data.variables))
-    blocks: list[Moments] = []
-    for recording in map(pooled, moments.values()):
-        if blocks and min(recording.count, blocks[-1].count) < fewest_samples(recording.channels):
-            blocks[-1] = pooled([blocks[-1], recording])
-        else:
-            blocks.append(recording)
-    return blocks
+def _estimator(experiment: Experiment) -> tuple[object, ...]:
+    options = experiment.fit_options
+    of_thesis = (options.offset, options.from_reference, experiment.regularisation)
+    return options.generative, options.with_variables, None if options.generative else of_thesis
+
+
+def fit_doubts(calibration: Calibration, *, said: Collection[str] = ()) -> Iterator[str]:
+    """Say what makes a calibration doubtful.
+
+    Args:
+        calibration: The calibration.
+        said: Doubts about its data that were said already.
+
+    Yields:
+        A sentence per doubt, with the name of the sensor.
+    """
+    sensor = calibration.sensor.name
+    own = (*_turned(calibration), *_unmoved(calibration), *_left_prior(calibration), *_refused(calibration))
+    for sentence in (*(doubt for doubt in calibration.doubts if doubt not in said), *own):
+        yield f"{sensor}: {sentence}"
+
+
+def _turned(calibration: Calibration) -> Iterator[str]:
+    secondary = calibration.secondary_matrix()
+    if secondary is None:
+        return
+    turned = [c for c, own in zip(WRENCH_COMPONENTS, secondary.diagonal(), strict=True) if own < 0.0]
+    if turned:
+        yield (
+            f"{', '.join(turned)} come(s) out with the sign of the prior reversed; "
+            "is gravity_direction or measure_direction the right way round?"
+        )
+
+
+def _unmoved(calibration: Calibration) -> Iterator[str]:
+    """Variables that say nothing because they did not move."""
+    if calibration.posterior is None:
+        return
+    for variable in calibration.variables:
+        if variable.maximum == variable.minimum:
+            yield (
+                f"{variable.name} is {variable.minimum:g} {_unit(variable)}throughout the fitted data, so that what it "
+                "does is not known: its coefficients are those that were expected"
+            )
+
+
+def _left_prior(calibration: Calibration) -> Iterator[str]:
+    """A type of the thesis shrinks the matrix where no load speaks; the generative model keeps the prior there."""
+    excited = calibration.validity.excited
+    if calibration.posterior is not None or not (unexcited := excited.count(False)):
+        return
+    yield (
+        f"the loads leave {unexcited} of {len(excited)} raw directions unexcited; along them "
+        f"{calibration.estimation_type} leaves the prior for noise, and a load that was not recorded may read worse "
+        "than before; the default estimator keeps the prior there"
+    )
+
+
+def _refused(calibration: Calibration) -> Iterator[str]:
+    """A correction that was asked for and lost."""
+    if calibration.nonlinear is not None:
+        yield from calibration.nonlinear.refusals()
+
+
+def _unit(variable: CalibratedVariable) -> str:
+    return f"{variable.unit} " if variable.unit else ""

@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.constants import MAD_TO_DEVIATION
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.units import MAD_TO_DEVIATION
 
 FAR: Final = 4.0
 """Robust standard deviations of the residual from which a window disagrees."""

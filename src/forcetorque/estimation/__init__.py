@@ -1,31 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What mechanics demands of sensors, contacts and joints."""
+"""Contact wrenches, joint torques and expected wrenches of a recording, fused over sources, with covariances."""
 
-from forcetorque.estimation.ambiguity import indistinguishable
-from forcetorque.estimation.contact import Contact, ContactType
-from forcetorque.estimation.estimate import Evaluator, estimate, evaluator_of_samples
-from forcetorque.estimation.estimates import Estimates, Layout
-from forcetorque.estimation.needs import required_joints_of
-from forcetorque.estimation.question import MinimumNorm, Question, TorqueSum, moving_joints
-from forcetorque.estimation.root_motion import support_motion_at
-from forcetorque.estimation.samples import Processing, SensorSamples, sensor_samples
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from forcetorque.estimation.estimate import estimate_experiment
+    from forcetorque.estimation.result import summarise_estimates
+    from forcetorque.estimation.torque.fusion import fuse_experiment
 
 __all__ = [
-    "Contact",
-    "ContactType",
-    "Estimates",
-    "Evaluator",
-    "Layout",
-    "MinimumNorm",
-    "Processing",
-    "Question",
-    "SensorSamples",
-    "TorqueSum",
-    "estimate",
-    "evaluator_of_samples",
-    "indistinguishable",
-    "moving_joints",
-    "required_joints_of",
-    "sensor_samples",
-    "support_motion_at",
+    "estimate_experiment",
+    "fuse_experiment",
+    "summarise_estimates",
 ]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "estimate_experiment": "forcetorque.estimation.estimate",
+        "fuse_experiment": "forcetorque.estimation.torque.fusion",
+        "summarise_estimates": "forcetorque.estimation.result",
+    },
+)

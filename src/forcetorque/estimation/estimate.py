@@ -1,124 +1,165 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Answer a question for all samples: with the readable evaluator, or with the compiled one."""
+"""Contact wrenches, joint torques and expected readings over the intervals of an experiment."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from enum import StrEnum
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.errors import ShapeError
-from forcetorque.estimation.estimates import Estimates
-from forcetorque.estimation.inputs import Inputs, checked_inputs, refuse_infinite
-from forcetorque.estimation.question import Question
-from forcetorque.estimation.reference import Block, evaluate_block
-from forcetorque.robot import JointMotion, RootMotion
-from forcetorque.robot.wrenches import Wrenches
-
-_FEW = 20000
-"""Fewer samples than this take the readable evaluator no longer than loading the compiled one."""
-
-_BLOCK = 4096
-"""Samples per pass of the readable evaluator: its working arrays stay in the processor's cache."""
-
-
-class Evaluator(StrEnum):
-    """Who computes; both give the same numbers but for rounding."""
-
-    READABLE = "readable"
-    """NumPy, one equation after the other."""
-    COMPILED = "compiled"
-    """Blocks of samples in compiled code, on several threads."""
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.errors import ExperimentError
+from forcetorque.estimation.interval import IntervalQuestion
+from forcetorque.estimation.skin.known_wrenches import SkinSource, frames_of_patches, uncertainty_of, with_skin
+from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
+from forcetorque.estimation.uncertain.estimates import UncertainEstimates
+from forcetorque.experiment.contacts import touched_otherwise
+from forcetorque.experiment.experiment import Experiment, ExperimentContact
+from forcetorque.experiment.sensor_reading import Correction, Readings, readings_at
+from forcetorque.experiment.validity import AppliedReadings, applied_readings
+from forcetorque.recording.recording import Interval, Use
+from forcetorque.robot.contacts import Wrenches
+from forcetorque.robot.mechanics.ambiguity import indistinguishable
+from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.samples import PaddedSamples, padded_samples
+from forcetorque.robot.motion import JointMotion
+from forcetorque.skin.wrench.wrench import PatchFrames
 
 
-def evaluator_of_samples(samples: int) -> Evaluator:
-    """Choose who computes so many samples.
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class IntervalEstimates:
+    """Estimates over one interval."""
 
-    Args:
-        samples: Number of samples, of all calls of `estimate` together.
+    interval: Interval
+    """The interval."""
+    stamp_ns: IntArray
+    """Instants: those of the first sensor's stream; shape (n,); ns."""
+    measured: Wrenches
+    """What the sensors measured, corrected."""
+    estimates: Estimates
+    """What was estimated."""
+    left_out: tuple[str, ...]
+    """What the log does not allow to estimate, in words."""
+    ambiguous: Mapping[str, tuple[tuple[str, ...], ...]]
+    """Unknowns that cannot be told apart, by sub-model."""
+    applied: Mapping[str, AppliedReadings]
+    """Of every sensor that a calibration reads, which readings lie outside what was fitted; n samples, smoothed."""
+    skin: tuple[SkinSource, ...] = ()
+    """Contacts on skin; n samples, as they were felt."""
+    uncertain: UncertainEstimates | None = None
+    """Contacts and torques with covariances, before any filter; None without skin."""
 
-    Returns:
-        The readable evaluator for few.
-    """
-    return Evaluator.READABLE if samples < _FEW else Evaluator.COMPILED
 
-
-def estimate(
-    question: Question,
-    joints: JointMotion,
-    root: RootMotion,
+def estimate_experiment(
+    experiment: Experiment,
+    corrections: Mapping[str, Correction],
     *,
-    measured: Wrenches | None = None,
-    known: Wrenches | None = None,
-    active: Mapping[str, Any] | None = None,
-    out: Estimates | None = None,
-    evaluator: Evaluator | None = None,
-    threads: int | None = None,
-    progress: Callable[[int], None] | None = None,
-) -> Estimates:
-    """Estimate what a question asks for.
+    contacts: Sequence[ExperimentContact] | None = None,
+    length_scale: float | None = None,
+    progress: Callable[[int, int], None] | None = None,
+    patches: Sequence[PatchFrames] | None = None,
+) -> list[IntervalEstimates]:
+    """Estimate over every interval that is not to be ignored.
 
-    NaN in a sample is a gap: it makes NaN of what depends on it, in that sample and in no other.
-    Arrays that are read-only, such as mapped files, are not copied, so that with `out` in mapped
-    files any number of samples runs in little memory.
+    The support touches the world with a full wrench. Without other contacts, whatever touches the
+    part outboard of a sensor is given in the frame of that sensor.
 
     Args:
-        question: What is asked.
-        joints: Motion of at least the joints that it depends on (`required_joints_of`); n samples.
-        root: Motion of the root link's frame; one sample or n.
-        measured: Readings of at least the sensors that the tree is cut at, in their frames and directions.
-        known: Wrenches of at least the known contacts, in their contact frames.
-        active: By the name of an unknown contact, whether it is there; shape (n,), bool; others always are.
-        out: Where the answer goes; made if None.
-        evaluator: Who computes; by the number of samples if None.
-        threads: Threads of the compiled evaluator; as many as there are processors if None.
-        progress: Called with the number of samples done so far.
+        experiment: The experiment.
+        corrections: How its sensors are read (`corrections_of`).
+        contacts: Contacts in place of the experiment's.
+        length_scale: Length scale in place of the experiment's; m.
+        progress: Called with the number of samples done and of all.
+        patches: What its patches say (`frames_of_patches`); they are read if None.
 
     Returns:
-        The answer; `out` if it was given.
+        Estimates in the order of the intervals.
 
     Raises:
-        RobotError: If a joint that is needed is not in `joints`.
-        EstimationError: If readings or known wrenches are missing, a sub-model has more than six unknowns at once
-            and the question no `minimum_norm`, or an input is infinite.
-        ShapeError: If numbers of samples differ.
+        ExperimentError: If no interval has a support.
     """
-    n = len(joints)
-    inputs = checked_inputs(question, joints, root, measured, known, active)
-    answer = Estimates.empty(question.layout, n) if out is None else out
-    if len(answer) != n or answer.layout != question.layout:
-        raise ShapeError(f"out: expected {n} samples of {question.layout}, got {len(answer)} of {answer.layout}")
-    if evaluator is None:
-        evaluator = evaluator_of_samples(n)
-    if Evaluator(evaluator) is Evaluator.READABLE:
-        _run_readable(question, inputs, answer, progress)
-    else:
-        # imported here: it loads the compiler
-        from forcetorque.estimation.block.run import run_compiled
+    intervals = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
+    if not intervals:
+        raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")
+    named = experiment.contacts if contacts is None else tuple(contacts)
+    scale = experiment.length_scale if length_scale is None else length_scale
+    source = experiment.clock_stream
+    skinned = frames_of_patches(experiment) if patches is None else patches
+    recording, smoothing = experiment.recording, experiment.processing.smoothing
+    taken = [
+        padded_samples(recording, source, span, smoothing, apart=touched_otherwise(span, recording, named))
+        for span in intervals
+    ]
+    total, done = sum(len(samples.rows) for samples in taken), 0
+    results = []
+    for interval, samples in zip(intervals, taken, strict=True):
+        before = done
+        report = None if progress is None else lambda count, start=before: progress(start + count, total)
+        results.append(_over(experiment, corrections, interval, samples, named, scale, report, skinned))
+        done += len(samples.rows)
+    return results
 
-        run_compiled(question, inputs, answer, threads=threads, progress=progress)
-    return answer
 
-
-def _run_readable(question: Question, inputs: Inputs, out: Estimates, progress: Callable[[int], None] | None) -> None:
-    for start in range(0, len(out), _BLOCK):
-        block = slice(start, min(start + _BLOCK, len(out)))
-        refuse_infinite(inputs, block)
-        count = block.stop - start
-        root = [np.broadcast_to(v if len(v) == 1 else v[block], (count, 3)) for v in inputs.root]
-        evaluate_block(
-            question,
-            inputs.needs,
-            Block(
-                joints=inputs.joints.samples(block),
-                root=np.stack(root),
-                measured=inputs.measured.values[block][:, inputs.measured_columns],
-                known=inputs.known.values[block][:, inputs.known_columns],
-                active=inputs.active[block].astype(np.float64),
-            ),
-            out.samples(block),
+def _over(
+    experiment: Experiment,
+    corrections: Mapping[str, Correction],
+    interval: Interval,
+    samples: PaddedSamples,
+    named: Sequence[ExperimentContact],
+    length_scale: float | None,
+    progress: Callable[[int], None] | None,
+    patches: Sequence[PatchFrames],
+) -> IntervalEstimates:
+    asked = IntervalQuestion.of(experiment, interval, samples, named, length_scale=length_scale, patches=patches)
+    question, joints, skin, inside = asked.question, asked.joints, asked.skin, samples.inside
+    measured = asked.measured(corrections)
+    estimates = asked.estimates(measured, progress=progress)
+    answer = None
+    if patches:
+        uncertainty = uncertainty_of(experiment, corrections, skin, measured, label=interval.label)
+        answer = estimate_with_covariance(
+            question, joints, asked.root, measured=measured, known=asked.known, uncertainty=uncertainty
         )
-        if progress is not None:
-            progress(block.stop)
+        estimates = with_skin(estimates, answer)
+    return IntervalEstimates(
+        interval=interval,
+        stamp_ns=samples.stamp_ns[inside],
+        measured=Wrenches(names=measured.names, values=measured.values[inside]),
+        estimates=_smoothed(estimates, samples),
+        left_out=asked.left_out,
+        ambiguous=indistinguishable(question, JointMotion.at_rest(joints.names, joints.position[inside])),
+        applied=dict(_applied(experiment, corrections, interval, samples)),
+        skin=tuple(source.of_samples(inside) for source in skin),
+        uncertain=None if answer is None else answer.of_samples(inside),
+    )
+
+
+def _applied(
+    experiment: Experiment, corrections: Mapping[str, Correction], interval: Interval, samples: PaddedSamples
+) -> Iterator[tuple[str, AppliedReadings]]:
+    """Which readings lie outside what was fitted: smoothed, as those were that were fitted."""
+    sessions = experiment.session_names(interval.label)
+    for sensor in experiment.sensors:
+        calibration = corrections[sensor.name].calibration
+        if calibration is None:
+            continue
+        names = corrections[sensor.name].variables
+        readings = readings_at(experiment, sensor, names, samples.stamp_ns)
+        columns = [readings.logged, *(readings.variables[name][:, None] for name in names)]
+        values, channels = samples.smoothed(np.hstack(columns)), readings.logged.shape[1]
+        variables = dict(zip(names, values[:, channels:].T, strict=True))
+        smoothed = Readings.of(sensor, values[:, :channels], variables)
+        yield sensor.name, applied_readings(calibration, smoothed, sessions)
+
+
+def _smoothed(estimates: Estimates, samples: PaddedSamples) -> Estimates:
+    """Filter results as readings and references are filtered elsewhere; rank and condition stay as they are."""
+    n, count = len(estimates), int(np.count_nonzero(samples.inside))
+    arrays: dict[str, FloatArray] = {}
+    for name in ("expected", "contact_wrenches", "torques", "net_wrenches", "residual"):
+        values = getattr(estimates, name)
+        filtered = samples.smoothed(values.reshape(n, -1)) if values.size else values[samples.inside]
+        arrays[name] = np.ascontiguousarray(filtered.reshape(count, *values.shape[1:]))
+    rank, condition = estimates.rank[samples.inside], estimates.condition[samples.inside]
+    return Estimates(layout=estimates.layout, rank=rank, condition=condition, **arrays)

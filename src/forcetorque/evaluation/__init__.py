@@ -1,88 +1,47 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far a calibration can be trusted, on motions that were not fitted, and how well a sensor uses its range."""
+"""Errors on data that were not fitted, verdicts on loads to come, spheres of gravity, acceptance."""
 
-from forcetorque.evaluation.autocorrelation import Autocorrelation, autocorrelation
-from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors, evaluator_of_work
-from forcetorque.evaluation.contact_force import ContactForces, contact_forces
-from forcetorque.evaluation.contact_force_validation import ContactForceValidation, OtherSensors
-from forcetorque.evaluation.gains import (
-    MARGIN,
-    AxisResolution,
-    ChannelRange,
-    GainAdvice,
-    GainChange,
-    advise_gains,
-    axis_resolution,
-    channel_ranges,
-    strongest_samples,
-)
-from forcetorque.evaluation.joint_torques import TorqueErrors, TorqueMap, joints_of_sensor, torque_errors, torque_map
-from forcetorque.evaluation.model_findings import model_findings
-from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset, OffsetEstimate, mean_offset
-from forcetorque.evaluation.offset_policy import OF_ONE_LINK, OffsetPolicy
-from forcetorque.evaluation.paired import (
-    ErrorRatio,
-    Judgement,
-    PairedComparison,
-    PairedErrors,
-    compare_errors,
-)
-from forcetorque.evaluation.population import FeaturePosition, PopulationPosition, position_in_population
-from forcetorque.evaluation.push_error import LEVER_M, PUSH_N, PushError, push_error, pushes
-from forcetorque.evaluation.static_checks import MatrixChecks, OffsetChange, matrix_checks, offset_change
-from forcetorque.evaluation.wrench_errors import WrenchErrors, errors_from_zero, offset_removed, wrench_errors
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from forcetorque.evaluation.acceptance.acceptance import accept
+    from forcetorque.evaluation.acceptance.file import read_acceptance
+    from forcetorque.evaluation.evaluation import Evaluation, evaluate
+    from forcetorque.evaluation.load_cases.judgement import use_verdicts
+    from forcetorque.evaluation.sphere.sphere import spheres, spheres_of_sensors
+    from forcetorque.evaluation.trials.comparison import compare
+    from forcetorque.evaluation.validation.validation import Validation, validate
+    from forcetorque.experiment.error_statistics import wrench_errors
 
 __all__ = [
-    "KNOWN_BEFORE",
-    "LEVER_M",
-    "MARGIN",
-    "OF_ONE_LINK",
-    "PUSH_N",
-    "Autocorrelation",
-    "AxisResolution",
-    "CandidateErrors",
-    "ChannelRange",
-    "ContactForceValidation",
-    "ContactForces",
-    "ErrorRatio",
-    "FeaturePosition",
-    "GainAdvice",
-    "GainChange",
-    "Judgement",
-    "MatrixChecks",
-    "Offset",
-    "OffsetChange",
-    "OffsetEstimate",
-    "OffsetPolicy",
-    "OtherSensors",
-    "PairedComparison",
-    "PairedErrors",
-    "PooledErrors",
-    "PopulationPosition",
-    "PushError",
-    "TorqueErrors",
-    "TorqueMap",
-    "WrenchErrors",
-    "advise_gains",
-    "autocorrelation",
-    "axis_resolution",
-    "candidate_errors",
-    "channel_ranges",
-    "compare_errors",
-    "contact_forces",
-    "errors_from_zero",
-    "evaluator_of_work",
-    "joints_of_sensor",
-    "matrix_checks",
-    "mean_offset",
-    "model_findings",
-    "offset_change",
-    "offset_removed",
-    "position_in_population",
-    "push_error",
-    "pushes",
-    "strongest_samples",
-    "torque_errors",
-    "torque_map",
+    "Evaluation",
+    "Validation",
+    "accept",
+    "compare",
+    "evaluate",
+    "read_acceptance",
+    "spheres",
+    "spheres_of_sensors",
+    "use_verdicts",
+    "validate",
     "wrench_errors",
 ]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "Evaluation": "forcetorque.evaluation.evaluation",
+        "Validation": "forcetorque.evaluation.validation.validation",
+        "accept": "forcetorque.evaluation.acceptance.acceptance",
+        "compare": "forcetorque.evaluation.trials.comparison",
+        "evaluate": "forcetorque.evaluation.evaluation",
+        "read_acceptance": "forcetorque.evaluation.acceptance.file",
+        "spheres": "forcetorque.evaluation.sphere.sphere",
+        "spheres_of_sensors": "forcetorque.evaluation.sphere.sphere",
+        "use_verdicts": "forcetorque.evaluation.load_cases.judgement",
+        "validate": "forcetorque.evaluation.validation.validation",
+        "wrench_errors": "forcetorque.experiment.error_statistics",
+    },
+)

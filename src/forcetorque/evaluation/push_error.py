@@ -9,8 +9,8 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.spatial import FORCE_AND_MOMENT
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.wrench import FORCE_AND_MOMENT
 
 PUSH_N: Final = 50.0
 """Force of a push; N."""

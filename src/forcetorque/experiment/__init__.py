@@ -1,27 +1,29 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment file: from TOML to robot, recording, intervals and sensors."""
+"""The experiment file, and what it leads to: recordings, sensors, samples, campaigns, sensor model and calibration."""
 
-from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.experiment.foot_forces import FootForces, has_foot_forces, load_foot_forces
-from forcetorque.experiment.load import load_experiment, load_shown, load_touched_robot
-from forcetorque.experiment.parse import parse_experiment
-from forcetorque.experiment.recorded_span import RecordedSpan
-from forcetorque.experiment.schema import ExperimentFile
-from forcetorque.experiment.skin.patches import ExperimentPatch, PatchExperiment, load_patches
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from forcetorque.experiment.campaign import Campaign
+    from forcetorque.experiment.experiment import Experiment
+    from forcetorque.experiment.loading import load_experiment
+    from forcetorque.experiment.sensor_run import SensorRun
 
 __all__ = [
+    "Campaign",
     "Experiment",
-    "ExperimentFile",
-    "ExperimentPatch",
-    "ExperimentSensor",
-    "FootForces",
-    "PatchExperiment",
-    "RecordedSpan",
-    "has_foot_forces",
+    "SensorRun",
     "load_experiment",
-    "load_foot_forces",
-    "load_patches",
-    "load_shown",
-    "load_touched_robot",
-    "parse_experiment",
 ]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "Campaign": "forcetorque.experiment.campaign",
+        "Experiment": "forcetorque.experiment.experiment",
+        "SensorRun": "forcetorque.experiment.sensor_run",
+        "load_experiment": "forcetorque.experiment.loading",
+    },
+)

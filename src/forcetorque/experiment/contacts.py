@@ -8,14 +8,15 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.errors import ExperimentError, known_names
-from forcetorque.estimation import Contact, ContactType
-from forcetorque.experiment import schema
-from forcetorque.experiment.content import ExperimentContact
-from forcetorque.experiment.inputs import stated_in
-from forcetorque.recording import Interval, Recording
-from forcetorque.robot import BodyTree, RobotModel
-from forcetorque.spatial import invert_pose
+from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.pose import invert_pose
+from forcetorque.experiment import file as schema
+from forcetorque.experiment.experiment import ExperimentContact
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.recording.recording import Interval, Recording
+from forcetorque.robot.contacts import Contact, ContactType
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.tree import BodyTree
 
 
 def read_contacts(

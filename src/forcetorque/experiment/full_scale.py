@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration.generative import ACCURACY_SHARE
-from forcetorque.errors import ExperimentError
-from forcetorque.experiment.content import ExperimentSensor
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError
+from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE
+from forcetorque.experiment.experiment import ExperimentSensor
 
 
 def full_scale_of(sensor: ExperimentSensor, accuracy: FloatArray | None, *, channels: int) -> FloatArray:

@@ -8,12 +8,13 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import ExperimentError
-from forcetorque.exchange.icub import serial_number_in_name
-from forcetorque.exchange.prior import PriorFile, RawUnit, StatedUnits, read_prior_file
-from forcetorque.experiment.inputs import Inputs, stated_in
-from forcetorque.experiment.tables.sensor import PriorTable, Sensor
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError
+from forcetorque.experiment.input_files import Inputs, stated_in
+from forcetorque.experiment.sensor_section import PriorTable, Sensor
+from forcetorque.formats.icub_matrix import serial_number_in_name
+from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
+from forcetorque.formats.prior.registry import read_prior_file
 
 IDENTITY = "identity"
 """Prior of a sensor whose calibrated reading, a wrench already, takes the place of counts."""

@@ -6,14 +6,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from forcetorque.errors import MissingFileError
-from forcetorque.exchange.formats import not_recognised, recognised_format
-from forcetorque.experiment.inputs import Inputs
-from forcetorque.experiment.parse import parse_experiment
-from forcetorque.experiment.recorded_span import RecordedSpan, read_spans
+from forcetorque.base.errors import MissingFileError
+from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.input_files import Inputs
+from forcetorque.experiment.intervals import RecordedSpan, read_spans
 from forcetorque.experiment.streams import read_streams
-from forcetorque.recording import Recording, Use
-from forcetorque.robot import read_urdf
+from forcetorque.formats.registry import not_recognised, recognised_format
+from forcetorque.recording.recording import Recording, Use
+from forcetorque.robot.urdf import read_urdf
 
 WHOLE = "all"
 """Label of the only interval of a log that no experiment file describes."""

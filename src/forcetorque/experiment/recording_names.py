@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from forcetorque.paths import real_path
+from forcetorque.base.files import real_path
 
 
 def recording_name(experiment: str, file: str) -> str:

@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.calibration import recover_raw
-from forcetorque.errors import ForceTorqueError
-from forcetorque.estimation.picked import pick_samples
-from forcetorque.estimation.samples import expected_wrench
-from forcetorque.recording import Interval, Stream, Use
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.wrench import FORCE_AND_MOMENT
+from forcetorque.experiment.calibration.sensor_model import recover_raw
+from forcetorque.recording.recording import Interval, Use
 from forcetorque.recording.sample_quality import (
     Run,
     SampleQuality,
@@ -25,10 +24,12 @@ from forcetorque.recording.sample_quality import (
     repeated_samples,
     smallest_steps,
 )
-from forcetorque.spatial import FORCE_AND_MOMENT
+from forcetorque.recording.stream import Stream
+from forcetorque.robot.mechanics.samples import expected_wrench, pick_samples
 
 if TYPE_CHECKING:
-    from forcetorque.experiment.content import Experiment, ExperimentSensor
+    from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+
 
 _MOVED = 0.02
 """Share of the movement of the expected wrench in the log from which on it moves during a run of equal readings."""

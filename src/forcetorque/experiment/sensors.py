@@ -8,15 +8,16 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.calibration import LinearVariable
-from forcetorque.errors import ExperimentError
-from forcetorque.experiment import schema
-from forcetorque.experiment.content import ExperimentSensor, SensorVariable
-from forcetorque.experiment.inputs import Inputs, stated_in
+from forcetorque.base.errors import ExperimentError
+from forcetorque.experiment import file as schema
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
+from forcetorque.experiment.input_files import Inputs, stated_in
 from forcetorque.experiment.prior import full_scale_of, read_prior
-from forcetorque.experiment.tables.sensor import Sensor, Variable
-from forcetorque.recording import Recording, ScalarSource
-from forcetorque.robot import RobotModel, SensorFrame
+from forcetorque.experiment.sensor_section import Sensor, Variable
+from forcetorque.recording.column import ScalarSource
+from forcetorque.recording.recording import Recording
+from forcetorque.robot.model import RobotModel, SensorFrame
 
 
 def declare_sensors(sensors: Sequence[Sensor], file: Path, model: RobotModel) -> RobotModel:

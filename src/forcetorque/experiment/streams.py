@@ -6,14 +6,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from forcetorque.errors import ExperimentError
-from forcetorque.exchange.formats import read_log
-from forcetorque.experiment import schema
-from forcetorque.experiment.inputs import Inputs
-from forcetorque.experiment.log_context import ExperimentContext
-from forcetorque.experiment.recipes.recipes import follow_recipes
-from forcetorque.recording import Recording, Stream
-from forcetorque.robot import RobotModel
+from forcetorque.base.errors import ExperimentError
+from forcetorque.experiment import file as schema
+from forcetorque.experiment.additions import follow_recipes
+from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.formats.registry import read_log
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.stream import Stream
+from forcetorque.robot.model import RobotModel
 
 
 def read_streams(

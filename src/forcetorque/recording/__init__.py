@@ -1,47 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What was measured: streams with their own clocks, intervals, findings; see docs/recording.md."""
+"""What was measured: streams with their own clocks, intervals, findings, and the project's own form on disk."""
 
-from forcetorque.recording.finding import Finding
-from forcetorque.recording.interval import Interval, MovingSupport, Support, Use
-from forcetorque.recording.orientation import (
-    QUATERNION_XYZW,
-    ROLL_PITCH_YAW,
-    EulerAxes,
-    OrientationForm,
-    OrientationLayout,
-    OrientationSense,
-    orientation_signals,
-)
-from forcetorque.recording.quantity import QUANTITIES, Labels, Quantity
-from forcetorque.recording.recording import Recording
-from forcetorque.recording.scalar_source import ScalarSource
-from forcetorque.recording.schema import recording_schema
-from forcetorque.recording.smoothing import SavitzkyGolay
-from forcetorque.recording.storage import read_recording, write_recording
-from forcetorque.recording.stream import Signal, Stream
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from forcetorque.recording.recording import Interval, Recording
+    from forcetorque.recording.storage import read_recording, write_recording
+    from forcetorque.recording.stream import Stream
 
 __all__ = [
-    "QUANTITIES",
-    "QUATERNION_XYZW",
-    "ROLL_PITCH_YAW",
-    "EulerAxes",
-    "Finding",
     "Interval",
-    "Labels",
-    "MovingSupport",
-    "OrientationForm",
-    "OrientationLayout",
-    "OrientationSense",
-    "Quantity",
     "Recording",
-    "SavitzkyGolay",
-    "ScalarSource",
-    "Signal",
     "Stream",
-    "Support",
-    "Use",
-    "orientation_signals",
     "read_recording",
-    "recording_schema",
     "write_recording",
 ]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "Interval": "forcetorque.recording.recording",
+        "Recording": "forcetorque.recording.recording",
+        "Stream": "forcetorque.recording.stream",
+        "read_recording": "forcetorque.recording.storage",
+        "write_recording": "forcetorque.recording.storage",
+    },
+)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.errors import RecordingError
+from forcetorque.base.errors import RecordingError
 from forcetorque.recording.stream import Stream
 
 

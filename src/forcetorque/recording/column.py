@@ -1,15 +1,58 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Columns of a recording by the names that people use for them."""
+"""Columns of a recording by the names that people use for them, and scalars such as a temperature."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from difflib import get_close_matches
 
-from forcetorque.errors import RecordingError, known_names
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.errors import RecordingError, known_names
+from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Recording
-from forcetorque.recording.scalar_source import ScalarSource
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScalarSource:
+    """One column of a recording."""
+
+    stream: str
+    """Name of the stream."""
+    quantity: str
+    """Name of the quantity."""
+    column: str
+    """Name of the column."""
+
+    def unit(self, recording: Recording) -> str:
+        """Tell its unit.
+
+        Args:
+            recording: The recording.
+
+        Returns:
+            Unit of the column.
+
+        Raises:
+            RecordingError: If stream, quantity or column are not there.
+        """
+        signal = recording.stream(self.stream).signal(self.quantity)
+        signal.column(self.column)
+        return signal.units[signal.columns.index(self.column)]
+
+    def at(self, recording: Recording, at_ns: IntArray) -> FloatArray:
+        """Interpolate over time; never across gaps.
+
+        Args:
+            recording: The recording.
+            at_ns: Instants; shape (m,); ns.
+
+        Returns:
+            Values; shape (m,); NaN in gaps and outside the stream.
+        """
+        stream = recording.stream(self.stream)
+        return interpolate(stream, stream.signal(self.quantity).column(self.column)[:, None], at_ns)[:, 0]
 
 
 def named_columns(recording: Recording) -> Iterator[tuple[str, ScalarSource]]:

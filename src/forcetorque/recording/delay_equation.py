@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import RecordingError
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import RecordingError
 
 _ITERATIONS, _CLOSE = 60, 1e-4
 """Steps towards the solution, and the part of a step of time below which it is one."""

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
 
 WINDOW = 16
 """Samples of a window: of resting sensors one sample, and the next few, may come again by chance."""

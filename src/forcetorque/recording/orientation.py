@@ -14,12 +14,11 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only, require_shape
-from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.errors import FormatError, UnitError
-from forcetorque.recording.finding import Finding
+from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.errors import FormatError, UnitError
+from forcetorque.base.units import STANDARD_GRAVITY, si_factor
+from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal
-from forcetorque.spatial import si_factor
 
 LARGEST_DEFECT = 0.01
 """By how much the norm of a quaternion, or a product of rows of a rotation matrix, may be off, as rounding to two

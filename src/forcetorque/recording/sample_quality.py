@@ -10,7 +10,7 @@ from typing import Self
 import numpy as np
 from scipy.special import erf
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.recording.alignment import usable_samples
 
 FROZEN_SECONDS = 0.5

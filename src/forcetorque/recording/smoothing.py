@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Savitzky-Golay smoothing and derivatives of streams, piece by piece between gaps."""
+"""Savitzky-Golay smoothing and derivatives of streams, interval by interval between gaps."""
 
 from __future__ import annotations
 
@@ -8,10 +8,44 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.errors import RecordingError
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.errors import RecordingError
 from forcetorque.recording.alignment import gap_limit_ns, seconds_since, usable_samples
-from forcetorque.recording.window_polynomial import polynomials_through_windows
+
+
+def polynomials_through_windows(
+    values: FloatArray, length: int, order: int, *, derivative: int, step: float
+) -> FloatArray:
+    """Fit a polynomial to the window around every sample, and read it or its derivative off at the sample.
+
+    Samples less than half a window from an end are read off the polynomial of the first or last full window.
+
+    Args:
+        values: Evenly spaced samples, at least as many as a window holds; shape (n, k).
+        length: Samples in a window, an odd number above the order.
+        order: Order of the polynomials.
+        derivative: 0 to smooth, 1 for the rate, 2 for the second derivative; at most the order.
+        step: Time from one sample to the next; s.
+
+    Returns:
+        Filtered samples; shape (n, k); the unit of `values` per s ** derivative.
+    """
+    half = length // 2
+    # half a window counts as 1, so that the powers of all orders are of one size
+    unit = max(half, 1)
+    powers = np.vander(np.arange(-half, half + 1) / unit, order + 1, increasing=True)
+    read_off = np.zeros_like(powers)
+    factors = [math.perm(power, derivative) for power in range(derivative, order + 1)]
+    read_off[:, derivative:] = powers[:, : order + 1 - derivative] * factors / (unit * step) ** derivative
+    weights = np.linalg.lstsq(powers.T, read_off[half], rcond=None)[0]
+    result = np.empty(values.shape)
+    for k, column in enumerate(values.T):
+        result[half : len(values) - half, k] = np.correlate(column, weights, mode="valid")
+    if half:
+        result[:half] = read_off[:half] @ np.linalg.lstsq(powers, values[:length], rcond=None)[0]
+        result[-half:] = read_off[-half:] @ np.linalg.lstsq(powers, values[-length:], rcond=None)[0]
+    return result
+
 
 _HIT = 1e-6
 """A sample this close to an instant of the grid, in steps, is at it: places are rounded."""

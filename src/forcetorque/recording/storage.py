@@ -1,9 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The project's own on-disk form: a folder with recording.json and one Parquet file per stream.
-
-Units and frames stand in the metadata of every Parquet field and again, for programs that drop
-those, in one JSON text per file under the key `forcetorque`. What is written reads back exactly.
-"""
+"""The project's own on-disk form: a folder with recording.json and one Parquet file per stream."""
 
 from __future__ import annotations
 
@@ -20,16 +16,12 @@ from uuid import uuid4
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.arrow_numbers import arrow_numbers, require_small_parquet
-from forcetorque.errors import FormatError, MissingFileError, RecordingError, ShapeError
-from forcetorque.paths import real_path
-from forcetorque.recording.finding import Finding
-from forcetorque.recording.interval import Interval, MovingSupport, Support, Use
-from forcetorque.recording.quantity import QUANTITIES
-from forcetorque.recording.recording import Recording
-from forcetorque.recording.stream import Signal, Stream
-from forcetorque.temporary import temporary_beside
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.arrow import arrow_numbers, require_small_parquet
+from forcetorque.base.errors import FormatError, MissingFileError, RecordingError, ShapeError
+from forcetorque.base.files import real_path, temporary_beside
+from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
+from forcetorque.recording.stream import QUANTITIES, Labels, Signal, Stream
 
 INDEX_FILE = "recording.json"
 """File that makes a folder a recording."""
@@ -264,3 +256,41 @@ def _integers(table: Any, name: str) -> IntArray:
         raise FormatError(f"column {name!r}: expected int64, got {column.type}")
     integers: IntArray = arrow_numbers(column)
     return integers
+
+
+_LABELS = {
+    Labels.FIXED: "as listed",
+    Labels.JOINTS: "one per joint, named as in the robot model",
+    Labels.CHANNELS: "one per channel, in the order of the electronics",
+    Labels.TAXELS: "one per number in a message of skin, in its order",
+}
+
+
+def recording_schema() -> dict[str, Any]:
+    """Describe the folder of a recording.
+
+    Returns:
+        Description with stable keys.
+    """
+    return {
+        "schema": SCHEMA,
+        "index": INDEX_FILE,
+        "clocks": "every stream names the clock that stamped it; only streams of one clock are combined; "
+        "second 0 of an interval is the earliest stamp over all streams",
+        "stream_file": {
+            "stamp_ns": "int64, ns since the epoch of the clock, in the order of the log",
+            "sequence": "int64, counter of the sender; absent where there is none",
+            "QUANTITY": "fixed-size list of float64, one entry per column; NaN where a value is missing",
+        },
+        "quantities": {
+            quantity.name: {
+                "columns": list(quantity.columns) or _LABELS[quantity.labels],
+                "units": list(quantity.units)
+                if quantity.labels is Labels.FIXED
+                else {"one per column out of": list(quantity.units) or "any"},
+                "frame": "named" if quantity.has_frame else "none",
+                "description": quantity.description,
+            }
+            for quantity in QUANTITIES.values()
+        },
+    }

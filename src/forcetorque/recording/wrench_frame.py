@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import RecordingError
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import RecordingError
+from forcetorque.base.pose import make_pose
+from forcetorque.base.wrench import transform_wrench
 from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.recording.stream import Stream
-from forcetorque.spatial import make_pose, transform_wrench
 
 
 def wrench_in_frame(stream: Stream, to: str, to_H_own: Any) -> Stream:

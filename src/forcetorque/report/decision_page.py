@@ -1,21 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page to decide by: may the sensor be used, how large will its errors be, what is to be done next."""
+"""The page to decide by: whether the sensor may be used, how large its errors will be, and why."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from forcetorque.analysis import UseVerdict, VerdictLine
-from forcetorque.calibration import Calibration
-from forcetorque.evaluation.use import CONFIDENCE
-from forcetorque.report import figures
-from forcetorque.report.calibration_sections import origin_words
-from forcetorque.report.document import Block, Figure, List, Picture, Place, Section, Tone, Verdict
-from forcetorque.report.figures.canvas import two_digits
-from forcetorque.report.next_steps import NextSteps
-from forcetorque.report.repeated import said_once
-from forcetorque.report.uses import Undecided
-from forcetorque.result import Table, short_names, table_of, with_first_column
+from forcetorque.calibration.report_blocks import origin_words
+from forcetorque.evaluation.load_cases.prediction import CONFIDENCE
+from forcetorque.evaluation.load_cases.verdict import UseVerdict
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.report.assessment.assessment import Assessment
+from forcetorque.report.assessment.experiment_assessment import ExperimentAssessment
+from forcetorque.report.assessment.verdict import VerdictLine
+from forcetorque.report.load_cases import Undecided
+from forcetorque.report.next_steps import NextSteps, gathered, said_once
+from forcetorque.results.document.content import Block, Figure, List, Place, Section, Tone, Verdict
+from forcetorque.results.document.picture import Picture
+from forcetorque.results.figures.canvas import two_digits
+from forcetorque.results.table import Table, short_names, table_of, with_first_column
 
 _WORDS = (
     "use: with 95 % probability the predicted errors are within what is allowed, and data that were not fitted, with a "
@@ -134,6 +136,8 @@ def _briefly(verdict: UseVerdict) -> str:
 
 
 def _figure(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[Block]:
+    from forcetorque.evaluation.figures.load_cases import use_figure
+
     drawn = [verdict for verdict in uses if verdict.errors]
     if not drawn:
         return
@@ -144,7 +148,7 @@ def _figure(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[Bl
         for verdict in drawn
     )
     yield Figure(
-        picture=Picture(lambda: figures.use_figure(drawn, names)),
+        picture=Picture(lambda: use_figure(drawn, names)),
         caption="How much readings are predicted to err, root mean square over the loads of the use. Before: with the "
         "matrix that the calibration came from. After: with the calibration. Measured: with the calibration, on data "
         f"that were not fitted, at their own loads. Loads of “{cases}.{_beside(drawn)}",
@@ -206,3 +210,56 @@ def _numbers(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> list[Block
         if len(set(cells)) > 1:
             table = with_first_column(table, heading, cells)
     return [table]
+
+
+TITLE = "Better than the prior?"
+"""Title of the section."""
+
+
+def judgement_section(experiments: Sequence[ExperimentAssessment]) -> Section:
+    """Put together what the judged data say of every calibration against its prior.
+
+    Args:
+        experiments: What is said about every experiment.
+
+    Returns:
+        A section: sentences, each once with the names of those whom it is about, then the numbers of each sensor.
+    """
+    assessments = {
+        f"{sensor.sensor}, {experiment.experiment}": sensor
+        for experiment in experiments
+        for sensor in experiment.sensors
+    }
+    sentences = gathered(
+        pair
+        for name, assessment in assessments.items()
+        for pair in _sentences(name if len(assessments) > 1 else "", assessment)
+    )
+    blocks: list[Block] = [
+        Verdict(tone=tone, text=f"{', '.join(names)}: {text}" if any(names) else text)
+        for names, (tone, text) in sentences
+    ]
+    for name, assessment in assessments.items():
+        if assessment.comparisons:
+            whose = f"{name}: " if len(assessments) > 1 else ""
+            blocks.append(
+                table_of(
+                    assessment.comparisons,
+                    f"{whose}mean norm of the error (not the root mean square, by which the verdict on the first page "
+                    "goes) against that of the prior on the same samples, and the ratio of the errors with its 95 % "
+                    "interval over independent stretches of time; another offset would take away what is constant",
+                )
+            )
+    return Section(title=TITLE, blocks=tuple(blocks))
+
+
+def _sentences(whose: str, assessment: Assessment) -> Iterator[tuple[str, tuple[Tone, str]]]:
+    """By whom they are about: a calibration that stands in front of a sentence, or the sensor."""
+    calibrations = short_names(list(assessment.calibrations)).values()
+    for line in assessment.verdict:
+        name = next((one for one in calibrations if line.text.startswith(f"{one}: ")), None)
+        if name is None:
+            yield whose, (Tone(line.tone), line.text)
+        else:
+            about = f"{whose}, {name}" if whose else name
+            yield about, (Tone(line.tone), line.text.removeprefix(f"{name}: "))

@@ -1,25 +1,55 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What to do next about a sensor, in the order in which it is done: from its verdicts and their reasons."""
+"""What to do next about a sensor, in the order in which it is done, with repeated text said once."""
 
 from __future__ import annotations
 
 import shlex
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping, Sequence
+from typing import TypeVar
 
-from forcetorque.analysis import (
-    LITTLE_LEARNT,
-    SensorRun,
-    UseVerdict,
-    learnt_directions,
-    plan_sentence,
-    to_learn,
-)
-from forcetorque.calibration import Calibration
-from forcetorque.errors import ForceTorqueError
-from forcetorque.evaluation.use import CONFIDENCE
-from forcetorque.report.repeated import gathered, said_once
-from forcetorque.report.uses import SensorKey, Undecided
-from forcetorque.result import Row, short_names
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.calibration.summary import LITTLE_LEARNT, learnt_directions, to_learn
+from forcetorque.evaluation.load_cases.prediction import CONFIDENCE
+from forcetorque.evaluation.load_cases.verdict import UseVerdict
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.planning.planning import plan_sentence
+from forcetorque.report.load_cases import SensorKey, Undecided
+from forcetorque.results.row import Row
+from forcetorque.results.table import short_names
+
+_Said = TypeVar("_Said", bound=Hashable)
+
+
+def gathered(said: Iterable[tuple[str, _Said]]) -> list[tuple[tuple[str, ...], _Said]]:
+    """Put together what is said of several in the same words.
+
+    Args:
+        said: Name of whom something is about, and what is said.
+
+    Returns:
+        Names, each once, and what is said of them; in the order in which it first comes.
+    """
+    about: dict[_Said, dict[str, None]] = {}
+    for name, what in said:
+        about.setdefault(what, {})[name] = None
+    return [(tuple(names), what) for what, names in about.items()]
+
+
+def said_once(sentences: Iterable[tuple[str, str]], everyone: Collection[str]) -> list[str]:
+    """Say every sentence once.
+
+    Args:
+        sentences: Name of whom a sentence is about, and the sentence.
+        everyone: Names of all of whom something might be said.
+
+    Returns:
+        A sentence by itself if it is about everyone, else behind the names.
+    """
+    return [
+        sentence if set(names) == set(everyone) else f"{', '.join(names)}: {sentence}"
+        for names, sentence in gathered(sentences)
+    ]
 
 
 class NextSteps(Row):

@@ -6,25 +6,24 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Final
 
-from forcetorque.analysis import Assessment, criteria_table
-from forcetorque.analysis.evaluate.tables import ERROR_WORDS, error_tables
-from forcetorque.analysis.sphere.tables import interval_table, mass_table, moment_table
-from forcetorque.analysis.validate.contact_forces import WORTH, mean_contact_table
-from forcetorque.report import figures, tables
-from forcetorque.report.calibration_sections import (
-    excitation_blocks,
-    lambda_blocks,
-    learnt_blocks,
-    uncertainty_blocks,
-)
-from forcetorque.report.document import Block, Figure, List, Picture, Text
-from forcetorque.result import short_names, table_of, without_vague
+from forcetorque.calibration.report_blocks import excitation_blocks, lambda_blocks, learnt_blocks, uncertainty_blocks
+from forcetorque.evaluation.acceptance.acceptance import criteria_table
+from forcetorque.evaluation.evaluation import ERROR_WORDS, error_tables
+from forcetorque.evaluation.sphere.sphere import interval_table, mass_table, moment_table
+from forcetorque.evaluation.validation.contact_forces import WORTH, mean_contact_table
+from forcetorque.report import record_tables as tables
+from forcetorque.report.assessment.assessment import Assessment
+from forcetorque.results.document.content import Block, Figure, List, Text
+from forcetorque.results.document.picture import Picture
+from forcetorque.results.table import short_names, table_of, without_vague
 
 Question = tuple[str, Callable[[Assessment], Iterator[Block]]]
 """Title of a section, and what makes its blocks."""
 
 
 def _errors(sensor: Assessment) -> Iterator[Block]:
+    from forcetorque.evaluation.figures.errors import comparison_figure, residual_figure
+
     if sensor.evaluation:
         yield from error_tables(sensor.evaluation, f"Errors of {sensor.evaluation[0].samples} samples")
         words = "; ".join((ERROR_WORDS, *sensor.smoothing))
@@ -37,15 +36,13 @@ def _errors(sensor: Assessment) -> Iterator[Block]:
     names = short_names([name for name, _ in judged.measured])
     shown = {names[name]: wrench for name, wrench in judged.measured}
     yield Figure(
-        picture=Picture(lambda: figures.comparison_figure(judged.time_s, judged.reference, shown)),
+        picture=Picture(lambda: comparison_figure(judged.time_s, judged.reference, shown)),
         caption="Measured wrenches against what the model demands (dashed), on data that was not fitted.",
         description=f"Six plots over time, one per component, of the reference and of {', '.join(shown)}.",
     )
     yield Figure(
         picture=Picture(
-            lambda: figures.residual_figure(
-                judged.time_s, {name: wrench - judged.reference for name, wrench in shown.items()}
-            )
+            lambda: residual_figure(judged.time_s, {name: wrench - judged.reference for name, wrench in shown.items()})
         ),
         caption="Errors: their distribution, and how long they repeat themselves.",
         description=f"Histograms and autocorrelations of the six error components of {', '.join(shown)}.",
@@ -53,6 +50,8 @@ def _errors(sensor: Assessment) -> Iterator[Block]:
 
 
 def _space(sensor: Assessment) -> Iterator[Block]:
+    from forcetorque.evaluation.figures.sphere import force_space_figure, sphere_figure
+
     if sensor.spheres:
         yield mass_table(
             sensor.spheres,
@@ -73,7 +72,7 @@ def _space(sensor: Assessment) -> Iterator[Block]:
         if reasons:
             yield List(points=tuple(sorted(reasons)))
         yield Figure(
-            picture=Picture(lambda: figures.sphere_figure(sensor.clouds)),
+            picture=Picture(lambda: sphere_figure(sensor.clouds)),
             caption="Forces, the ellipsoid through them and the sphere of the weight; dotted: not identifiable.",
             description="Clouds of forces seen along the three axes, with ellipsoids and a circle of the weight.",
         )
@@ -83,7 +82,7 @@ def _space(sensor: Assessment) -> Iterator[Block]:
         read = [*((names[name], wrench) for name, wrench in judged.measured), ("reference", judged.reference)]
         clouds = [(name, wrench[:, 3:]) for name, wrench in read]
         yield Figure(
-            picture=Picture(lambda: figures.force_space_figure({sensor.sensor: clouds}, quantity="moment")),
+            picture=Picture(lambda: force_space_figure({sensor.sensor: clouds}, quantity="moment")),
             caption="Moments on data that was not fitted, and what the model demands.",
             description="Clouds of moments seen along the three axes, measured and expected.",
         )

@@ -1,23 +1,36 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The document of a report: pages to decide by first, then what they rest on."""
+"""The sections of a report: pages to decide by first, then what they rest on."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
-from forcetorque.analysis import Assessment, Contest, ContestLoadRow, ExperimentAssessment, Response, finding_table
-from forcetorque.errors import ForceTorqueError
-from forcetorque.report import tables
-from forcetorque.report.calibration_sections import origin_words
-from forcetorque.report.document import Block, Document, Figure, List, Picture, Section, Text
-from forcetorque.report.figures import contest_figure, joint_figure, response_figure
-from forcetorque.report.judgements import judgement_section
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.calibration.figures.joint import joint_figure
+from forcetorque.calibration.report_blocks import origin_words
+from forcetorque.contests.figure import contest_figure
+from forcetorque.contests.ranking import Contest
+from forcetorque.contests.result import ContestLoadRow
+from forcetorque.estimation.report_blocks import torque_section
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.inspection.inspect import finding_table
+from forcetorque.report import record_tables as tables
+from forcetorque.report.assessment.assessment import Assessment
+from forcetorque.report.assessment.experiment_assessment import ExperimentAssessment
+from forcetorque.report.decision_page import judgement_section
 from forcetorque.report.questions import ERRORS, QUESTIONS
-from forcetorque.report.skin_section import skin_section
-from forcetorque.report.torque_section import torque_section
-from forcetorque.result import Table, table_of
+from forcetorque.results.document.content import Block, Document, Figure, List, Page, Section, Text
+from forcetorque.results.document.picture import Picture
+from forcetorque.results.table import Table, table_of
+from forcetorque.sensor.bandwidth.bandwidth import Response
+from forcetorque.sensor.bandwidth.figure import response_figure
+from forcetorque.skin.report_blocks import skin_section
+from forcetorque.viewer.build import scene_of
+from forcetorque.viewer.page import MOST_SAMPLES, page_of
 
 
 def report_document(
@@ -171,3 +184,31 @@ def _provenance(experiments: Sequence[ExperimentAssessment]) -> Section:
     files = dict(item for experiment in experiments for item in experiment.inputs_sha256.items())
     read = Table(caption="Files that were read", headings=("file", "SHA-256"), rows=tuple(files.items()))
     return Section(title="Provenance", blocks=(List(points=tuple(points)), read))
+
+
+def viewer_section(path: Path, experiment: Experiment, calibrations: Mapping[str, Calibration]) -> Section:
+    """Put the viewer of an experiment into a section.
+
+    Args:
+        path: Experiment file.
+        experiment: What it points to.
+        calibrations: Calibrations by their file.
+
+    Returns:
+        The section.
+
+    Raises:
+        ForceTorqueError: If there are too many samples for one file.
+    """
+    built = scene_of(path, experiment, calibrations)
+    if built.scene.samples > MOST_SAMPLES:
+        raise ForceTorqueError(
+            f"--viewer: expected at most {MOST_SAMPLES} samples inside a document, got {built.scene.samples}; leave it "
+            "out and serve them with `forcetorque view`"
+        )
+    page = Page(
+        html=page_of(built),
+        title=f"Viewer of {experiment.name}",
+        instead=f"The HTML file has a viewer here; `forcetorque view {path}` opens it too.",
+    )
+    return Section(title=f"Posture and forces: {experiment.name}", blocks=(page,))

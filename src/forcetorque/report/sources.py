@@ -10,14 +10,14 @@ from pathlib import Path
 from typing import Any
 
 import forcetorque
-from forcetorque.analysis import AcceptanceFile, read_acceptance
-from forcetorque.analysis.runs.applicability import calibrations_of
-from forcetorque.calibration import Calibration, read_calibration
-from forcetorque.errors import ExperimentError, FormatError, MissingFileError
-from forcetorque.experiment import Experiment
-from forcetorque.result import result_classes
-from forcetorque.run_files import declare_input
-from forcetorque.toml_table import toml_content
+from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
+from forcetorque.base.run_files import declare_input
+from forcetorque.base.toml_file import toml_content
+from forcetorque.evaluation.acceptance.file import AcceptanceFile, read_acceptance
+from forcetorque.experiment.applicability import calibrations_of
+from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.results.registry import result_classes
 
 _KINDS = "an experiment file, a calibration, an acceptance file or the JSON result of a command"
 

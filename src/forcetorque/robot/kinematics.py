@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import RobotError, ShapeError, known_names
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import RobotError, ShapeError, known_names
+from forcetorque.base.pose import cross, make_pose, rotation_about_z, split_pose
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.sub_model import path_to_root
 from forcetorque.robot.tree import Body, BodyTree, Connection
-from forcetorque.spatial import cross, make_pose, rotation_about_z, split_pose
 
 
 @dataclass(slots=True)

@@ -6,10 +6,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import RobotError
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import RobotError
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.pose import invert_pose, skew, split_pose
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
-from forcetorque.spatial import Inertia, invert_pose, skew, split_pose
 
 _JOINTS = {JointType.REVOLUTE: "hinge", JointType.CONTINUOUS: "hinge", JointType.PRISMATIC: "slide"}
 

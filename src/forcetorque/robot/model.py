@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import RobotError, known_names
-from forcetorque.read_only_mapping import read_only_mapping
-from forcetorque.spatial import Inertia, MeasureDirection
+from forcetorque.base.arrays import FloatArray, read_only, read_only_mapping
+from forcetorque.base.errors import RobotError, known_names
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.wrench import MeasureDirection
 
 
 class JointType(StrEnum):

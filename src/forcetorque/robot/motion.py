@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Motion of a robot over n samples: its joints, and the frame that the tree is rooted at."""
+"""Motion of a robot over n samples: its joints, logged or fixed, and the frame that the tree is rooted at."""
 
 from __future__ import annotations
 
@@ -9,9 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray, read_only
-from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.errors import ShapeError
+from forcetorque.base.arrays import FloatArray, IntArray, read_only
+from forcetorque.base.errors import RecordingError, RobotError, ShapeError, known_names
+from forcetorque.base.pose import make_pose
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.robot.model import Joint, JointType, RobotModel
 
 _UNIT = 1e-6
 """A direction may be this far from unit length: it is a part of the weight far below what sensors resolve."""
@@ -134,3 +136,96 @@ class RootMotion:
         vectors = (self.proper_acceleration, self.angular_velocity, self.angular_acceleration)
         proper, velocity, rate = (values if values.size == 3 else values[rows] for values in vectors)
         return RootMotion(proper_acceleration=proper, angular_velocity=velocity, angular_acceleration=rate)
+
+
+ONE_TURN = 2.0 * np.pi
+"""rad; a joint that stands still is stated within it."""
+
+
+def fix_joints(model: RobotModel, positions: Mapping[str, float]) -> RobotModel:
+    """Let joints stand still, and what mimics them with them.
+
+    Args:
+        model: The robot.
+        positions: Coordinate of each joint; rad, m where prismatic.
+
+    Returns:
+        The robot, with fixed joints in their place.
+
+    Raises:
+        RobotError: If a joint is not in the robot, is fixed already, mimics another, or is beyond one turn.
+    """
+    joints = dict(model.joints)
+    for name in positions:
+        if name not in joints:
+            moving = [joint.name for joint in joints.values() if joint.type.moves]
+            raise RobotError(f"robot {model.name!r} has no joint {name!r}; {known_names(name, moving)}")
+        if not joints[name].type.moves:
+            raise RobotError(f"joint {name!r}: expected one that moves, it is fixed in the robot; leave it out")
+        if joints[name].type is not JointType.PRISMATIC and abs(positions[name]) > ONE_TURN:
+            raise RobotError(
+                f"joint {name!r}: expected rad within one turn, got {positions[name]:g}; is that in degrees?"
+            )
+        if (mimic := joints[name].mimic) is not None:
+            raise RobotError(f"joint {name!r}: it mimics {mimic.leader!r}; state that one")
+    still = dict(positions)
+    while still:
+        for name, position in still.items():
+            joints[name] = _at(joints[name], position)
+        still = {
+            joint.name: joint.mimic.multiplier * still[joint.mimic.leader] + joint.mimic.offset
+            for joint in joints.values()
+            if joint.type.moves and joint.mimic is not None and joint.mimic.leader in still
+        }
+    return replace(model, joints=joints)
+
+
+def _at(joint: Joint, position: float) -> Joint:
+    parent_H_child = joint.parent_H_child @ _displacement(joint, position)
+    return replace(joint, type=JointType.FIXED, parent_H_child=parent_H_child, mimic=None, limit=None)
+
+
+def _displacement(joint: Joint, position: float) -> FloatArray:
+    """Pose of the child link relative to where it is at coordinate zero."""
+    from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
+
+    if joint.type is JointType.PRISMATIC:
+        return make_pose(np.eye(3), position * joint.axis)
+    return make_pose(Rotation.from_rotvec(position * joint.axis).as_matrix(), np.zeros(3))
+
+
+CHECK_JOINT_UNIT = (
+    "check the unit of the joints (degrees or radians, as units of [[recording.stream]] or recording.json state it; "
+    "arrays are in radians)"
+)
+"""What is to be done where joints may be in another unit."""
+_FAR = 2.0 * np.pi
+"""Beyond its limits by a full turn no joint reads, even one whose encoder counts from another zero; rad."""
+_MOST = 0.99
+"""Share of samples that says it: single ones may be spikes."""
+
+
+def require_joints_in_radians(model: RobotModel, motion: JointMotion) -> None:
+    """Refuse positions that lie far beyond the limits of the URDF as radians, and within them as degrees.
+
+    Args:
+        model: The robot; joints without limits are not judged.
+        motion: Positions of its joints.
+
+    Raises:
+        RecordingError: If those of a joint do.
+    """
+    for name, position in zip(motion.names, motion.position.T, strict=True):
+        joint = model.joints.get(name)
+        limit = None if joint is None or joint.type is not JointType.REVOLUTE else joint.limit
+        if limit is None or limit.lower is None or limit.upper is None or not limit.lower < limit.upper:
+            continue
+        turned = position[np.isfinite(position)]
+        far = (turned < limit.lower - _FAR) | (turned > limit.upper + _FAR)
+        inside = (np.radians(turned) >= limit.lower) & (np.radians(turned) <= limit.upper)
+        if turned.size and far.mean() > 1.0 - _MOST and inside.mean() >= _MOST:
+            farthest = turned[np.argmax(np.abs(turned))]
+            raise RecordingError(
+                f"joint {name!r}: expected positions about the limits of the URDF, {limit.lower:.3g} to "
+                f"{limit.upper:.3g} rad, got up to {farthest:.3g} rad, which fits them in degrees; {CHECK_JOINT_UNIT}"
+            )

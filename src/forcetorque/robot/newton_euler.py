@@ -14,13 +14,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import RobotError, known_names
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import RobotError, known_names
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.pose import cross, invert_pose
+from forcetorque.base.wrench import transform_wrench
 from forcetorque.robot.kinematics import BodyState, move_to, root_state, stacked_root
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.requirements import needed_bodies, required_joints
-from forcetorque.robot.tree import BodyTree
-from forcetorque.spatial import Inertia, cross, invert_pose, transform_wrench
+from forcetorque.robot.tree import BodyTree, needed_bodies, required_joints
 
 _BLOCK = 4096
 """Samples per pass: the working arrays of a block stay in the processor's cache."""

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray
-from forcetorque.errors import RobotError, known_names
+from forcetorque.base.arrays import BoolArray
+from forcetorque.base.errors import RobotError, known_names
 from forcetorque.robot.tree import BodyTree
 
 

@@ -1,15 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Body trees: a robot seen from one link, with fixed joints lumped and cuts at the sensors.
-
-Links that do not move against each other are one body. Every moving body's frame is its joint's
-frame turned so that the joint axis is z: the joint is `parent_R_joint @ Rz(q)` or a slide along z.
-A force-torque sensor cuts a body in two that share one frame, so a cut costs one more inertia and
-no kinematics. The tree may be rooted at any link, that of the support or that of an IMU.
-"""
+"""Body trees: a robot seen from one link, with fixed joints lumped and cuts at the sensors."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
@@ -17,11 +11,12 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import RobotError, known_names
-from forcetorque.read_only_mapping import read_only_mapping
+from forcetorque.base.arrays import BoolArray, FloatArray, read_only_mapping
+from forcetorque.base.errors import RobotError, known_names
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.pose import invert_pose, make_pose, rotation_with_z_along, split_pose
+from forcetorque.base.wrench import reading_sign
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
-from forcetorque.spatial import Inertia, invert_pose, make_pose, reading_sign, rotation_with_z_along, split_pose
 
 _TREES: Final = 32
 """Trees that are remembered: one robot is asked about over and over, from a few of its links."""
@@ -251,3 +246,55 @@ def _shared(pose: FloatArray) -> FloatArray:
     """A pose of a tree that many hold: nobody may change it."""
     pose.setflags(write=False)
     return pose
+
+
+def needed_bodies(tree: BodyTree, sensors: Sequence[str]) -> tuple[BoolArray, BoolArray]:
+    """Find the bodies that the expected wrenches of some sensors depend on.
+
+    Outboard bodies without inertia that carry none further out are left out, so their joints may
+    be absent from a log.
+
+    Args:
+        tree: The robot.
+        sensors: Names of the sensors.
+
+    Returns:
+        Bodies whose motion is needed, and among them those whose net wrench is; each of shape (bodies,).
+
+    Raises:
+        RobotError: If a sensor is not in the tree.
+    """
+    count = len(tree.bodies)
+    outboard = np.zeros(count, dtype=bool)
+    for name in sensors:
+        if name not in tree.cuts:
+            raise RobotError(f"no force-torque sensor {name!r} at a fixed joint; {known_names(name, tree.cuts)}")
+        outboard[tree.cuts[name].body] = True
+    has_weight = np.array([not body.inertia.is_zero for body in tree.bodies])
+    for index, body in enumerate(tree.bodies):
+        outboard[index] |= body.parent >= 0 and outboard[body.parent]
+    for index in reversed(range(1, count)):
+        has_weight[tree.bodies[index].parent] |= has_weight[index]
+    weighing = outboard & has_weight
+    moving = weighing.copy()
+    for index in reversed(range(1, count)):
+        moving[tree.bodies[index].parent] |= moving[index]
+    return moving, weighing
+
+
+def required_joints(tree: BodyTree, sensor: str) -> tuple[str, ...]:
+    """Name the joints whose motion a sensor's expected wrench depends on.
+
+    Args:
+        tree: The robot, rooted where the motion is known.
+        sensor: Name of the sensor.
+
+    Returns:
+        Joints, each once, from the root outwards; leaders instead of joints that mimic.
+
+    Raises:
+        RobotError: If the sensor is not in the tree.
+    """
+    moving, _ = needed_bodies(tree, [sensor])
+    needed = (body.coordinate for body, moves in zip(tree.bodies, moving, strict=True) if moves)
+    return tuple(dict.fromkeys(coordinate.joint for coordinate in needed if coordinate is not None))

@@ -9,9 +9,9 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import FormatError
-from forcetorque.spatial import make_pose, rotation_from_rpy
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FormatError
+from forcetorque.base.pose import make_pose, rotation_from_rpy
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,12 @@ from collections.abc import Iterable
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from forcetorque.arrays import FloatArray
-from forcetorque.atomic import write_bytes_atomically
-from forcetorque.errors import RobotError
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import RobotError
+from forcetorque.base.files import write_bytes_atomically
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.pose import rpy_from_rotation, skew, split_pose
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, RobotModel
-from forcetorque.spatial import Inertia, rpy_from_rotation, skew, split_pose
 
 
 def urdf_text(model: RobotModel) -> str:

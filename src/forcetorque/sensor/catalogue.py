@@ -12,7 +12,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from forcetorque.errors import FormatError, SensorError, known_names
+from forcetorque.base.errors import FormatError, SensorError, known_names
 
 _Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False, strict=True)]
 _Text = Annotated[str, Field(min_length=1)]

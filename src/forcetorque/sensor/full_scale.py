@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Full scale, resolution and dynamic range of one channel, and of the axes of a calibration matrix."""
+"""Full scale, resolution and range of channels and axes, and what can be measured before a channel saturates."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, require_shape
-from forcetorque.errors import SensorError
+from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.errors import SensorError
 from forcetorque.sensor.require import require_finite
 
 
@@ -134,3 +134,147 @@ def _checked(matrix: Any) -> FloatArray:
     if not np.isfinite(array).all():
         raise SensorError("matrix: expected finite numbers of N/count and N m/count")
     return array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RawLimits:
+    """Counts at which the channels of a sensor saturate, with the calibration that tells a load from counts."""
+
+    matrix: FloatArray
+    """Calibration matrix, `wrench = matrix raw + offset`; shape (6, 6); N/count, N m/count."""
+    offset: FloatArray
+    """Offset; shape (6,); N, N m."""
+    lowest: FloatArray
+    """Count at which each channel saturates; shape (6,)."""
+    highest: FloatArray
+    """Count at which each channel saturates; shape (6,)."""
+
+    def __post_init__(self) -> None:
+        # six channels: with another number a load does not tell the counts
+        for field, shape in (("matrix", (6, 6)), ("offset", (6,)), ("lowest", (6,)), ("highest", (6,))):
+            array = read_only(getattr(self, field), name=field, shape=shape)
+            object.__setattr__(self, field, array)
+            if not np.isfinite(array).all():
+                raise SensorError(f"RawLimits: {field}: expected finite numbers")
+        if not (self.lowest < self.highest).all():
+            raise SensorError(
+                f"RawLimits: expected lowest below highest, got {self.lowest.tolist()} and {self.highest.tolist()}"
+            )
+        # rows scaled, so that the units of force and moment do not decide
+        rows = np.linalg.norm(self.matrix, axis=1, keepdims=True)
+        if not rows.all() or np.linalg.matrix_rank(self.matrix / rows) < 6:
+            raise SensorError("RawLimits: the matrix is singular; expected one that tells the counts of every load")
+
+    def raw(self, wrench: Any) -> FloatArray:
+        """Give the counts of a load, not rounded and not limited.
+
+        Args:
+            wrench: Wrenches; shape (..., 6); N, N m.
+
+        Returns:
+            Counts of each channel; shape (..., 6).
+        """
+        difference = np.asarray(wrench, dtype=np.float64) - self.offset
+        return np.asarray(np.linalg.solve(self.matrix, difference[..., None])[..., 0], dtype=np.float64)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ReachableFullScale:
+    """Largest load along each axis with the other components zero, and the channel that limits it."""
+
+    positive: FloatArray
+    """Largest component before a channel saturates; shape (6,); N, N m."""
+    negative: FloatArray
+    """Lowest component, below zero; shape (6,); N, N m."""
+    positive_channel: IntArray
+    """Index of the channel that saturates first on the way up; shape (6,)."""
+    negative_channel: IntArray
+    """Index of the channel that saturates first on the way down; shape (6,)."""
+
+    def __post_init__(self) -> None:
+        for field in ("positive", "negative"):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
+        for field in ("positive_channel", "negative_channel"):
+            index = np.array(getattr(self, field), dtype=np.int64)
+            require_shape(index, name=field, shape=(6,))
+            index.setflags(write=False)
+            object.__setattr__(self, field, index)
+
+
+def reachable_full_scale(limits: RawLimits) -> ReachableFullScale:
+    """Give the largest load in both directions of each axis, with the other components zero.
+
+    Args:
+        limits: Calibration and limits of the channels.
+
+    Returns:
+        Loads at which the first channel reaches a limit.
+
+    Raises:
+        SensorError: If a channel is saturated without load.
+    """
+    unloaded = limits.raw(np.zeros(6))
+    for channel, count in enumerate(unloaded):
+        if not limits.lowest[channel] < count < limits.highest[channel]:
+            raise SensorError(
+                f"channel {channel} reads {count:.6g} counts without load, outside "
+                f"{limits.lowest[channel]:g} to {limits.highest[channel]:g}: nothing can be measured; check the offset"
+            )
+    per_load = np.linalg.inv(limits.matrix)  # (channels, axes)
+    up, down = (limits.highest - unloaded)[:, None], (limits.lowest - unloaded)[:, None]
+    sees = per_load != 0.0  # a channel that does not see an axis never limits it
+    rises = per_load > 0.0
+    positive = np.divide(np.where(rises, up, down), per_load, out=np.full((6, 6), np.inf), where=sees)
+    negative = np.divide(np.where(rises, down, up), per_load, out=np.full((6, 6), -np.inf), where=sees)
+    return ReachableFullScale(
+        positive=positive.min(axis=0),
+        negative=negative.max(axis=0),
+        positive_channel=positive.argmin(axis=0),
+        negative_channel=negative.argmax(axis=0),
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Coverage:
+    """How the loads of a motion lie within the limits of the channels."""
+
+    count: int
+    """Number of samples."""
+    share: float
+    """Part of the samples that saturate no channel."""
+    head_room_below: FloatArray
+    """Distance of each channel's lowest count from its lower limit; shape (6,); counts; negative if exceeded."""
+    head_room_above: FloatArray
+    """Distance of each channel's highest count from its upper limit; shape (6,); counts; negative if exceeded."""
+
+    def __post_init__(self) -> None:
+        for field in ("head_room_below", "head_room_above"):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
+
+
+def coverage(limits: RawLimits, wrench: Any) -> Coverage:
+    """Say which part of a motion's loads a sensor can measure, and what room each channel has left.
+
+    Args:
+        limits: Calibration and limits of the channels.
+        wrench: Expected loads of the motion; shape (n, 6), n at least 1; N, N m.
+
+    Returns:
+        Share and head-room; a count at a limit is saturated, as in `hold_on_saturation`.
+
+    Raises:
+        ShapeError: If the loads are not wrenches.
+        SensorError: If there is no load, or one is not finite.
+    """
+    loads = np.asarray(wrench, dtype=np.float64)
+    require_shape(loads, name="wrench", shape=(None, 6))
+    if not len(loads) or not np.isfinite(loads).all():
+        raise SensorError(f"wrench: expected at least one load with finite numbers, got {len(loads)} load(s)")
+    raw = limits.raw(loads)
+    within = ((raw > limits.lowest) & (raw < limits.highest)).all(axis=1)
+    return Coverage(
+        count=len(loads),
+        share=float(within.mean()),
+        head_room_below=raw.min(axis=0) - limits.lowest,
+        head_room_above=limits.highest - raw.max(axis=0),
+    )

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 
-from forcetorque.errors import SensorError
+from forcetorque.base.errors import SensorError
 
 
 def require_positive(value: float, *, name: str, unit: str) -> None:

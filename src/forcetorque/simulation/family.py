@@ -1,12 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Families of six-axis sensors: one design, and how its specimens differ.
-
-The design is a Y-shaped element whose frame of reference lies above the plane of the arms, so that
-a force in that plane also bends the arms out of it. Specimens differ by what production leaves
-free: the strength of the gauges, where the axis of the load runs, how straight gauges sit on their
-arm, and how thick the arms are. The figures are chosen so that specimens scatter as the workbench
-matrices of real sensors of that design do; tests compare both.
-"""
+"""Families of six-axis sensors whose instances differ, and the electronics of a channel from strain to counts."""
 
 from __future__ import annotations
 
@@ -15,17 +8,39 @@ from functools import cache
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.sensor.elastic import (
-    Beam,
-    Bending,
-    ElasticElement,
-    GaugePlace,
-    Material,
-    RectangularSection,
-)
-from forcetorque.simulation.electronics import Electronics
-from forcetorque.spatial import make_pose, rotation_about_z, wrench_matrix
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.pose import make_pose, rotation_about_z
+from forcetorque.base.wrench import wrench_matrix
+from forcetorque.sensor.elastic.beam import Beam, Material, RectangularSection
+from forcetorque.sensor.elastic.element import Bending, ElasticElement, GaugePlace
+from forcetorque.sensor.electronics import HALF_BRIDGE, Adc, Bridge
+from forcetorque.sensor.gauge.resistive import ResistiveGauge
+
+_SMALL_STRAIN = 1e-7
+"""Strain of a few newtons: the bridge is linear to rounding there."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Electronics:
+    """What every channel of a board is made of."""
+
+    gauge: ResistiveGauge = ResistiveGauge(gauge_factor=130.0, resistance=200.0)
+    """A silicon gauge."""
+    bridge: Bridge = HALF_BRIDGE
+    """Gauges on both faces of an arm."""
+    excitation: float = 2.5
+    """Voltage across the bridge; V."""
+    amplifier_gain: float = 100.0
+    """Gain between bridge and converter."""
+    adc: Adc = Adc(bits=16, reference=1.65, signed=True)
+    """Converter."""
+
+    @property
+    def counts_per_strain(self) -> float:
+        """Change of the count per strain, for small ones; 1/strain."""
+        up, down = (float(self.bridge.ratio(self.gauge, sign * _SMALL_STRAIN)) for sign in (1.0, -1.0))
+        return self.amplifier_gain * self.excitation * (up - down) / (2.0 * _SMALL_STRAIN) / self.adc.step
+
 
 _STEEL = Material.from_poisson_ratio(200e9, 0.3)
 _PLACES = tuple(

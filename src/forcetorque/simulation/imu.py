@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import RobotError
-from forcetorque.recording import Signal
-from forcetorque.robot import RootMotion
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import RobotError
+from forcetorque.recording.stream import Signal
+from forcetorque.robot.motion import RootMotion
 
 _XYZ = ("x", "y", "z")
 

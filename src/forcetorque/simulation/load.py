@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import read_only
-from forcetorque.errors import RobotError, known_names
-from forcetorque.robot import RobotModel
-from forcetorque.spatial import Inertia
+from forcetorque.base.arrays import read_only
+from forcetorque.base.errors import RobotError, known_names
+from forcetorque.base.inertia import Inertia
+from forcetorque.robot.model import RobotModel
 
 
 def with_load(

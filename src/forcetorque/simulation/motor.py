@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

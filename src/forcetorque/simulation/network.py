@@ -16,9 +16,10 @@ from typing import TypeVar
 
 import numpy as np
 
-from forcetorque.arrays import IntArray
-from forcetorque.errors import RecordingError
-from forcetorque.recording import Recording, Stream
+from forcetorque.base.arrays import IntArray
+from forcetorque.base.errors import RecordingError
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.stream import Stream
 
 Drawn = TypeVar("Drawn")
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import RobotError, known_names
-from forcetorque.read_only_mapping import read_only_mapping
-from forcetorque.robot import Joint, JointType, RobotModel
-from forcetorque.spatial import Inertia, make_pose, rotation_about_z, rotation_with_z_along, skew
+from forcetorque.base.arrays import FloatArray, read_only, read_only_mapping
+from forcetorque.base.errors import RobotError, known_names
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.pose import make_pose, rotation_about_z, rotation_with_z_along, skew
+from forcetorque.robot.model import Joint, JointType, RobotModel
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

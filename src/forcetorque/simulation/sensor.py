@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A six-channel sensor with a Y-shaped elastic element, a known matrix and known faults."""
+"""A six-channel sensor with a Y-shaped element, the error of its workbench matrix, and what its board sends."""
 
 from __future__ import annotations
 
@@ -8,11 +8,71 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import SensorError
-from forcetorque.sensor.saturation import HeldCounts, hold_on_saturation
+from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.errors import FormatError, RecordingError, SensorError
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.stream import QUANTITIES, Signal
+from forcetorque.sensor.electronics import HeldCounts, hold_on_saturation
 from forcetorque.simulation.effects import Creep, Crosstalk, Noise, ThermalDrift
-from forcetorque.simulation.matrix_error import matrix_error
+
+
+def matrix_error(workbench: FloatArray, mounted: FloatArray) -> FloatArray:
+    """Give E of `read = (1 + E) true`.
+
+    Args:
+        workbench: Matrix that readings are made with; shape (6, 6); N/count, N m/count.
+        mounted: True matrix; shape (6, 6); N/count, N m/count.
+
+    Returns:
+        E, force before moment; shape (6, 6); 1, 1/m above on the right, m below on the left.
+    """
+    error: FloatArray = workbench @ np.linalg.inv(mounted) - np.eye(6)
+    return error
+
+
+def random_matrix_error(share: float, lever_m: float, rng: np.random.Generator) -> FloatArray:
+    """Draw an error of a size that is stated.
+
+    Args:
+        share: Root mean square of its coefficients, moments over the lever taken for forces.
+        lever_m: Moment over force; m.
+        rng: Source of the error; the same draw whatever the size.
+
+    Returns:
+        E; shape (6, 6); 1, 1/m above on the right, m below on the left.
+    """
+    drawn = rng.standard_normal((6, 6))
+    size = np.repeat([1.0, lever_m], 3)
+    error: FloatArray = share / np.sqrt((drawn**2).mean()) * drawn * size[:, None] / size
+    return error
+
+
+def mounted_matrix(where: str, workbench: FloatArray, error: FloatArray) -> FloatArray:
+    """Give the true matrix of a sensor whose workbench matrix has an error.
+
+    The matrix that moves is the mounted one: mounting is what changes a sensor, while the workbench matrix stays one
+    that scatters like those of real sensors. Counts follow, since `mounted^-1 = workbench^-1 (1 + E)`.
+
+    Args:
+        where: What asks for the error, for messages.
+        workbench: Matrix that readings are made with; shape (6, 6); N/count, N m/count.
+        error: E of `read = (1 + E) true`; shape (6, 6).
+
+    Returns:
+        The true matrix; shape (6, 6); N/count, N m/count.
+
+    Raises:
+        FormatError: If no mounting can do so much.
+    """
+    # between no error and this one the sensor is singular somewhere if a real eigenvalue reaches -1
+    values = np.linalg.eigvals(error)
+    if ((values.imag == 0.0) & (values.real <= -1.0)).any():
+        raise FormatError(
+            f"{where}, with which a load would be read with the wrong sign; ask for less, or draw another sensor with "
+            "another seed"
+        )
+    return np.asarray(np.linalg.solve(np.eye(6) + error, workbench), dtype=np.float64)
+
 
 _ARM_ANGLES = np.deg2rad([0.0, 120.0, 240.0])
 
@@ -164,3 +224,37 @@ def distorted_by_mounting(matrix: FloatArray, *, relative: float, rng: np.random
     scale = np.sqrt((matrix**2).mean(axis=1, keepdims=True))
     distorted: FloatArray = matrix + relative * scale * rng.standard_normal(matrix.shape)
     return distorted
+
+
+def calibrated_by_board(recording: Recording, stream: str, *, matrix: FloatArray, frame: str) -> Recording:
+    """Replace the counts of a sensor by the wrench that its board makes of them.
+
+    Args:
+        recording: The recording.
+        stream: Stream with the counts.
+        matrix: Matrix that the board applies; shape (6, c); N/count, N m/count.
+        frame: Frame of the sensor.
+
+    Returns:
+        The recording with `wrench` in place of `raw` in that stream.
+
+    Raises:
+        RecordingError: If the stream holds a wrench already.
+    """
+    source = recording.stream(stream)
+    raw = source.signal("raw")
+    if "wrench" in source.signals:
+        raise RecordingError(f"stream {stream!r}: expected counts alone, got a wrench beside them")
+    require_shape(matrix, name="matrix", shape=(6, len(raw.columns)))
+    quantity = QUANTITIES["wrench"]
+    wrench = Signal(
+        quantity=quantity.name,
+        values=raw.values @ matrix.T,
+        columns=quantity.columns,
+        units=quantity.units,
+        frame=frame,
+    )
+    signals = {
+        "wrench" if name == "raw" else name: wrench if name == "raw" else s for name, s in source.signals.items()
+    }
+    return replace(recording, streams={**recording.streams, stream: replace(source, signals=signals)})

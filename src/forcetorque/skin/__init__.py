@@ -1,50 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Artificial skin: where its taxels are and what may be wrong with that, and what they say about contacts."""
+"""Artificial skin: layout, taxels and their calibration, temperature, contacts and their wrenches."""
 
-from forcetorque.skin.description import PatchDescription
-from forcetorque.skin.findings import Defect, LayoutFinding, layout_findings
-from forcetorque.skin.layout import SAME_PLACE_M, UNIT_TOLERANCE, SkinLayout
-from forcetorque.skin.modular import LARGEST_MESSAGE, modular_patch
-from forcetorque.skin.module import (
-    MODULE_CENTRE,
-    MODULE_COLUMNS,
-    MODULE_PADS,
-    MODULE_SIDE_M,
-    MODULE_TAXELS,
-    MODULE_THERMAL,
-    placed_pads,
-)
-from forcetorque.skin.normals import patch_normals, rebuilt_normals
-from forcetorque.skin.patch_calibration import PatchCalibration, read_patch_calibration
-from forcetorque.skin.plan import PlannedModule, module_poses, placed_on_paper
-from forcetorque.skin.pressure_clock import PressureClock, match_pressure
-from forcetorque.skin.pressure_table import PressureTable
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from forcetorque.skin.layout.check import check_skin
+    from forcetorque.skin.taxels.calibrate import calibrate_skin, read_patches
+    from forcetorque.skin.wrench.wrench import skin_wrench
 
 __all__ = [
-    "LARGEST_MESSAGE",
-    "MODULE_CENTRE",
-    "MODULE_COLUMNS",
-    "MODULE_PADS",
-    "MODULE_SIDE_M",
-    "MODULE_TAXELS",
-    "MODULE_THERMAL",
-    "SAME_PLACE_M",
-    "UNIT_TOLERANCE",
-    "Defect",
-    "LayoutFinding",
-    "PatchCalibration",
-    "PatchDescription",
-    "PlannedModule",
-    "PressureClock",
-    "PressureTable",
-    "SkinLayout",
-    "layout_findings",
-    "match_pressure",
-    "modular_patch",
-    "module_poses",
-    "patch_normals",
-    "placed_on_paper",
-    "placed_pads",
-    "read_patch_calibration",
-    "rebuilt_normals",
+    "calibrate_skin",
+    "check_skin",
+    "read_patches",
+    "skin_wrench",
 ]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "calibrate_skin": "forcetorque.skin.taxels.calibrate",
+        "check_skin": "forcetorque.skin.layout.check",
+        "read_patches": "forcetorque.skin.taxels.calibrate",
+        "skin_wrench": "forcetorque.skin.wrench.wrench",
+    },
+)

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.errors import SkinError
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.errors import SkinError
 
 
 def require_counts(messages: FloatArray, *, where: str | None = None, rows: IntArray | None = None) -> None:

@@ -1,48 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Study: fits over estimation types, lambdas and data sets, judged by contact forces, and the choice among them."""
+"""Estimation types of the thesis, lambdas and data sets compared, and the best of them (thesis 5.3)."""
 
-from forcetorque.study import tables
-from forcetorque.study.candidate import Candidate, GenerativeCandidate
-from forcetorque.study.fitting import Combination, Fits, fit_candidates
-from forcetorque.study.judging import Judgement, judge, with_offset
-from forcetorque.study.lambdas import CONVENTION, SWEEP_LAMBDAS, TABLE_FACTOR, TABLE_LAMBDAS, relative_lambda
-from forcetorque.study.selection import (
-    SessionScore,
-    assembled,
-    best_by_axis,
-    best_by_magnitude,
-    scored_across_sessions,
-)
-from forcetorque.study.study import WORKBENCH, Choice, Study, run_study
-from forcetorque.study.unfitted import FAR_SD, push_deviations
-from forcetorque.study.validation_set import OFFSET_S, ValidationSet
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from forcetorque.study.data import read_study_data
+    from forcetorque.study.result import Studies
+    from forcetorque.study.study import study_sensor
 
 __all__ = [
-    "CONVENTION",
-    "FAR_SD",
-    "OFFSET_S",
-    "SWEEP_LAMBDAS",
-    "TABLE_FACTOR",
-    "TABLE_LAMBDAS",
-    "WORKBENCH",
-    "Candidate",
-    "Choice",
-    "Combination",
-    "Fits",
-    "GenerativeCandidate",
-    "Judgement",
-    "SessionScore",
-    "Study",
-    "ValidationSet",
-    "assembled",
-    "best_by_axis",
-    "best_by_magnitude",
-    "fit_candidates",
-    "judge",
-    "push_deviations",
-    "relative_lambda",
-    "run_study",
-    "scored_across_sessions",
-    "tables",
-    "with_offset",
+    "Studies",
+    "read_study_data",
+    "study_sensor",
 ]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "Studies": "forcetorque.study.result",
+        "read_study_data": "forcetorque.study.data",
+        "study_sensor": "forcetorque.study.study",
+    },
+)

@@ -6,26 +6,15 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import (
-    DataSet,
-    Estimation,
-    EstimationType,
-    Excitation,
-    LinearVariable,
-    Moments,
-    OffsetStrategy,
-    Regression,
-    estimation_of,
-    excitation_of,
-    pooled,
-    require_determined,
-    sphere_centre,
-    sphere_labels,
-)
-from forcetorque.errors import FitError, known_names
-from forcetorque.study.candidate import Candidate
-from forcetorque.study.lambdas import relative_lambda
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError, known_names
+from forcetorque.calibration.thesis.calibrate import estimation_of, sphere_centre, sphere_labels
+from forcetorque.calibration.thesis.regression import Regression, require_determined
+from forcetorque.experiment.calibration.estimation_type import Estimation, EstimationType, OffsetStrategy
+from forcetorque.experiment.calibration.excitation import Excitation, excitation_of
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
+from forcetorque.study.candidate import Candidate, relative_lambda
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, read_only
-from forcetorque.calibration import WrenchModel
-from forcetorque.evaluation import PooledErrors
-from forcetorque.study.judging import Judgement
+from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.evaluation.candidate_errors import PooledErrors
+from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from forcetorque.study.validation import Judgement
 
 _SAME = 1e-7
 """Share by which errors of one fit differ that was reached in two ways, as by types C and O; some 1e-9 is seen."""

@@ -1,187 +1,148 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fit everything, judge everything, choose: chapter 5.3 of the thesis for one sensor."""
+"""Study a sensor of several experiments, and make calibrations of the best candidates."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
-import numpy as np
+from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.estimation_type import EstimationType
+from forcetorque.experiment.campaign_intervals import CampaignInterval
+from forcetorque.experiment.offset_policy import KNOWN_BEFORE
+from forcetorque.study.best_calibrations import CalibrationMaker
+from forcetorque.study.data import StudyData, generative_fits
+from forcetorque.study.one_sensor import Study, run_study
 
-from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.calibration import (
-    ESTIMATION_TYPES,
-    DataSet,
-    EstimationType,
-    LinearVariable,
-    WrenchModel,
-)
-from forcetorque.errors import FitError
-from forcetorque.evaluation import KNOWN_BEFORE, Offset, PushError, evaluator_of_work, push_error
-from forcetorque.study.candidate import Candidate, GenerativeCandidate
-from forcetorque.study.fitting import Fits, fit_candidates
-from forcetorque.study.judging import Judgement, judge
-from forcetorque.study.lambdas import SWEEP_LAMBDAS
-from forcetorque.study.selection import SessionScore, best_by_axis, best_by_magnitude, choosable, scored_across_sessions
-from forcetorque.study.unfitted import push_deviations
-from forcetorque.study.validation_set import ValidationSet
-
-WORKBENCH = "workbench"
-"""Name of the prior among the candidates."""
+_MOST_KINDS = 6
+"""Kinds of data whose combinations are all tried; 63 of them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Choice:
-    """What is best in one offset mode, on all validation data."""
+class SensorStudy:
+    """A study and the calibrations that it recommends."""
 
-    by_magnitude: int
-    """Candidate with the smallest mean contact force."""
-    by_axis: tuple[int, ...]
-    """Candidate with the smallest mean absolute value, for every component."""
-    across_sessions: tuple[SessionScore, ...]
-    """The same choice made on other sessions and scored on each: what may be expected on another day."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Study:
-    """All candidates of a sensor, how they do, and which are best."""
-
-    fits: Fits
-    """What was fitted by the types of the thesis."""
-    generative: tuple[GenerativeCandidate, ...]
-    """Generative fits of the combinations that allow one."""
-    workbench: WrenchModel | None
-    """The prior matrix, judged with an offset from the judged interval in both modes; None for a new sensor."""
-    judgements: Mapping[Offset, Judgement]
-    """Errors by offset mode, of the candidates in their order, then of the workbench matrix."""
-    choices: Mapping[Offset, Choice]
-    """The best by offset mode."""
-    push_deviations: FloatArray
-    """How far every candidate reads pushes from the generative fit of its data set; shape (k, 6); predicted standard
-    deviations; not a number where there is no such fit."""
-    truth: FloatArray | None
-    """True matrix, of a simulated sensor; shape (6, c); N/count, N m/count."""
-
-    @property
-    def candidates(self) -> tuple[Candidate | GenerativeCandidate, ...]:
-        """All that may be chosen: those of the thesis' types in their order, then the generative fits."""
-        return (*self.fits.candidates, *self.generative)
-
-    @property
-    def models(self) -> tuple[WrenchModel, ...]:
-        """Models in the order of the judgements."""
-        fitted = tuple(candidate.model for candidate in self.candidates)
-        return fitted if self.workbench is None else (*fitted, self.workbench)
-
-    def name(self, index: int) -> str:
-        """Name a model.
-
-        Args:
-            index: Its index.
-
-        Returns:
-            Name of the candidate, or that of the workbench.
-        """
-        return self.candidates[index].name if index < len(self.candidates) else WORKBENCH
-
-    def push_error(self, index: int) -> PushError | None:
-        """Judge a model by pushes that were not recorded.
-
-        Args:
-            index: Its index.
-
-        Returns:
-            Its error against the true matrix; None where that is not known.
-        """
-        return None if self.truth is None else push_error(self.models[index].matrix, self.truth)
+    data: StudyData
+    """What was studied."""
+    study: Study
+    """The study."""
+    calibrations: Mapping[str, Calibration]
+    """Best candidates: by magnitude and by axis, with the offset from the first second and with the fitted one."""
+    left_out: tuple[str, ...]
+    """Types that a combination cannot give, with the reason."""
 
 
-def run_study(
-    calibration: Sequence[DataSet],
-    combinations: Mapping[str, Collection[str]],
-    validation: Sequence[ValidationSet],
+def study_sensor(
+    data: StudyData,
     *,
-    prior: FloatArray | None,
-    variables: Sequence[LinearVariable] = (),
-    kinds: Sequence[EstimationType] = tuple(ESTIMATION_TYPES.values()),
-    lambdas: Sequence[float] = SWEEP_LAMBDAS,
-    sphere: Collection[str] | None = None,
-    generative: Sequence[GenerativeCandidate] = (),
-    truth: FloatArray | None = None,
+    data_sets: Mapping[str, Sequence[str]] | None,
+    kinds: Sequence[EstimationType],
+    lambdas: Sequence[float],
+    sphere: Collection[str] | None,
+    code_version: str,
+    created: str,
     progress: Callable[[str], None] | None = None,
-) -> Study:
-    """Study a sensor.
+) -> SensorStudy:
+    """Fit and judge every candidate, and make calibrations of the best.
 
     Args:
-        calibration: Calibration data in the order of the files.
-        combinations: Labels of the data that are fitted together, by the name of the combination.
-        validation: Data to judge on.
-        prior: Matrix to stay close to, the workbench's; shape (6, c); None for a sensor without one.
-        variables: What the columns of `variables` in the data are.
-        kinds: Estimation types.
-        lambdas: Lambdas of (5.4); counts2; those of the thesis' tables, six times as printed there, if left out.
-        sphere: Labels of the data that draw the sphere of the sphere types.
-        generative: Generative fits of the combinations, to be judged beside the others.
-        truth: True matrix, of a simulated sensor; shape (6, c); None if it is not known.
+        data: Samples of the sensor.
+        data_sets: Labels or kinds of the intervals that are fitted together, by name; None for every combination of
+            kinds.
+        kinds: Estimation types; those with variables are left out for a sensor without.
+        lambdas: Lambdas of (5.4); counts2.
+        sphere: Labels of the intervals that draw the sphere; None for what the files say.
+        code_version: Version of this library, for the record.
+        created: Date and time, ISO 8601, for the record.
         progress: Called with a line for people at every step.
 
     Returns:
-        The study.
+        The study with its calibrations.
 
     Raises:
-        FitError: If there is nothing to judge on, nothing can be fitted, or the data determine none of the fits.
+        ExperimentError: If all types need variables that the sensor has not, or combinations cannot be made.
+        FitError: If there is nothing to judge on, or nothing can be fitted.
     """
-    if not validation:
-        raise FitError('expected at least one interval with use = "validation", got none')
-    say = progress or (lambda line: None)
-    say(f"fitting {len(combinations)} combinations of data sets, {len(kinds)} types, {len(lambdas)} lambdas")
-    fits = fit_candidates(
-        calibration,
-        combinations,
-        prior=prior,
-        variables=variables,
-        kinds=kinds,
+    has_variables = bool(data.sensor.variables)
+    chosen_kinds = [kind for kind in kinds if has_variables or not kind.with_variables]
+    if kinds and not chosen_kinds:
+        raise ExperimentError(
+            f"{', '.join(kind.name for kind in kinds)} need a linear variable such as temperature, and the experiment "
+            "files state none; give [[sensor.variable]], or ask for a type without"
+        )
+    drawing = data.sphere if sphere is None else tuple(sphere)
+    named = combinations_of(data.calibration) if data_sets is None else _resolved(data.calibration, data_sets)
+    generative = generative_fits(data, named, code_version=code_version, created=created)
+    study = run_study(
+        [interval.data_set for interval in data.calibration],
+        named,
+        [interval.validation_set for interval in data.validation],
+        prior=data.sensor.prior,
+        variables=[variable.linear for variable in data.sensor.variables],
+        kinds=chosen_kinds,
         lambdas=lambdas,
-        sphere=sphere,
+        sphere=drawing,
+        generative=generative.candidates,
+        truth=data.truth,
+        progress=progress,
     )
-    candidates: tuple[Candidate | GenerativeCandidate, ...] = (*fits.candidates, *generative)
-    if not any(candidate.determined for candidate in candidates):
-        raise FitError(
-            "lambda is 0, and in every data set the loads leave a direction of the raw readings unexcited; move the "
-            "limb so that all loads change, or give a prior matrix and a lambda above 0"
-        )
-    models = [candidate.model for candidate in candidates]
-    workbench = None
-    if prior is not None:
-        # its offset is taken from every judged interval, so the zeros here are never used
-        workbench = WrenchModel(matrix=prior, offset=np.zeros(6))
-        models.append(workbench)
-    session_offsets = {k: c.offsets for k, c in enumerate(candidates) if isinstance(c, GenerativeCandidate)}
-    determined = np.array([candidate.determined for candidate in candidates])
-    evaluator = evaluator_of_work(len(KNOWN_BEFORE) * len(models), sum(len(one.time_s) for one in validation))
-    judgements, choices = {}, {}
-    for source in KNOWN_BEFORE:
-        say(f"judging {len(models)} matrices on {len(validation)} intervals, offset {source}")
-        sources = [source] * len(candidates) + [Offset.FIRST_SECOND] * (workbench is not None)
-        judgements[source] = judge(
-            models, sources, validation, session_offsets=session_offsets, evaluator=evaluator, progress=say
-        )
-        choices[source] = _choice(judgements[source], determined)
-    return Study(
-        fits=fits,
-        generative=tuple(generative),
-        workbench=workbench,
-        judgements=judgements,
-        choices=choices,
-        push_deviations=push_deviations(candidates, generative),
-        truth=truth,
+    maker = CalibrationMaker(
+        data=data,
+        study=study,
+        generative=generative.calibrations,
+        sphere=drawing,
+        code_version=code_version,
+        created=created,
     )
+    calibrations = {}
+    for offset in KNOWN_BEFORE:
+        calibrations[f"best_offset_{offset.replace('-', '_')}"] = maker.by_magnitude(offset)
+        calibrations[f"best_by_axis_offset_{offset.replace('-', '_')}"] = maker.by_axis(offset)
+    left_out = (*study.fits.left_out, *generative.left_out)
+    return SensorStudy(data=data, study=study, calibrations=calibrations, left_out=left_out)
 
 
-def _choice(judgement: Judgement, determined: BoolArray) -> Choice:
-    candidates = choosable(judgement.over(), determined)
-    return Choice(
-        by_magnitude=best_by_magnitude(candidates),
-        by_axis=best_by_axis(candidates),
-        across_sessions=tuple(scored_across_sessions(judgement, determined)),
-    )
+def combinations_of(intervals: Sequence[CampaignInterval]) -> dict[str, tuple[str, ...]]:
+    """Combine the kinds of data in every way.
+
+    Args:
+        intervals: Calibration intervals.
+
+    Returns:
+        Labels by the name of the combination, fewest kinds first.
+
+    Raises:
+        ExperimentError: If there are no intervals, or too many kinds to try every combination.
+    """
+    kinds = list(dict.fromkeys(interval.kind for interval in intervals))
+    if not kinds:
+        raise ExperimentError('expected at least one interval with use = "calibration", got none')
+    if len(kinds) > _MOST_KINDS:
+        raise ExperimentError(
+            f"expected at most {_MOST_KINDS} kinds of data to try every combination, got {len(kinds)}: "
+            f"{', '.join(kinds)}; name combinations with --data-set, from Python data_sets, or give "
+            "intervals a kind"
+        )
+    return {
+        " + ".join(chosen): tuple(interval.label for interval in intervals if interval.kind in chosen)
+        for size in range(1, len(kinds) + 1)
+        for chosen in combinations(kinds, size)
+    }
+
+
+def _resolved(
+    intervals: Sequence[CampaignInterval], data_sets: Mapping[str, Sequence[str]]
+) -> dict[str, tuple[str, ...]]:
+    """From labels and kinds to labels."""
+    labels, kinds = [interval.label for interval in intervals], {interval.kind for interval in intervals}
+    for name, words in data_sets.items():
+        for word in words:
+            if word not in labels and word not in kinds:
+                known = known_names(word, [*labels, *sorted(kinds)])
+                raise ExperimentError(f"data set {name!r}: no calibration interval or kind is called {word!r}; {known}")
+    return {
+        name: tuple(interval.label for interval in intervals if interval.label in words or interval.kind in words)
+        for name, words in data_sets.items()
+    }

@@ -11,11 +11,11 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat
 
-from forcetorque.arrays import FloatArray
-from forcetorque.atomic import write_bytes_atomically
-from forcetorque.errors import ForceTorqueError
-from forcetorque.recording import Use
-from forcetorque.viewer.block import read_array
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.files import write_bytes_atomically
+from forcetorque.recording.recording import Use
+from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.build import BuiltScene
 from forcetorque.viewer.scene import SceneInterval
 

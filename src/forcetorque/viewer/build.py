@@ -3,34 +3,33 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 
-from forcetorque.analysis import inspect_experiment
-from forcetorque.analysis.runs.added import added_to
-from forcetorque.analysis.runs.applicability import by_sensor
-from forcetorque.calibration import Calibration
-from forcetorque.experiment import Experiment
-from forcetorque.experiment.loads.wrist_load import is_wrist_load
-from forcetorque.experiment.skin.skin_alone import BESIDE_M, is_skin_alone
-from forcetorque.recording import Finding, Stream
+from forcetorque.base.errors import MissingFileError
+from forcetorque.experiment.additions import added_to
+from forcetorque.experiment.applicability import by_sensor
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.file import parse_experiment
+from forcetorque.inspection.findings import inspect_experiment
+from forcetorque.payload.wrist_load import is_wrist_load
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.viewer.block import Block
-from forcetorque.viewer.contacts import scene_contacts
-from forcetorque.viewer.draft import SceneDraft
+from forcetorque.recording.recording import Finding
+from forcetorque.recording.stream import Stream
+from forcetorque.skin.experiment import BESIDE_M, is_skin_alone
+from forcetorque.viewer.arrays import Block, Priors, SceneDraft, differentiated
+from forcetorque.viewer.contacts import scene_contacts, scene_parts
 from forcetorque.viewer.expected import expected_readings
 from forcetorque.viewer.geometry import robot_geometry
 from forcetorque.viewer.instants import Posture, posture_at, shown_stream
-from forcetorque.viewer.once import Priors, differentiated
-from forcetorque.viewer.parts import scene_parts
-from forcetorque.viewer.root_pose import root_poses
+from forcetorque.viewer.root_pose import root_poses, scene_joints
 from forcetorque.viewer.scene import Robot, Scene, SceneFinding, SceneInterval
 from forcetorque.viewer.series import scene_sensor
-from forcetorque.viewer.skin import scene_skin
-from forcetorque.viewer.skin_events import scene_skin_events
-from forcetorque.viewer.tree import scene_joints
+from forcetorque.viewer.skin import scene_skin, scene_skin_events
 
 _BESIDE = f"no [robot]: links with skin are drawn side by side, {BESIDE_M:g} m apart, not where they truly are"
 
@@ -187,4 +186,41 @@ def _finding(finding: Finding, start_ns: int) -> SceneFinding:
         message=finding.message,
         start_s=None if finding.start_ns is None else (finding.start_ns - start_ns) * 1e-9,
         end_s=None if finding.end_ns is None else (finding.end_ns - start_ns) * 1e-9,
+    )
+
+
+def scene_of(
+    path: Path,
+    experiment: Experiment,
+    calibrations: Mapping[str, Calibration],
+    *,
+    sensors: Sequence[str] | None = None,
+    mesh_folders: Sequence[Path] | None = None,
+) -> BuiltScene:
+    """Build the scene of an experiment.
+
+    Args:
+        path: Experiment file.
+        experiment: What it points to.
+        calibrations: Calibrations by their file; of a sensor any number.
+        sensors: Sensors to show; all if None.
+        mesh_folders: Folders with packages of meshes.
+
+    Returns:
+        The scene, which states the hashes of the calibrations.
+
+    Raises:
+        MissingFileError: If a folder does not exist.
+    """
+    for folder in mesh_folders or ():
+        if not folder.is_dir():
+            raise MissingFileError(f"--mesh-dir {folder}: expected a folder, there is none")
+    robot = parse_experiment(path).robot
+    return build_scene(
+        experiment,
+        calibrations,
+        urdf=None if robot is None else path.parent / robot.urdf,
+        sensors=sensors,
+        mesh_folders=mesh_folders or (),
+        provenance=[f"{file} sha256 {hashlib.sha256(Path(file).read_bytes()).hexdigest()}" for file in calibrations],
     )

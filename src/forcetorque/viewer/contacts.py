@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact wrenches over the intervals of an experiment, at the instants that are shown."""
+"""Contact wrenches over time, and residuals of link groups without contact."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from dataclasses import replace
 
 import numpy as np
 
-from forcetorque.analysis import (
-    Correction,
-    IntervalEstimates,
-    corrections_of,
-    estimate_experiment,
-)
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration
-from forcetorque.errors import ForceTorqueError
-from forcetorque.estimation import Contact
-from forcetorque.experiment import Experiment
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.calibration.joint.interval import part_residuals
+from forcetorque.calibration.joint.residuals import PartResidual
+from forcetorque.calibration.joint.windows import WINDOW_S
+from forcetorque.estimation.estimate import IntervalEstimates, estimate_experiment
+from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.contacts import contacts_at_sensors
-from forcetorque.recording.alignment import gap_limit_ns
-from forcetorque.robot import build_tree
-from forcetorque.viewer.draft import SceneDraft
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.sensor_reading import Correction
+from forcetorque.recording.alignment import gap_limit_ns, seconds_since
+from forcetorque.recording.recording import Use
+from forcetorque.robot.contacts import Contact
+from forcetorque.robot.tree import build_tree
+from forcetorque.viewer.arrays import Block, Priors, SceneDraft
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.instants import Posture
-from forcetorque.viewer.once import Priors
-from forcetorque.viewer.scene import ContactSeries
+from forcetorque.viewer.scene import ContactSeries, Sensor, WrenchSeries
 
 
 def scene_contacts(
@@ -106,3 +106,85 @@ def _places(experiment: Experiment, spans: Sequence[IntervalEstimates]) -> dict[
         at_sensors = contacts_at_sensors(tree, [sensor.name for sensor in experiment.sensors])
         places |= {contact.name: contact for contact in (Contact(link=frame), *(stated or at_sensors))}
     return places
+
+
+_BEFORE, _AFTER = "prior", "calibrations"
+"""Names of the two series of a part."""
+
+
+def scene_parts(
+    experiment: Experiment,
+    groups: Mapping[str, Mapping[str, Calibration]],
+    posture: Posture,
+    draft: SceneDraft,
+) -> tuple[Sensor, ...]:
+    """Collect what is left of the equation of every part between two sensors or more that are calibrated.
+
+    A part with one sensor says no more than that sensor's expected wrench.
+
+    Args:
+        experiment: The experiment, without intervals that hold no sample.
+        groups: Calibrations by sensor and name; of each sensor the first is used.
+        posture: The instants.
+        draft: Takes the arrays, and what the series are.
+
+    Returns:
+        The parts, shown as sensors are: what is left is a wrench at the link whose motion is known.
+    """
+    first = {sensor: next(iter(group.values())) for sensor, group in groups.items() if group}
+    if len(first) < 2:
+        return ()
+    residuals = [
+        residual
+        for use in (Use.CALIBRATION, Use.VALIDATION)
+        for residual in part_residuals(experiment, first, use)
+        if len(residual.sensors) > 1
+    ]
+    if residuals:
+        draft.sources.append(
+            f"parts that nothing touches: what is left of their equations, means of {WINDOW_S:g} s, by the prior "
+            "matrices with the offsets that suit best, and by the first calibration of every sensor"
+        )
+    seconds = seconds_since(posture.stamp_ns, experiment.recording.start_ns)
+    places = dict.fromkeys((residual.part, residual.root_link) for residual in residuals)
+    return tuple(
+        _part(place, [one for one in residuals if (one.part, one.root_link) == place], seconds, draft.block)
+        for place in places
+    )
+
+
+def _part(place: tuple[str, str], residuals: Sequence[PartResidual], seconds: FloatArray, block: Block) -> Sensor:
+    name, link = place
+    before, after = np.full((2, len(seconds), 6), np.nan)
+    for residual in residuals:
+        window, inside = _windows_at(residual.time_s, seconds)
+        rows = np.where(residual.rows > 0, 1.0, np.nan)
+        before[inside] = residual.before[window] * rows
+        after[inside] = residual.after[window] * rows
+    return Sensor(
+        name=f"left over: {name}",
+        serial="",
+        link=link,
+        link_H_sensor=flat(np.eye(4)),
+        acting=None,
+        acted_on=name,
+        wrenches=tuple(
+            WrenchSeries(
+                name=series,
+                role="measured",
+                values=block.add(values, "float32"),
+                reference_force=None,
+                reference_moment=None,
+                ellipsoid_force=None,
+                ellipsoid_moment=None,
+            )
+            for series, values in ((_BEFORE, before), (_AFTER, after))
+        ),
+    )
+
+
+def _windows_at(time_s: FloatArray, seconds: FloatArray) -> tuple[IntArray, BoolArray]:
+    """Windows that instants lie in, and which instants lie in one."""
+    nearest = np.clip(np.searchsorted((time_s[1:] + time_s[:-1]) / 2.0, seconds), 0, len(time_s) - 1)
+    inside = np.abs(seconds - time_s[nearest]) <= WINDOW_S / 2.0
+    return nearest[inside], inside

@@ -7,15 +7,16 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from forcetorque.analysis import SensorRun
-from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.errors import ForceTorqueError
-from forcetorque.estimation import Question, estimate, required_joints_of
-from forcetorque.estimation.root_motion import joints_to_support
-from forcetorque.estimation.samples import robot_motion_at
-from forcetorque.experiment import Experiment
-from forcetorque.recording import Interval, MovingSupport, Support
-from forcetorque.robot import BodyTree, build_tree
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Interval, MovingSupport, Support
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.root_motion import joints_to_support
+from forcetorque.robot.mechanics.samples import robot_motion_at
+from forcetorque.robot.tree import BodyTree, build_tree
 from forcetorque.viewer.instants import Posture
 
 

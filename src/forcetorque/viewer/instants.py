@@ -9,12 +9,13 @@ from itertools import chain
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.errors import ExperimentError, RecordingError
-from forcetorque.experiment import Experiment, ExperimentSensor
-from forcetorque.recording import Recording, Stream
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.errors import ExperimentError, RecordingError
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.recording.alignment import interpolate, require_overlap, usable_samples
-from forcetorque.robot import RobotModel
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.stream import Stream
+from forcetorque.robot.model import RobotModel
 
 _NAMES = 4
 """So many joints are listed in a note."""

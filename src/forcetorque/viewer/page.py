@@ -12,8 +12,8 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
-from forcetorque.atomic import write_bytes_atomically
-from forcetorque.errors import ForceTorqueError, MissingFileError
+from forcetorque.base.errors import ForceTorqueError, MissingFileError
+from forcetorque.base.files import write_bytes_atomically
 from forcetorque.viewer.build import BuiltScene
 from forcetorque.viewer.scene import scene_json
 

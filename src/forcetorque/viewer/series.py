@@ -8,23 +8,23 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.analysis import Correction, SensorRun, SensorSphere, spheres
-from forcetorque.analysis.runs.applicability import require_fit
-from forcetorque.analysis.runs.candidate import PRIOR
-from forcetorque.analysis.runs.reading import wrench_at
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.calibration import Calibration
-from forcetorque.errors import ForceTorqueError
-from forcetorque.evaluation.sphere import EllipsoidFit
-from forcetorque.experiment import Experiment, ExperimentSensor
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.evaluation.sphere.findings import EllipsoidFit
+from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
+from forcetorque.evaluation.sphere.sphere import spheres
+from forcetorque.experiment.applicability import require_fit
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.candidates import PRIOR
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.sensor_reading import Correction, wrench_at
+from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import require_overlap
-from forcetorque.robot import SensorFrame
-from forcetorque.spatial import MeasureDirection
-from forcetorque.viewer.block import Block
-from forcetorque.viewer.draft import SceneDraft
+from forcetorque.robot.model import SensorFrame
+from forcetorque.viewer.arrays import Block, Priors, SceneDraft
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.instants import Posture
-from forcetorque.viewer.once import Priors
 from forcetorque.viewer.scene import Ellipsoid, Sensor, Sphere, WrenchSeries
 
 _SPHERE_SAMPLES = 50_000

@@ -1,10 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Serves one page to the browsers of this machine, and nothing else.
-
-The address has a secret part, so other users of the machine do not guess it; a request must name this server
-as its host, so no name that somebody points at 127.0.0.1 reaches it; what changes files must come from
-the page itself.
-"""
+"""Serves one page to the browsers of this machine, and keeps what a page saves."""
 
 from __future__ import annotations
 
@@ -17,13 +12,16 @@ from dataclasses import dataclass
 from functools import partial
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
 from types import TracebackType
 from typing import Any
 
 from pydantic import ValidationError
 
-from forcetorque.errors import ForceTorqueError
-from forcetorque.viewer.annotations import Annotations
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.files import write_bytes_atomically
+from forcetorque.viewer.annotations import Annotations, save_annotations, saved_files
+from forcetorque.viewer.build import BuiltScene
 
 DATA_URL, ANNOTATIONS_URL = "data.bin", "annotations"
 """Addresses relative to that of the page."""
@@ -231,3 +229,39 @@ def byte_range(text: str, total: int) -> tuple[int, int] | None:
         return (max(total - int(last), 0), total) if int(last) and total else None
     start, end = int(first), min(int(last) + 1 if last else total, total)
     return (start, end) if start < end else None
+
+
+class Session:
+    """Writes what the page saves; files of an earlier session are kept once under another name."""
+
+    def __init__(self, experiment: Path, built: BuiltScene, say: Callable[[str], None]) -> None:
+        """Start a session.
+
+        Args:
+            experiment: The experiment file, beside which is saved.
+            built: Its scene.
+            say: Called with a line for people at every file.
+        """
+        self._experiment, self._built, self._say = experiment, built, say
+        self._is_first, self._lock = True, threading.Lock()
+
+    def save(self, annotations: Annotations) -> list[str]:
+        """Save what was annotated, in place of what this session saved before.
+
+        Args:
+            annotations: Samples and intervals.
+
+        Returns:
+            Names of the files.
+        """
+        with self._lock:  # two windows may save at once
+            files = [file for file in saved_files(self._experiment) if self._is_first and file.is_file()]
+            earlier = {file: file.read_bytes() for file in files}
+            written = save_annotations(annotations, self._built, self._experiment)
+            self._is_first = False
+            for file, content in earlier.items():
+                kept = file.with_name(f"{file.stem}.previous{file.suffix}")
+                write_bytes_atomically(kept, content)
+                self._say(f"{file} of an earlier session is now {kept}")
+        self._say(f"saved {len(annotations.samples)} sample(s) to {written[0]} and {written[1]}")
+        return [file.name for file in written]

@@ -9,13 +9,19 @@ from functools import cache
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration.joint import UNITS, Stretch
-from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.estimation import Contact
-from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, read_urdf
-from forcetorque.spatial import Inertia, invert_pose, transform_wrench
-from tests.estimation.simulated import Simulation
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.pose import invert_pose
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.base.wrench import transform_wrench
+from forcetorque.calibration.joint.nodes import Stretch
+from forcetorque.calibration.joint.windows import UNITS
+from forcetorque.robot.contacts import Contact
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
+from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.robots import icub
 
 SENSORS = ("l_leg_ft", "r_leg_ft", "l_foot_ft", "r_foot_ft", "l_arm_ft", "r_arm_ft")

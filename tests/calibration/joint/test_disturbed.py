@@ -8,9 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration.joint import JointFit, JointResult, ModelTolerance, UntouchedStretch, fit_stretches, sums
-from forcetorque.estimation.part_equations import untouched_parts
+from forcetorque.base.arrays import FloatArray
+from forcetorque.calibration.joint import sums
+from forcetorque.calibration.joint.calibrate import JointResult, UntouchedStretch, fit_stretches
+from forcetorque.calibration.joint.fit import JointFit
+from forcetorque.calibration.joint.model_error import ModelTolerance
+from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying
 
 WRONG = {"mass": 0.02, "centre_m": 0.002, "joint_zero_rad": float(np.radians(0.5)), "acceleration": 0.05}

@@ -9,22 +9,15 @@ from functools import cache
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration.joint import (
-    EXACT,
-    UNITS,
-    JointFit,
-    JointResult,
-    ModelTolerance,
-    UntouchedStretch,
-    fit_jointly,
-    fit_stretches,
-    part_sums,
-    part_windows,
-)
-from forcetorque.calibration.joint.spread import KINDS
-from forcetorque.errors import FitError
-from forcetorque.estimation.part_equations import untouched_parts
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError
+from forcetorque.calibration.joint.calibrate import JointResult, UntouchedStretch, fit_stretches
+from forcetorque.calibration.joint.fit import JointFit, fit_jointly
+from forcetorque.calibration.joint.model_error import EXACT, ModelTolerance
+from forcetorque.calibration.joint.prior import KINDS
+from forcetorque.calibration.joint.sums import part_sums
+from forcetorque.calibration.joint.windows import UNITS, part_windows
+from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying
 
 WRONG = {"mass": 0.02, "centre_m": 0.002, "joint_zero_rad": float(np.radians(0.3)), "acceleration": 0.05}

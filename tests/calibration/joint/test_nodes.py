@@ -8,10 +8,9 @@ from functools import cache
 
 import numpy as np
 
-from forcetorque.calibration.joint import Stretch, part_windows, window_means
-from forcetorque.calibration.joint.nodes import WindowNodes
-from forcetorque.calibration.joint.windows import PIECE_S, WINDOW_S
-from forcetorque.estimation.part_equations import untouched_parts
+from forcetorque.calibration.joint.nodes import Stretch, WindowNodes
+from forcetorque.calibration.joint.windows import PIECE_S, WINDOW_S, part_windows, window_means
+from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, RATE_HZ, SENSORS, swaying
 
 

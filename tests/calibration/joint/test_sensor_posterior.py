@@ -8,9 +8,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from forcetorque.calibration import Posterior
-from forcetorque.calibration.joint import UNITS, JointFit, UntouchedStretch, fit_stretches, sensor_posterior
-from forcetorque.estimation.part_equations import untouched_parts
+from forcetorque.calibration.joint.calibrate import UntouchedStretch, fit_stretches
+from forcetorque.calibration.joint.fit import JointFit
+from forcetorque.calibration.joint.posterior import sensor_posterior
+from forcetorque.calibration.joint.windows import UNITS
+from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, swaying
 
 SENSOR = "l_foot_ft"

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.estimation.fusion import TorqueSource
+from forcetorque.base.arrays import FloatArray
+from forcetorque.estimation.fusion.source import TorqueSource
 
 JOINTS = ("knee", "hip")
 RATE_HZ = 20.0

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from forcetorque.errors import EstimationError
-from forcetorque.estimation.fusion import TorqueSource, fuse
-from forcetorque.estimation.fusion.disagreement import disagreement
-from forcetorque.estimation.fusion.windows import means_in_windows
+from forcetorque.base.errors import EstimationError
+from forcetorque.estimation.fusion.disagreement import disagreement, means_in_windows
+from forcetorque.estimation.fusion.fuse import fuse
+from forcetorque.estimation.fusion.source import TorqueSource
 from tests.estimation.fusion.sources import JOINTS, SAMPLES, shifted, source, stamps, three, truth
 
 EXACT = 1e-9

@@ -8,11 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import EstimationError, FitError
-from forcetorque.estimation.fusion import Friction, Motor, fit_friction, motor_source
-from forcetorque.estimation.fusion.friction import friction_terms
-from forcetorque.simulation import SimulatedMotor
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import EstimationError, FitError
+from forcetorque.estimation.fusion.motor import Friction, Motor, fit_friction, friction_terms, motor_source
+from forcetorque.simulation.motor import SimulatedMotor
 
 RATE_HZ = 50.0
 MOTOR = SimulatedMotor(

@@ -6,14 +6,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import EstimationError
-from forcetorque.estimation import Contact, ContactType, MinimumNorm, Question, TorqueSum, estimate
-from forcetorque.estimation.fusion import TorqueSource, wrench_source
-from forcetorque.estimation.fusion.wrench_source import OWN_MODEL_SHARE
-from forcetorque.estimation.uncertain import Uncertainty
-from forcetorque.robot import JointMotion, RootMotion, Wrenches, build_tree, read_urdf
-from forcetorque.simulation import ARM_URDF
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import EstimationError
+from forcetorque.estimation.fusion.source import OWN_MODEL_SHARE, TorqueSource, wrench_source
+from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.robot.contacts import Contact, ContactType, Wrenches
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.robots import ARM_URDF
 
 JOINTS = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll", "elbow")
 SAMPLES = 5

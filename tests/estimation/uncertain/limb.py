@@ -10,26 +10,24 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.estimation import Contact, Question, TorqueSum
-from forcetorque.estimation.uncertain import SkinSource, Uncertainty, skin_sources
-from forcetorque.robot import (
-    ForceTorqueSensor,
-    Joint,
-    JointMotion,
-    JointType,
-    RobotModel,
-    RootMotion,
-    SensorFrame,
-    Wrenches,
-    build_tree,
-)
-from forcetorque.simulation.skin import ContactTruth, SkinBody, TaxelResponses, contacts
-from forcetorque.skin import SkinLayout
-from forcetorque.skin.contact import PatchReader, SkinContacts, find_contacts
-from forcetorque.skin.wrench import SkinPatch
-from forcetorque.spatial import Inertia, MeasureDirection, make_pose
-from tests.estimation.simulated import Simulation
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.pose import make_pose
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.estimation.skin.known_wrenches import SkinSource, skin_sources
+from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.robot.contacts import Contact, Wrenches
+from forcetorque.robot.mechanics.question import Question, TorqueSum
+from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.tree import build_tree
+from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
+from forcetorque.skin.contact.reading import PatchReader
+from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.simulation.chamber import TaxelResponses
+from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
+from forcetorque.skin.wrench.patch import SkinPatch
+from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.patches import cylinder_patch
 from tests.skin.contact_trials import OFF_EDGE, chamber_table
 

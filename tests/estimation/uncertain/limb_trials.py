@@ -15,16 +15,16 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.estimation import Contact, MinimumNorm, Question, estimate
-from forcetorque.estimation.uncertain import (
-    UncertainEstimates,
-    estimate_with_covariance,
-    skin_sources,
-    tangent_maps,
-)
-from forcetorque.robot import build_tree
-from forcetorque.spatial import wrench_matrix
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.wrench import wrench_matrix
+from forcetorque.estimation.skin.known_wrenches import skin_sources
+from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
+from forcetorque.estimation.uncertain.estimates import UncertainEstimates
+from forcetorque.estimation.uncertain.uncertainty import tangent_maps
+from forcetorque.robot.contacts import Contact
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.question import MinimumNorm, Question
+from forcetorque.robot.tree import build_tree
 from tests.estimation.uncertain.limb import FOOT, FRICTION, Draws, Shin, cylinder, draw
 from tests.skin.contact_trials import leg_layout
 

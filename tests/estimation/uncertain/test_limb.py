@@ -10,20 +10,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.errors import EstimationError
-from forcetorque.estimation import Contact, ContactType, Question, estimate
-from forcetorque.estimation.uncertain import (
-    SkinSource,
-    Tangents,
-    UncertainEstimates,
-    estimate_with_covariance,
-    frames_before,
-    skin_sources,
-    tangent_maps,
-)
-from forcetorque.robot import build_tree
-from forcetorque.skin.contact import find_contacts
-from forcetorque.skin.wrench import SkinPatch
+from forcetorque.base.errors import EstimationError
+from forcetorque.estimation.skin.known_wrenches import SkinSource, frames_before, skin_sources
+from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
+from forcetorque.estimation.uncertain.estimates import UncertainEstimates
+from forcetorque.estimation.uncertain.uncertainty import Tangents, tangent_maps
+from forcetorque.robot.contacts import Contact, ContactType
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.tree import build_tree
+from forcetorque.skin.contact.contacts import find_contacts
+from forcetorque.skin.wrench.patch import SkinPatch
 from tests.estimation.uncertain.limb import FRICTION, Draws, Shin, cylinder
 from tests.estimation.uncertain.limb_trials import (
     CASES,

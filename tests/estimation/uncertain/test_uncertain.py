@@ -8,13 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import EstimationError
-from forcetorque.estimation import Contact, ContactType, Question, TorqueSum, estimate, moving_joints
-from forcetorque.estimation.uncertain import Uncertainty, estimate_with_covariance, wrench_covariances
-from forcetorque.robot import Wrenches
-from tests.estimation.simulated import random_pose
-from tests.estimation.touched import Touched, touched
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import EstimationError
+from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
+from forcetorque.estimation.uncertain.uncertainty import Uncertainty, wrench_covariances
+from forcetorque.robot.contacts import Contact, ContactType, Wrenches
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.question import Question, TorqueSum, moving_joints
+from tests.robot.mechanics.simulated import random_pose
+from tests.robot.mechanics.touched import Touched, touched
 
 ROUNDING = 1e-7
 """N, N m: wrenches of some 1e3 by 1e-13 each, through matrices of condition 1e3."""

@@ -8,9 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from forcetorque.errors import FitError, ForceTorqueError, ShapeError, UnitError
-from forcetorque.evaluation.sphere import SphereAnalysis, analyse_sphere, ellipsoid_of_map
-from forcetorque.evaluation.sphere.coverage import share_of_directions
+from forcetorque.base.errors import FitError, ForceTorqueError, ShapeError, UnitError
+from forcetorque.evaluation.sphere.analysis import SphereAnalysis, analyse_sphere
+from forcetorque.evaluation.sphere.cloud import share_of_directions
+from forcetorque.evaluation.sphere.ellipsoid import ellipsoid_of_map
 from tests.evaluation.sphere.clouds import grid, slow_noise, whole_sphere
 
 GRAVITY, MASS = 9.81, 4.733288

@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import ForceTorqueError
-from forcetorque.evaluation.sphere import apparent_masses, axis_errors
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.evaluation.sphere.analysis import apparent_masses, axis_errors
 from forcetorque.evaluation.sphere.findings import spread_index
 
 GRAVITY = 9.81

@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.evaluation.sphere import RULE, TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, analyse_sphere
 from forcetorque.evaluation.sphere.affine import fit_mapped
-from forcetorque.evaluation.sphere.findings import lowest_index
+from forcetorque.evaluation.sphere.analysis import analyse_sphere
+from forcetorque.evaluation.sphere.findings import RULE, TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, lowest_index
 from forcetorque.evaluation.sphere.free import fit_ellipsoid, fit_radius, may_be_flat
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of, on, slow_noise, whole_sphere
 

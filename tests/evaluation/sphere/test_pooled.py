@@ -8,17 +8,12 @@ from itertools import permutations
 import numpy as np
 import pytest
 
-from forcetorque.errors import FitError, ForceTorqueError, ShapeError
-from forcetorque.evaluation.sphere import (
-    TOLERANCE,
-    Ellipsoid,
-    PooledSphere,
-    SphereAnalysis,
-    analyse_sphere,
-    ellipsoid_of_map,
-    pool_trials,
-)
+from forcetorque.base.errors import FitError, ForceTorqueError, ShapeError
 from forcetorque.evaluation.sphere.affine import fit_mapped
+from forcetorque.evaluation.sphere.analysis import SphereAnalysis, analyse_sphere
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, ellipsoid_of_map
+from forcetorque.evaluation.sphere.findings import TOLERANCE
+from forcetorque.evaluation.sphere.pooled import PooledSphere, pool_trials
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of, whole_sphere
 
 OFFSETS = np.array([[12.0, -30.0, 55.0], [4.0, -22.0, 60.0], [-6.0, -35.0, 48.0]])

@@ -8,14 +8,14 @@ import pytest
 from scipy.optimize import least_squares, minimize
 from scipy.spatial.transform import Rotation
 
-from forcetorque.evaluation.sphere import Ellipsoid
-from forcetorque.evaluation.sphere.orthogonal import (
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
+from forcetorque.evaluation.sphere.geometric import (
     ellipsoid_distances,
     ellipsoid_equations,
     ellipsoid_of_parameters,
     ellipsoid_parameters,
+    refine_ellipsoid,
 )
-from forcetorque.evaluation.sphere.refinement import refine_ellipsoid
 from tests.evaluation.sphere.clouds import DEFORMED, grid, map_of, on, whole_sphere
 
 

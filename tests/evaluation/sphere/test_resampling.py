@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.stats import t as student
 
-from forcetorque.arrays import FloatArray
-from forcetorque.evaluation.sphere.moments import sums_of_products
+from forcetorque.base.arrays import FloatArray
+from forcetorque.evaluation.sphere.cloud import sums_of_products
 from forcetorque.evaluation.sphere.resampling import (
     BLOCKS,
     Resampled,

@@ -6,17 +6,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import ForceTorqueError
-from forcetorque.evaluation.sphere import (
-    TOLERANCE,
-    EllipsoidFit,
-    MappedFit,
-    SphereAnalysis,
-    analyse_sphere,
-    drift_between,
-    mean_of_trials,
-)
-from forcetorque.evaluation.sphere.affine import fit_mapped
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.evaluation.sphere.affine import MappedFit, fit_mapped
+from forcetorque.evaluation.sphere.analysis import SphereAnalysis, analyse_sphere
+from forcetorque.evaluation.sphere.findings import TOLERANCE, EllipsoidFit
+from forcetorque.evaluation.sphere.trials import drift_between, mean_of_trials
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of
 
 TABLES = {

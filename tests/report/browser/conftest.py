@@ -10,14 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.analysis import (
-    SensorRun,
-    calibrate_sensor,
-)
-from forcetorque.calibration import write_calibration
-from forcetorque.experiment import load_experiment
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.experiment.calibration.artefact import write_calibration
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from tests.app.outcome import typed
 from tests.browser import _closed_at_the_end, chromium, close_after_folder, visit
-from tests.cli.outcome import typed
 from tests.scenes.experiments import PARQUET, write_experiments
 
 __all__ = ["_closed_at_the_end", "chromium", "visit"]

@@ -9,19 +9,18 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from forcetorque.errors import SensorError
-from forcetorque.sensor.elastic import (
-    Beam,
+from forcetorque.base.errors import SensorError
+from forcetorque.base.pose import make_pose, rotation_about_z
+from forcetorque.base.wrench import wrench_matrix
+from forcetorque.sensor.elastic.beam import Beam, Material, RectangularSection
+from forcetorque.sensor.elastic.element import (
     Bending,
     ElasticElement,
     GaugePlace,
-    Material,
-    RectangularSection,
-    bending_strain,
     cross_shaped_element,
     y_shaped_element,
 )
-from forcetorque.spatial import make_pose, rotation_about_z, wrench_matrix
+from forcetorque.sensor.elastic.strain import bending_strain
 
 MATERIAL = Material.from_poisson_ratio(200e9, 0.3)
 SECTION = RectangularSection(width=0.004, height=0.005)

@@ -6,10 +6,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import SensorError
-from forcetorque.sensor.elastic import (
-    Material,
-    RectangularSection,
+from forcetorque.base.errors import SensorError
+from forcetorque.sensor.elastic.beam import Material, RectangularSection
+from forcetorque.sensor.elastic.strain import (
     bending_strain,
     diagonal_strain,
     direct_strain,

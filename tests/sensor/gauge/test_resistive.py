@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from forcetorque.errors import SensorError
-from forcetorque.sensor.gauge import GAUGE_MATERIALS, ResistiveGauge
+from forcetorque.base.errors import SensorError
+from forcetorque.sensor.gauge.resistive import GAUGE_MATERIALS, ResistiveGauge
 
 FOIL = ResistiveGauge(gauge_factor=2.0, resistance=120.0, temperature_coefficient=10.8e-6)
 

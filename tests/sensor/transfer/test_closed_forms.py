@@ -12,18 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from forcetorque.errors import FitError, SensorError
-from forcetorque.sensor.transfer import (
-    Exponential,
-    Linear,
-    Logarithmic,
-    Power,
-    TransferFunction,
-    fit_exponential,
-    fit_linear,
-    fit_logarithmic,
-    fit_power,
-)
+from forcetorque.base.errors import FitError, SensorError
+from forcetorque.sensor.transfer.polynomial import Linear, Logarithmic, fit_linear, fit_logarithmic
+from forcetorque.sensor.transfer.power import Exponential, Power, fit_exponential, fit_power
+from forcetorque.sensor.transfer.transfer_function import TransferFunction
 
 FITTED = 1e-7
 """Relative error of parameters from exact points: rounding times the condition of an exponent, about 1e8 at worst."""

@@ -8,21 +8,11 @@ from functools import partial
 import numpy as np
 import pytest
 
-from forcetorque.errors import FitError, ShapeError
-from forcetorque.sensor.transfer import (
-    FITTERS,
-    Exponential,
-    Linear,
-    Logarithmic,
-    Power,
-    TransferFunction,
-    compare,
-    fit_exponential,
-    fit_linear,
-    fit_logarithmic,
-    fit_polynomial,
-    fit_power,
-)
+from forcetorque.base.errors import FitError, ShapeError
+from forcetorque.sensor.transfer.compare import FITTERS, compare
+from forcetorque.sensor.transfer.polynomial import Linear, Logarithmic, fit_linear, fit_logarithmic, fit_polynomial
+from forcetorque.sensor.transfer.power import Exponential, Power, fit_exponential, fit_power
+from forcetorque.sensor.transfer.transfer_function import TransferFunction
 
 CLOSED = {
     "linear": fit_linear,

@@ -8,16 +8,12 @@ import dataclasses
 import numpy as np
 import pytest
 
-from forcetorque.errors import SensorError
-from forcetorque.sensor.transfer import (
-    Linear,
-    Network,
-    PiecewiseLinear,
-    Polynomial,
-    Power,
-    Spline,
-    TransferFunction,
-)
+from forcetorque.base.errors import SensorError
+from forcetorque.sensor.transfer.network import Network
+from forcetorque.sensor.transfer.polynomial import Linear, Polynomial
+from forcetorque.sensor.transfer.power import Power
+from forcetorque.sensor.transfer.sections import PiecewiseLinear, Spline
+from forcetorque.sensor.transfer.transfer_function import TransferFunction
 
 KNOTS = np.array([0.0, 1.0, 2.5, 4.0, 6.0])
 FALLING = np.array([10.0, 8.0, 7.0, 3.0, 1.0])

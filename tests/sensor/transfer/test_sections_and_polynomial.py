@@ -11,8 +11,10 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from forcetorque.errors import FitError, ShapeError
-from forcetorque.sensor.transfer import TransferFunction, fit_piecewise_linear, fit_polynomial, fit_spline
+from forcetorque.base.errors import FitError, ShapeError
+from forcetorque.sensor.transfer.polynomial import fit_polynomial
+from forcetorque.sensor.transfer.sections import fit_piecewise_linear, fit_spline
+from forcetorque.sensor.transfer.transfer_function import TransferFunction
 
 STIMULUS = np.linspace(0.0, 50.0, 60)
 CUBIC = np.array([240.0, -3.0, 0.05, -4e-4])

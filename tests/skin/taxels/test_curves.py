@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from forcetorque.errors import FitError
-from forcetorque.skin.taxels import CurveKind, fit_curve, taxel_response
+from forcetorque.base.errors import FitError
+from forcetorque.skin.taxels.curve import CurveKind, fit_curve
+from forcetorque.skin.taxels.health import taxel_response
 
 FALL = np.arange(0.0, 61.0)
 EXACT = 1e-6

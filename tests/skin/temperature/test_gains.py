@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.errors import SkinError
-from forcetorque.skin.temperature import HeatGains, TaxelHeat, ThermalGain, stuck_pads
+from forcetorque.base.errors import SkinError
+from forcetorque.skin.temperature.gains import HeatGains
+from forcetorque.skin.temperature.pads import TaxelHeat, ThermalGain, stuck_pads
 from tests.scenes.patches import cylinder_patch
 from tests.skin.skins import plane_layout
 

@@ -8,13 +8,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import SkinError
-from forcetorque.simulation.skin import Warmth
-from forcetorque.skin import PressureTable
-from forcetorque.skin.contact import PatchFollower, PatchReader
-from forcetorque.skin.temperature import HeatGains, PadFilter, WarmUp, fit_warm_up
-from forcetorque.skin.wrench import SkinPatch
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import SkinError
+from forcetorque.skin.contact.following import PatchFollower
+from forcetorque.skin.contact.reading import PatchReader
+from forcetorque.skin.simulation.heat import Warmth
+from forcetorque.skin.taxels.pressure_table import PressureTable
+from forcetorque.skin.temperature.gains import HeatGains
+from forcetorque.skin.temperature.pad_filter import PadFilter
+from forcetorque.skin.temperature.pads import WarmUp
+from forcetorque.skin.temperature.warm_up import fit_warm_up
+from forcetorque.skin.wrench.patch import SkinPatch
 from tests.scenes.warmed import WARM_UP, WarmShank, counts_of, late_pads
 from tests.skin.contact_trials import chamber_table
 

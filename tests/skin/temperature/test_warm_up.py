@@ -9,9 +9,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import SkinError
-from forcetorque.skin.temperature import HeatGains, WarmUp, fit_warm_up
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import SkinError
+from forcetorque.skin.temperature.gains import HeatGains
+from forcetorque.skin.temperature.pads import WarmUp
+from forcetorque.skin.temperature.warm_up import fit_warm_up
 from tests.scenes.warmed import WARM_UP, WarmShank, counts_of
 
 SHANK = WarmShank.drawn()

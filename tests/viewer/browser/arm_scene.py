@@ -8,11 +8,16 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.robot import JointMotion, RobotModel, build_tree, link_pose, read_urdf
-from forcetorque.viewer.block import Block
+from forcetorque.base.arrays import FloatArray
+from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.viewer.arrays import Block
 from forcetorque.viewer.build import BuiltScene
 from forcetorque.viewer.geometry import flat, robot_geometry
+from forcetorque.viewer.root_pose import scene_joints
 from forcetorque.viewer.scene import (
     ContactSeries,
     Ellipsoid,
@@ -24,7 +29,6 @@ from forcetorque.viewer.scene import (
     Sphere,
     WrenchSeries,
 )
-from forcetorque.viewer.tree import scene_joints
 
 SAMPLES = 600
 RATE_HZ = 50.0

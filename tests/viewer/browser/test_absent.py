@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.viewer import BuiltScene, page_of
+from forcetorque.viewer.build import BuiltScene
+from forcetorque.viewer.page import page_of
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 

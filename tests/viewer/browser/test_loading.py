@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from forcetorque.viewer import page_of
+from forcetorque.viewer.page import page_of
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm
 

@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.errors import ForceTorqueError
-from forcetorque.viewer import ViewerServer, page_of
+from forcetorque.base.errors import ForceTorqueError
 from forcetorque.viewer.annotations import Annotations
+from forcetorque.viewer.page import page_of
+from forcetorque.viewer.serve import ViewerServer
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from forcetorque.experiment import load_shown
-from forcetorque.viewer import BuiltScene, scene_of
-from forcetorque.viewer.block import Block, read_array
+from forcetorque.experiment.loading import load_shown
+from forcetorque.viewer.arrays import Block, read_array
+from forcetorque.viewer.build import BuiltScene, scene_of
 from forcetorque.viewer.scene import SkinEventSeries, SkinPatch
-from forcetorque.viewer.skin_contacts import contact_frames
+from forcetorque.viewer.skin import contact_frames
 from tests.browser import Visit
 from tests.scenes.skin_alone import TOUCHED, write_events
 from tests.viewer.browser.arm_scene import Arm, arm_scene

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from forcetorque.viewer.filming import frame_count
-from forcetorque.viewer.video import Film
+from forcetorque.viewer.video import Film, frame_count
 from tests.viewer.browser.arm_scene import Arm
 
 if TYPE_CHECKING:

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.calibration.generative.means import WindowMeans
-from forcetorque.calibration.moments import symmetric_pseudo_inverse
-from forcetorque.calibration.quadratic_correction import quadratic_terms
-from forcetorque.noise import CANDIDATES, SlowNoise, Timeline
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise, Timeline
+from forcetorque.experiment.calibration.moments import symmetric_pseudo_inverse
+from forcetorque.experiment.calibration.quadratic_correction import quadratic_terms
+from forcetorque.experiment.calibration.window_means import WindowMeans
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -17,10 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.calibration.generative.assumptions import Scale
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.calibration.generative.design import Whitened
-from forcetorque.calibration.generative.rows import LOADS
+from forcetorque.experiment.calibration.assumptions import LOADS, Scale
 
 _SWEEPS = 20
 _CHOICES = (0, 4, 10)

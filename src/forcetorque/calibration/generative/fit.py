@@ -8,21 +8,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.calibration.generative import assumptions as expected
-from forcetorque.calibration.generative.assumptions import Assumptions, Scale
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import FitError
+from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise
+from forcetorque.calibration.generative.agreement import require_rank
 from forcetorque.calibration.generative.design import Design, design_of, whiten
-from forcetorque.calibration.generative.determined import require_rank
 from forcetorque.calibration.generative.evidence import infer
-from forcetorque.calibration.generative.means import WindowMeans, in_order
-from forcetorque.calibration.generative.rows import LOADS, Rows, rows_of
-from forcetorque.calibration.generative.solved_rows import SolvedRows
-from forcetorque.calibration.linear_variable import LinearVariable
-from forcetorque.calibration.posterior import Posterior
-from forcetorque.calibration.quadratic_correction import PAIRS
-from forcetorque.calibration.wrench_model import WrenchModel
-from forcetorque.errors import FitError
-from forcetorque.noise import CANDIDATES, SlowNoise
+from forcetorque.calibration.generative.solution import SolvedRows
+from forcetorque.experiment.calibration import assumptions as expected
+from forcetorque.experiment.calibration.assumptions import LOADS, Assumptions, Rows, Scale, rows_of
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.experiment.calibration.quadratic_correction import PAIRS
+from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from forcetorque.experiment.calibration.window_means import WindowMeans, in_order
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

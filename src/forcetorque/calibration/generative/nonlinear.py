@@ -13,22 +13,24 @@ from dataclasses import replace
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration.generative.assumptions import FLATTENED, Assumptions
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError
+from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.generative.design import session_means
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
-from forcetorque.calibration.generative.means import WindowMeans
-from forcetorque.calibration.linear_variable import LinearVariable
-from forcetorque.calibration.nonlinear_trial import HALVES, Half, NonlinearTrial
-from forcetorque.calibration.quadratic_correction import (
+from forcetorque.experiment.calibration.assumptions import FLATTENED, Assumptions
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.quadratic_correction import (
+    HALVES,
     STEEPEST,
+    Half,
+    NonlinearTrial,
     QuadraticCorrection,
     quadratic_terms,
     steepness,
 )
-from forcetorque.calibration.wrench_model import WrenchModel
-from forcetorque.errors import FitError
-from forcetorque.spatial import FORCE_AND_MOMENT
+from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from forcetorque.experiment.calibration.window_means import WindowMeans
 
 _REACH = 0.999
 """Share of the steepest correction that limits are drawn in to, so that rounding leaves it valid."""

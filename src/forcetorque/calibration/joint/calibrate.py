@@ -9,14 +9,14 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray
+from forcetorque.base.arrays import BoolArray
+from forcetorque.calibration.joint.contact_windows import Touch, all_touches, residuals, untouched
 from forcetorque.calibration.joint.fit import JointFit, fit_jointly
 from forcetorque.calibration.joint.model_error import ErrorTerm, ModelTolerance, delay_terms, error_terms
-from forcetorque.calibration.joint.residual import PartResidual
-from forcetorque.calibration.joint.spread import ChangeSpread
-from forcetorque.calibration.joint.stretch import Stretch
+from forcetorque.calibration.joint.nodes import Stretch
+from forcetorque.calibration.joint.prior import ChangeSpread
+from forcetorque.calibration.joint.residuals import PartResidual
 from forcetorque.calibration.joint.sums import part_sums
-from forcetorque.calibration.joint.touch import Touch, all_touches, residuals, untouched
 from forcetorque.calibration.joint.windows import PartWindows, part_windows
 from forcetorque.robot.sub_model import SubModel
 

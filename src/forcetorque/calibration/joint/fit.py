@@ -18,12 +18,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.errors import FitError
 from forcetorque.calibration.joint.model_error import ZERO, ErrorTerm
-from forcetorque.calibration.joint.spread import EVEN, KINDS, ChangeSpread
+from forcetorque.calibration.joint.prior import EVEN, KINDS, ChangeSpread
 from forcetorque.calibration.joint.sums import PartSums, Places
 from forcetorque.calibration.joint.windows import UNITS
-from forcetorque.errors import FitError
 
 _SMALLEST, _LARGEST = 0.1, 5.0
 """How far the size of changes by evidence may be from the expected one."""

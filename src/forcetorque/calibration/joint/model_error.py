@@ -9,18 +9,20 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.estimation.part_equations import (
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.pose import cross
+from forcetorque.base.wrench import transform_wrench
+from forcetorque.robot.mechanics.sub_model_equations import (
     PartEquation,
     heavy_bodies,
     joints_of_cuts,
     joints_of_part,
     part_equations,
 )
-from forcetorque.robot import BodyTree, JointMotion, RootMotion
+from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.newton_euler import net_wrench
 from forcetorque.robot.sub_model import SubModel
-from forcetorque.spatial import cross, transform_wrench
+from forcetorque.robot.tree import BodyTree
 
 ZERO: Final = "zero of "
 """How the name of the error of a joint begins."""

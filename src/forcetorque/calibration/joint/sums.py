@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.calibration.generative.rows import LOADS
+from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.calibration.joint.model_error import ErrorTerm
 from forcetorque.calibration.joint.windows import UNITS, PartWindows
+from forcetorque.experiment.calibration.assumptions import LOADS
 
 _CHANGES = 36
 

@@ -16,16 +16,21 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.calibration.generative.rows import LOADS
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.calibration.joint.model_error import DELAY, ZERO, ErrorTerm, body_columns, demand_columns, mass_shares
-from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, WindowNodes
-from forcetorque.calibration.joint.stretch import Stretch
-from forcetorque.estimation.part_equations import PartEquation, joints_of_cuts, part_equations, weight_equations
+from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, Stretch, WindowNodes
+from forcetorque.experiment.calibration.assumptions import LOADS
+from forcetorque.robot.mechanics.sub_model_equations import (
+    PartEquation,
+    joints_of_cuts,
+    part_equations,
+    weight_equations,
+)
 from forcetorque.robot.sub_model import SubModel
 
 if TYPE_CHECKING:
     from forcetorque.calibration.joint.fit import JointFit
+
 
 LENGTH_M: Final = 0.1
 """Moment over force that weigh alike: 0.1 N m is as much as 1 N."""

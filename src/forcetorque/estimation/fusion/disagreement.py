@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""By how much sources contradict each other, over what their covariances allow for: normalised innovations."""
+"""By how much sources contradict each other beyond their covariances, in means over windows."""
 
 from __future__ import annotations
 
@@ -8,8 +8,157 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.estimation.fusion.combination import inverse_of_known, precisions
-from forcetorque.estimation.fusion.windows import WindowMeans
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.estimation.fusion.source import TorqueSource
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WindowMeans:
+    """Means of one source."""
+
+    torque: FloatArray
+    """Means, NaN where the source says nothing; shape (w, j); N m."""
+    noise: FloatArray
+    """Covariance of their noise; shape (w, j, j); (N m)^2."""
+    lasting: FloatArray
+    """Means of what its lasting errors add; shape (w, j, p); N m."""
+
+    def window(self, index: int) -> WindowMeans:
+        """Look at one window.
+
+        Args:
+            index: Its place.
+
+        Returns:
+            The means of that window alone.
+        """
+        one = slice(index, index + 1)
+        return WindowMeans(torque=self.torque[one], noise=self.noise[one], lasting=self.lasting[one])
+
+
+def means_in_windows(sources: Sequence[TorqueSource], window_s: float) -> tuple[WindowMeans, ...]:
+    """Average sources over windows.
+
+    A mean of a joint is over samples of which every source knows the joint; a source that knows it in less than half of
+    the samples of a window has no mean there, so that the others are not cut short by it.
+
+    Args:
+        sources: Sources with the same instants and joints.
+        window_s: Length of a window; s.
+
+    Returns:
+        Means of every source.
+    """
+    stamps = sources[0].stamp_ns
+    window = (stamps - stamps[0]) // round(window_s * 1e9)
+    starts: IntArray = np.flatnonzero(np.diff(window, prepend=-1)).astype(np.int64)
+    lengths = np.diff(starts, append=len(stamps))
+    known = [np.isfinite(source.torque) for source in sources]
+    # whether a source has a mean of a joint in a window
+    heard = [np.add.reduceat(one, starts) * 2 >= lengths[:, None] for one in known]
+    spread = [np.repeat(one, lengths, axis=0) for one in heard]
+    common = np.all([one | ~there for one, there in zip(known, spread, strict=True)], axis=0)
+    return tuple(
+        _means(source, common & there, starts, window_s) for source, there in zip(sources, spread, strict=True)
+    )
+
+
+def _means(source: TorqueSource, taken: BoolArray, starts: IntArray, window_s: float) -> WindowMeans:
+    counts = np.add.reduceat(taken, starts)
+    with np.errstate(invalid="ignore"):
+        torque = np.add.reduceat(np.where(taken, source.torque, 0.0), starts) / counts
+        lasting = np.add.reduceat(np.where(taken[:, :, None], source.lasting, 0.0), starts) / counts[:, :, None]
+        pairs = taken[:, :, None] & taken[:, None, :]
+        noise = np.add.reduceat(np.where(pairs, source.noise, 0.0), starts)
+        noise = noise / (counts[:, :, None] * counts[:, None, :])
+    return WindowMeans(
+        torque=torque,
+        noise=np.nan_to_num(noise) * _repeated(source, counts, window_s)[:, None, None],
+        lasting=np.nan_to_num(lasting),
+    )
+
+
+def _repeated(source: TorqueSource, counts: IntArray, window_s: float) -> FloatArray:
+    """How many samples are as good as one, because noise repeats itself; shape (w,)."""
+    period_s = float(np.median(np.diff(source.stamp_ns))) * 1e-9 if len(source) > 1 else window_s
+    most = np.maximum(counts.max(axis=1), 1).astype(np.float64)
+    repeated: FloatArray = np.minimum(1.0 + 2.0 * source.noise_time_s / period_s, most)
+    return repeated
+
+
+def precisions(values: FloatArray, covariance: FloatArray) -> FloatArray:
+    """Invert the covariance of what is known of every vector.
+
+    Args:
+        values: Vectors, NaN where a component is not known; shape (n, j).
+        covariance: Their covariance; shape (n, j, j).
+
+    Returns:
+        Weights, zero in rows and columns of what is not known; shape (n, j, j).
+    """
+    known = ~np.isnan(values)
+    weights = np.zeros_like(covariance)
+    for pattern in np.unique(known, axis=0):
+        columns = np.flatnonzero(pattern)
+        block = np.ix_(np.flatnonzero((known == pattern).all(axis=1)), columns, columns)
+        weights[block] = np.linalg.inv(covariance[block])
+    return weights
+
+
+def combined(
+    values: Sequence[FloatArray], covariances: Sequence[FloatArray], shared: Sequence[FloatArray]
+) -> tuple[FloatArray, FloatArray]:
+    """Find the vectors that several measurements fit best, with `values = vector + shared @ w + e`.
+
+    w has unit variance and is the same for all measurements of a vector, e is independent between them. Measurements
+    with the same `shared` keep that error: their number does not reduce it.
+
+    Args:
+        values: Measurements, NaN where a component is not known; shape (n, j) each.
+        covariances: Covariances of their e; shape (n, j, j) each.
+        shared: What one standard deviation of each common error adds; shape (n, j, s) each, with one s.
+
+    Returns:
+        The vectors, NaN where nobody knows a component, shape (n, j); and their covariance, shape (n, j, j).
+    """
+    n, _, s = shared[0].shape
+    information, cross, own = np.zeros_like(covariances[0]), np.zeros_like(shared[0]), np.tile(np.eye(s), (n, 1, 1))
+    right, right_shared = np.zeros_like(values[0]), np.zeros((n, s))
+    for value, covariance, columns in zip(values, covariances, shared, strict=True):
+        weights, columns_known = precisions(value, covariance), np.nan_to_num(columns)
+        weighted = np.einsum("nij,nj->ni", weights, np.nan_to_num(value))
+        information += weights
+        cross += weights @ columns_known
+        own += columns_known.transpose(0, 2, 1) @ weights @ columns_known
+        right += weighted
+        right_shared += np.einsum("njs,nj->ns", columns_known, weighted)
+    # the common errors are eliminated: what is left is the information on the vectors alone
+    eliminated = np.linalg.solve(own, np.concatenate([cross.transpose(0, 2, 1), right_shared[:, :, None]], axis=2))
+    information -= cross @ eliminated[:, :, :-1]
+    right -= np.einsum("njs,ns->nj", cross, eliminated[:, :, -1])
+    unknown = np.all([np.isnan(value) for value in values], axis=0)
+    covariance = inverse_of_known(0.5 * (information + information.transpose(0, 2, 1)), unknown)
+    vectors = np.einsum("nij,nj->ni", covariance, right)
+    vectors[unknown] = np.nan
+    covariance[unknown[:, :, None] | unknown[:, None, :]] = np.nan
+    return vectors, covariance
+
+
+def inverse_of_known(weights: FloatArray, unknown: BoolArray) -> FloatArray:
+    """Invert weights whose rows and columns of unknown components are zero.
+
+    Args:
+        weights: The weights; shape (n, j, j).
+        unknown: Whether a component is unknown; shape (n, j), bool.
+
+    Returns:
+        The covariance of what is known, zero elsewhere; shape (n, j, j).
+    """
+    # the unknown components stand apart from the others: with a one on their diagonal all is inverted at once
+    apart = unknown[:, :, None] * np.eye(unknown.shape[1])
+    inverse: FloatArray = np.linalg.inv(weights + apart) - apart
+    return inverse
+
 
 VARIANCE_MARGIN = 1.25
 """Factor by which the noise of sources may be more than stated before that is a conflict: variances of noise are

@@ -8,12 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.estimation.contact import Contact
-from forcetorque.estimation.question import Question
-from forcetorque.estimation.uncertain.covariance import square_root
-from forcetorque.estimation.uncertain.uncertainty import Uncertainty
-from forcetorque.spatial import wrench_matrix
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.wrench import wrench_matrix
+from forcetorque.estimation.uncertain.uncertainty import Uncertainty, square_root
+from forcetorque.robot.contacts import Contact
+from forcetorque.robot.mechanics.question import Question
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

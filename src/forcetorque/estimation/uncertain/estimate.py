@@ -8,23 +8,22 @@ from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, require_shape
-from forcetorque.errors import EstimationError, ShapeError, known_names
-from forcetorque.estimation.inputs import Inputs, checked_inputs, refuse_infinite
-from forcetorque.estimation.question import Question, TorqueSum
-from forcetorque.estimation.reference import Block, body_states
+from forcetorque.base.arrays import FloatArray, require_shape
+from forcetorque.base.errors import EstimationError, ShapeError, known_names
+from forcetorque.base.pose import make_pose
+from forcetorque.base.wrench import transform_wrench
 from forcetorque.estimation.uncertain.actions import actions_of, actors_of
-from forcetorque.estimation.uncertain.covariance import wrench_covariances
-from forcetorque.estimation.uncertain.equations import Scene
+from forcetorque.estimation.uncertain.equations import Scene, posterior_of
 from forcetorque.estimation.uncertain.estimates import BY_SAMPLE, UncertainEstimates
-from forcetorque.estimation.uncertain.posterior import posterior_of
-from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.estimation.uncertain.uncertainty import Uncertainty, wrench_covariances
 from forcetorque.estimation.uncertain.undetermined import Undetermined, undetermined_of
-from forcetorque.robot import JointMotion, RootMotion
+from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.kinematics import BodyState
+from forcetorque.robot.mechanics.inputs import Inputs, checked_inputs, refuse_infinite
+from forcetorque.robot.mechanics.question import Question, TorqueSum
+from forcetorque.robot.mechanics.readable import Block, body_states
+from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.newton_euler import net_wrench
-from forcetorque.robot.wrenches import Wrenches
-from forcetorque.spatial import make_pose, transform_wrench
 
 _BLOCK: Final = 256
 """Samples at once: matrices of all sub-models, for each of them, stay in the processor's cache."""

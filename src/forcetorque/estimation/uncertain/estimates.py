@@ -8,9 +8,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.estimation.estimates import column_of
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.estimation.uncertain.undetermined import Undetermined
+from forcetorque.robot.mechanics.estimates import column_of
 
 BY_SAMPLE: Final = (
     "contact_wrenches",

@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.estimation.uncertain.actions import Actor
 
 _PART: Final = 1e-6

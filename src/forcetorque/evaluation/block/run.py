@@ -9,10 +9,10 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.compiled import announced, frozen
-from forcetorque.evaluation.block.judge import judge_of
-from forcetorque.evaluation.candidate_inputs import CandidateInputs
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.compiled import announced, frozen
+from forcetorque.evaluation.block.candidate_sums import judge_of
+from forcetorque.evaluation.candidate_errors import CandidateInputs
 
 _SAMPLES = 16384
 """Most samples of one task: long against the cost of starting it."""

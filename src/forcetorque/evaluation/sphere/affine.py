@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
+from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.evaluation.sphere.algebraic import inverse_lengths
-from forcetorque.evaluation.sphere.cloud import reach
+from forcetorque.evaluation.sphere.cloud import reach, sums_of_products
 from forcetorque.evaluation.sphere.ellipsoid import ellipsoid_of_map
 from forcetorque.evaluation.sphere.findings import (
     EllipsoidFit,
@@ -28,7 +28,6 @@ from forcetorque.evaluation.sphere.findings import (
     relative_margin,
 )
 from forcetorque.evaluation.sphere.free import is_flat
-from forcetorque.evaluation.sphere.moments import sums_of_products
 from forcetorque.evaluation.sphere.resampling import FEWEST, Resampled, resampled, whole
 
 _ROUNDING = 1e-14

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sphere analysis of a sensor: what gravity draws while a limb is carried around (thesis 4.1.2)."""
+"""The sphere analysis of a sensor, with apparent masses and the error of each axis (thesis 4.1.2, Table 4.2)."""
 
 from __future__ import annotations
 
@@ -8,14 +8,49 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import ForceTorqueError, ShapeError, UnitError
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import ForceTorqueError, ShapeError, UnitError
 from forcetorque.evaluation.sphere.affine import MappedFit, MomentFit, fit_mapped, fit_moment
-from forcetorque.evaluation.sphere.apparent_mass import apparent_masses, axis_errors
-from forcetorque.evaluation.sphere.cloud import is_one_point, require_cloud
-from forcetorque.evaluation.sphere.coverage import share_of_directions
+from forcetorque.evaluation.sphere.cloud import is_one_point, require_cloud, share_of_directions
 from forcetorque.evaluation.sphere.findings import TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, percent
 from forcetorque.evaluation.sphere.free import fit_ellipsoid, fit_radius, may_be_flat
+
+
+def apparent_masses(lengths: Any, *, gravity: float) -> FloatArray:
+    """Give the mass whose weight each length is.
+
+    Args:
+        lengths: Radii of some kind; shape (3,); N.
+        gravity: Magnitude of gravity; m/s2.
+
+    Returns:
+        A mass for each; shape (3,); kg.
+    """
+    masses: FloatArray = read_only(lengths, name="lengths", shape=(3,)) / _positive(gravity, "gravity")
+    return masses
+
+
+def axis_errors(masses: Any, *, reference_mass: float, gravity: float) -> FloatArray:
+    """Compare the force that each axis reads with the weight that the model has.
+
+    Args:
+        masses: Apparent masses by the axis intersections; shape (3,); kg.
+        reference_mass: What hangs on the sensor; kg.
+        gravity: Magnitude of gravity; m/s2.
+
+    Returns:
+        Measured minus true size of the weight; shape (3,); N.
+    """
+    excess = read_only(masses, name="masses", shape=(3,)) - _positive(reference_mass, "reference_mass")
+    errors: FloatArray = excess * _positive(gravity, "gravity")
+    return errors
+
+
+def _positive(value: float, name: str) -> float:
+    if not 0.0 < value < np.inf:
+        raise ForceTorqueError(f"{name}: expected a positive number, got {value:g}")
+    return value
+
 
 _COUNTS = 100.0
 """Measured over reference extent beyond which a force is no force."""

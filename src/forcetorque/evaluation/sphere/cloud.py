@@ -1,14 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Clouds of forces or moments that an ellipsoid may be fitted to."""
+"""Clouds of forces or moments, how much of all directions they cover, and their moments up to the fourth degree."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import FitError, ShapeError, UnitError
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import FitError, ShapeError, UnitError
+from forcetorque.evaluation.sphere.resampling import split
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
+
 
 FEWEST = 10
 """Points below which nothing is fitted: an ellipsoid has nine unknowns."""
@@ -84,3 +92,128 @@ def reach(cloud: FloatArray) -> float:
         Twice the largest distance from the mean.
     """
     return 2.0 * float(np.sqrt(((cloud - cloud.mean(axis=0)) ** 2).sum(axis=1).max()))
+
+
+CELLS = 200
+"""Parts, all alike, into which the directions are divided: some 16 degrees across."""
+
+
+def share_of_directions(cloud: FloatArray, centre: FloatArray) -> float:
+    """Find the share of all directions in which there is a point.
+
+    Args:
+        cloud: Points; shape (n, 3).
+        centre: Where they are looked at from; shape (3,).
+
+    Returns:
+        Share of equal parts of the sphere of directions with at least one point, those at the edge counted whole;
+        from 0 to 1.
+    """
+    away = cloud - centre
+    length = np.linalg.norm(away, axis=1)
+    directions = away[length > 0.0] / length[length > 0.0, None]
+    if not len(directions):
+        return 0.0
+    _, nearest = _cells().query(directions)
+    return len(np.unique(nearest)) / CELLS
+
+
+@cache
+def _cells() -> cKDTree:
+    """Middles of the parts: a spiral from pole to pole by the golden angle."""
+    from scipy.spatial import cKDTree  # here because importing it takes longer than most commands
+
+    index = np.arange(CELLS) + 0.5
+    z = 1.0 - 2.0 * index / CELLS
+    turn = np.pi * (3.0 - np.sqrt(5.0)) * index
+    across = np.sqrt(1.0 - z**2)
+    return cKDTree(np.column_stack([across * np.cos(turn), across * np.sin(turn), z]))
+
+
+_ROWS = 8192
+"""Samples per pass: what is made of them stays in the processor's cache."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class QuadricMoments:
+    """Sums of products of the ten monomials of a quadric, for each of b blocks.
+
+    The monomials are x2, y2, z2, 2yz, 2xz, 2xy, 2x, 2y, 2z and 1 of points that were moved by `shift` and
+    divided by `scale`, so that they lie about the origin and are of the order of 1.
+    """
+
+    shift: FloatArray
+    """Mean of the cloud; shape (3,)."""
+    scale: float
+    """Root mean square distance from it."""
+    sums: FloatArray
+    """Sums of products; shape (b, 10, 10)."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "shift", read_only(self.shift, name="shift", shape=(3,)))
+        object.__setattr__(self, "sums", read_only(self.sums, name="sums", shape=(None, 10, 10)))
+
+    @classmethod
+    def of(cls, cloud: FloatArray) -> QuadricMoments:
+        """Reduce a cloud.
+
+        Args:
+            cloud: Points in the order of time, at least ten and not all the same; shape (n, 3).
+
+        Returns:
+            Its moments in contiguous blocks.
+        """
+        shift = cloud.mean(axis=0)
+        scale = float(np.sqrt(((cloud - shift) ** 2).sum(axis=1).mean()))
+        return cls(
+            shift=shift, scale=scale, sums=sums_of_products(cloud, lambda rows: monomials((rows - shift) / scale))
+        )
+
+
+def extent(mean: FloatArray) -> FloatArray:
+    """Give the extents of clouds.
+
+    Args:
+        mean: Mean products of monomials; shape (m, 10, 10).
+
+    Returns:
+        Root mean square distances from the mean, in units of the scale; shape (m,).
+    """
+    squares = np.trace(mean[:, 6:9, 6:9], axis1=1, axis2=2) - (mean[:, 6:9, 9] ** 2).sum(axis=1)
+    extents: FloatArray = 0.5 * np.sqrt(np.maximum(squares, 0.0))
+    return extents
+
+
+def sums_of_products(values: FloatArray, columns: Callable[[FloatArray], FloatArray]) -> FloatArray:
+    """Add up the products of columns in each block of time.
+
+    Args:
+        values: Samples in the order of time; shape (n, k).
+        columns: Makes the columns (m, p) of samples (m, k).
+
+    Returns:
+        Sums of products; shape (b, p, p).
+    """
+    sums = []
+    for block in split(values):
+        pieces = [columns(block[start : start + _ROWS]) for start in range(0, len(block), _ROWS)]
+        sums.append(sum(rows.T @ rows for rows in pieces))
+    return np.array(sums)
+
+
+def monomials(points: FloatArray) -> FloatArray:
+    """Give the ten monomials of a quadric.
+
+    Args:
+        points: Points; shape (n, 3).
+
+    Returns:
+        x2, y2, z2, 2yz, 2xz, 2xy, 2x, 2y, 2z, 1 of each; shape (n, 10).
+    """
+    x, y, z = points.T
+    rows = np.empty((len(points), 10))
+    for column, values in enumerate((x * x, y * y, z * z, 2.0 * y * z, 2.0 * x * z, 2.0 * x * y)):
+        rows[:, column] = values
+    rows[:, 6:9] = 2.0 * points
+    rows[:, 9] = 1.0
+    return rows

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import FitError
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import FitError
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -44,7 +44,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
+from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
 from forcetorque.evaluation.sphere.resampling import Resampled
 

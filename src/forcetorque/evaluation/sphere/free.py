@@ -7,9 +7,17 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.evaluation.sphere.algebraic import Quadrics, direct_fit, gradient_weighted_fit, inverse_lengths
-from forcetorque.evaluation.sphere.cloud import reach
+from forcetorque.base.arrays import FloatArray
+from forcetorque.evaluation.sphere.algebraic import (
+    Quadrics,
+    Spheres,
+    direct_fit,
+    gradient_weighted_fit,
+    gradient_weighted_spheres,
+    inverse_lengths,
+    least_squares_spheres,
+)
+from forcetorque.evaluation.sphere.cloud import QuadricMoments, extent, reach
 from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
 from forcetorque.evaluation.sphere.findings import (
     EllipsoidFit,
@@ -24,9 +32,7 @@ from forcetorque.evaluation.sphere.findings import (
     percent,
     relative_margin,
 )
-from forcetorque.evaluation.sphere.moments import QuadricMoments, extent
-from forcetorque.evaluation.sphere.one_radius import Spheres, gradient_weighted_spheres, least_squares_spheres
-from forcetorque.evaluation.sphere.refinement import refine_ellipsoid, refine_sphere
+from forcetorque.evaluation.sphere.geometric import refine_ellipsoid, refine_sphere
 from forcetorque.evaluation.sphere.resampling import FEWEST, Resampled, resampled, whole
 
 Ends = tuple[FloatArray, FloatArray]

@@ -1,17 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One analysis over the samples of several trials, between which the offset of the sensor may have changed.
-
-The trials of a sensor are power-ups with an offset each. The pooled ellipsoid has one shape, and a centre for each
-trial:
-
-- with the model, one matrix and an offset per trial. That is linear, and exact for every part of the recordings;
-- without, one shape and a centre per trial by orthogonal distances. The algebraic methods, which judge the fit, then
-  see the clouds moved to these centres. Since they take the centres for known, the geometric fit is repeated without
-  one tenth after the other, centres and all, and the interval holds that of it too.
-
-The parts that are left out are tenths of every trial at once, so that no trial ever goes without a centre. The interval
-therefore says what differs within trials; what differs between them is the business of the mean of the trials.
-"""
+"""One analysis over several trials, between which the offset of the sensor changes: a centre for each."""
 
 from __future__ import annotations
 
@@ -20,11 +8,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import ForceTorqueError
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.sphere.affine import image_of_sphere, inverse_lengths_of
-from forcetorque.evaluation.sphere.algebraic import inverse_lengths
-from forcetorque.evaluation.sphere.cloud import reach, require_cloud
+from forcetorque.evaluation.sphere.algebraic import direct_shape_with_own_centres, inverse_lengths
+from forcetorque.evaluation.sphere.cloud import monomials, reach, require_cloud
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
 from forcetorque.evaluation.sphere.findings import (
     TOLERANCE,
     EllipsoidFit,
@@ -36,8 +25,89 @@ from forcetorque.evaluation.sphere.findings import (
     relative_margin,
 )
 from forcetorque.evaluation.sphere.free import fit_ellipsoid, fit_radius, is_flat
-from forcetorque.evaluation.sphere.own_centres import OwnCentres, fit_with_own_centres
+from forcetorque.evaluation.sphere.geometric import (
+    NormalEquations,
+    descend,
+    ellipsoid_equations,
+    ellipsoid_of_parameters,
+    ellipsoid_parameters,
+)
 from forcetorque.evaluation.sphere.resampling import BLOCKS, jackknife_margin, resampled, whole
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class OwnCentres:
+    """An ellipsoid that is fitted to several clouds at once."""
+
+    parameters: FloatArray
+    """Centre of each cloud, then the lower triangle of L as in `orthogonal`; shape (3 t + 6,)."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parameters", read_only(self.parameters, name="parameters", shape=(None,)))
+
+    @property
+    def centres(self) -> FloatArray:
+        """Centre for each cloud; shape (t, 3)."""
+        return self.parameters[:-6].reshape(-1, 3)
+
+    @property
+    def ellipsoid(self) -> Ellipsoid:
+        """The shape, about the origin."""
+        return ellipsoid_of_parameters(np.concatenate([np.zeros(3), self.parameters[-6:]]))
+
+
+def fit_with_own_centres(clouds: Sequence[FloatArray], start: OwnCentres | None = None) -> OwnCentres | None:
+    """Fit one shape and a centre for each cloud, by orthogonal distances.
+
+    Args:
+        clouds: Points; shapes (n, 3).
+        start: Where to start; the direct fit if None.
+
+    Returns:
+        The fit; None where it is no minimum, because the clouds determine no ellipsoid.
+    """
+    begun = _direct(clouds) if start is None else start
+    if begun is None:
+        return None
+    means = np.array([cloud.mean(axis=0) for cloud in clouds])
+    moved = [cloud - mean for cloud, mean in zip(clouds, means, strict=True)]
+    size = max(float(np.ptp(cloud, axis=0).max()) for cloud in clouds)
+    offset = np.append(means.ravel(), np.zeros(6))
+    descent = descend(
+        lambda parameters: _equations(moved, parameters), begun.parameters - offset, size, sum(map(len, clouds))
+    )
+    return OwnCentres(parameters=descent.parameters + offset) if descent.converged else None
+
+
+def _equations(clouds: Sequence[FloatArray], parameters: FloatArray) -> NormalEquations | None:
+    """Normal equations of all clouds: those of each reach its own centre and the common shape."""
+    count = len(parameters)
+    cost, gradient, hessian = 0.0, np.zeros(count), np.zeros((count, count))
+    for k, cloud in enumerate(clouds):
+        mine = np.r_[3 * k : 3 * k + 3, count - 6 : count]
+        part = ellipsoid_equations(cloud, parameters[mine])
+        if part is None:
+            return None
+        cost += part.cost
+        gradient[mine] += part.gradient
+        hessian[np.ix_(mine, mine)] += part.hessian
+    return NormalEquations(cost=cost, gradient=gradient, hessian=hessian)
+
+
+def _direct(clouds: Sequence[FloatArray]) -> OwnCentres | None:
+    shifts = [cloud.mean(axis=0) for cloud in clouds]
+    scale = max(float(np.sqrt(((cloud - s) ** 2).sum(axis=1).mean())) for cloud, s in zip(clouds, shifts, strict=True))
+    if scale == 0.0:
+        return None
+    monomial_rows = [monomials((cloud - shift) / scale) for cloud, shift in zip(clouds, shifts, strict=True)]
+    solution = direct_shape_with_own_centres(np.array([rows.T @ rows for rows in monomial_rows]))
+    if solution is None:
+        return None
+    shape, centres = solution
+    common = Ellipsoid(centre=np.zeros(3), shape=shape / scale**2)
+    return OwnCentres(
+        parameters=np.append((np.array(shifts) + scale * centres).ravel(), ellipsoid_parameters(common)[3:])
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -20,7 +20,7 @@ from itertools import combinations
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
+from forcetorque.base.arrays import FloatArray, read_only
 
 BLOCKS = 10
 """Contiguous blocks of time, where there are samples enough."""

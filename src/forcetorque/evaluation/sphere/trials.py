@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, read_only
-from forcetorque.errors import ForceTorqueError
+from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.sphere.findings import EllipsoidFit
 from forcetorque.evaluation.sphere.resampling import BLOCKS
 

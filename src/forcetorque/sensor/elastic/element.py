@@ -8,11 +8,12 @@ from enum import StrEnum
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import SensorError
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import SensorError
+from forcetorque.base.pose import make_pose, rotation_about_z
+from forcetorque.base.wrench import wrench_matrix
 from forcetorque.sensor.elastic.beam import Beam
 from forcetorque.sensor.require import require_positive
-from forcetorque.spatial import make_pose, rotation_about_z, wrench_matrix
 
 
 class Bending(StrEnum):

@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.sensor.elastic.material import Material
-from forcetorque.sensor.elastic.section import RectangularSection
+from forcetorque.base.arrays import FloatArray
+from forcetorque.sensor.elastic.beam import Material, RectangularSection
 from forcetorque.sensor.require import require_positive
 
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.constants import VACUUM_PERMITTIVITY
-from forcetorque.errors import SensorError
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import SensorError
+from forcetorque.base.units import VACUUM_PERMITTIVITY
 from forcetorque.sensor.require import require_positive
 
 

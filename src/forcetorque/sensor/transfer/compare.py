@@ -10,17 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.errors import FitError, ForceTorqueError, ShapeError
-from forcetorque.sensor.transfer.exponential import fit_exponential
-from forcetorque.sensor.transfer.linear import fit_linear
-from forcetorque.sensor.transfer.logarithmic import fit_logarithmic
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.errors import FitError, ForceTorqueError, ShapeError
 from forcetorque.sensor.transfer.network import fit_network
-from forcetorque.sensor.transfer.piecewise_linear import fit_piecewise_linear
 from forcetorque.sensor.transfer.points import calibration_points
-from forcetorque.sensor.transfer.polynomial import fit_polynomial
-from forcetorque.sensor.transfer.power import fit_power
-from forcetorque.sensor.transfer.spline import fit_spline
+from forcetorque.sensor.transfer.polynomial import fit_linear, fit_logarithmic, fit_polynomial
+from forcetorque.sensor.transfer.power import fit_exponential, fit_power
+from forcetorque.sensor.transfer.sections import fit_piecewise_linear, fit_spline
 from forcetorque.sensor.transfer.transfer_function import TransferFunction
 
 Fitter = Callable[[FloatArray, FloatArray], TransferFunction]

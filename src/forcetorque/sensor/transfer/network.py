@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import FitError, MissingExtraError, SensorError
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import FitError, MissingExtraError, SensorError
 from forcetorque.sensor.transfer.points import calibration_points
 from forcetorque.sensor.transfer.transfer_function import TransferFunction
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import FitError, ShapeError
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError, ShapeError
 
 
 def calibration_points(stimulus: Any, output: Any, *, parameters: int) -> tuple[FloatArray, FloatArray]:

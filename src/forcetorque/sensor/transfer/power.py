@@ -1,21 +1,76 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The power transfer function."""
+"""Transfer functions with one exponent: power and exponential, and the search for that exponent."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import FitError, SensorError
-from forcetorque.sensor.transfer.exponent import fit_exponent
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError, SensorError
 from forcetorque.sensor.transfer.points import calibration_points
 from forcetorque.sensor.transfer.transfer_function import TransferFunction
 
+_TOLERANCE = 1e-14
+"""Relative change of a parameter, or of the squared error, below which the refinement stops: rounding."""
+
+
+def fit_exponent(
+    shape: Callable[[float], FloatArray], output: FloatArray, *, candidates: FloatArray, name: str
+) -> tuple[float, FloatArray]:
+    """Find the exponent, and the parameters that go with it, by least squares of the output.
+
+    For each exponent the other parameters are linear least squares (separable least squares), so the
+    candidates show where the best exponent lies without a start for the others. From the best one
+    all parameters are refined together, the exponent between the two neighbours.
+
+    Args:
+        shape: Output per linear parameter, for an exponent; gives shape (n, parameters).
+        output: Outputs; shape (n,).
+        candidates: Exponents to start from, ascending; shape (k,).
+        name: Kind of function, for the message.
+
+    Returns:
+        Exponent and linear parameters.
+
+    Raises:
+        FitError: If the best candidate is the first or the last: the points then look like a limit of the
+            function, which has no such exponent.
+    """
+    from scipy import optimize  # here because importing it takes longer than most fits
+
+    def best_linear(exponent: float) -> FloatArray:
+        return np.asarray(np.linalg.lstsq(shape(exponent), output, rcond=None)[0], dtype=np.float64)
+
+    def residual(parameters: FloatArray) -> FloatArray:
+        return np.asarray(shape(float(parameters[0])) @ parameters[1:] - output, dtype=np.float64)
+
+    starts = [np.array([exponent, *best_linear(exponent)]) for exponent in candidates]
+    errors = [float((residual(start) ** 2).sum()) for start in starts]
+    best = int(np.argmin(errors))
+    if best in {0, len(starts) - 1}:
+        raise FitError(
+            f"{name}: no exponent between {candidates[0]:g} and {candidates[-1]:g} (of scaled points) fits best; "
+            "the points do not bend as this function does, fit another kind"
+        )
+    free = np.full(len(starts[best]) - 1, np.inf)
+    optimum = optimize.least_squares(
+        residual,
+        starts[best],
+        bounds=([candidates[best - 1], *-free], [candidates[best + 1], *free]),
+        x_scale="jac",
+        ftol=_TOLERANCE,
+        xtol=_TOLERANCE,
+        gtol=_TOLERANCE,
+    )
+    return float(optimum.x[0]), np.asarray(optimum.x[1:], dtype=np.float64)
+
+
 _POSITIVE = np.geomspace(0.02, 20.0, 40)
-_CANDIDATES = np.concatenate([-_POSITIVE[::-1], _POSITIVE])
+_EXPONENTS = np.concatenate([-_POSITIVE[::-1], _POSITIVE])
 """Exponents to start from; smaller ones cannot be told from a logarithm."""
 
 
@@ -71,7 +126,7 @@ def fit_power(stimulus: Any, output: Any) -> Power:
     exponent, (slope, offset) = fit_exponent(
         lambda exponent: np.column_stack([scaled**exponent, np.ones_like(scaled)]),
         outputs,
-        candidates=_POSITIVE if stimuli.min() == 0.0 else _CANDIDATES,
+        candidates=_POSITIVE if stimuli.min() == 0.0 else _EXPONENTS,
         name="power",
     )
     if abs(exponent) < _POSITIVE[0]:
@@ -84,4 +139,62 @@ def fit_power(stimulus: Any, output: Any) -> Power:
         slope=float(slope / highest**exponent),
         exponent=exponent,
         offset=float(offset),
+    )
+
+
+_RATES = np.concatenate([-np.geomspace(100.0, 1e-3, 40), np.geomspace(1e-3, 100.0, 40)])
+"""Rates to start from, per span of the stimuli: from a factor of 1.001 to one of e^100 over the range."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Exponential(TransferFunction):
+    """`E = O exp(k s)`, thesis Table 3.1."""
+
+    scale: float
+    """O: output without stimulus."""
+    rate: float
+    """k: one over the unit of the stimulus."""
+
+    def __post_init__(self) -> None:
+        TransferFunction.__post_init__(self)
+        if self.scale == 0.0 or self.rate == 0.0:
+            raise SensorError(f"Exponential: expected scale and rate other than 0, got {self.scale:g}, {self.rate:g}")
+
+    def _output(self, stimulus: FloatArray) -> FloatArray:
+        return self.scale * np.exp(self.rate * stimulus)
+
+    def _stimulus(self, output: FloatArray) -> FloatArray:
+        return np.log(output / self.scale) / self.rate
+
+    def _turning_points(self) -> FloatArray:
+        return np.zeros(0)
+
+
+def fit_exponential(stimulus: Any, output: Any) -> Exponential:
+    """Fit an exponential by least squares of the output (not of its logarithm, which would weigh small ones more).
+
+    Args:
+        stimulus: Known stimuli; shape (n,).
+        output: Outputs of the sensor; shape (n,).
+
+    Returns:
+        The function, valid from the least to the greatest stimulus.
+
+    Raises:
+        ShapeError: If the points are not two series of one length.
+        FitError: If there are fewer than two different stimuli, or no rate fits best.
+    """
+    stimuli, outputs = calibration_points(stimulus, output, parameters=2)
+    middle, span = 0.5 * (stimuli.min() + stimuli.max()), np.ptp(stimuli)
+    scaled = (stimuli - middle) / span  # the same search in every unit, and no overflow
+    rate, (scale,) = fit_exponent(
+        lambda rate: np.exp(rate * scaled)[:, None], outputs, candidates=_RATES, name="exponential"
+    )
+    if rate == 0.0 or scale == 0.0:
+        raise FitError("exponential: the output is the same for every stimulus, so no rate is determined")
+    return Exponential(
+        lowest=float(stimuli.min()),
+        highest=float(stimuli.max()),
+        scale=float(scale * np.exp(-rate * middle / span)),
+        rate=float(rate / span),
     )

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.errors import SensorError
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import SensorError
 
 _ROUNDING = 1e-9
 """Part of the output's span by which an output may lie beyond the ends: what rounding does, and far below noise."""

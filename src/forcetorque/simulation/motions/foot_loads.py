@@ -10,13 +10,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import ShapeError
-from forcetorque.estimation import Contact, ContactType
-from forcetorque.robot import link_pose
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import ShapeError
+from forcetorque.base.pose import invert_pose
+from forcetorque.base.wrench import WRENCH_COMPONENTS, transform_wrench, wrench_matrix
+from forcetorque.robot.contacts import Contact, ContactType
+from forcetorque.robot.kinematics import link_pose
 from forcetorque.simulation.motions.movement import Movement, Touch
 from forcetorque.simulation.motions.spline import Spline
-from forcetorque.spatial import WRENCH_COMPONENTS, invert_pose, transform_wrench, wrench_matrix
 
 _COST = np.array([1.0, 1.0, 0.05, 150.0, 150.0, 150.0])
 """Cost of a squared component of a foot's wrench: the vertical force is cheap, and 1 N m costs as much as 12 N along

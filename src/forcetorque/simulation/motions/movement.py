@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A movement: what every joint of a robot does while one link stands still in the world, or is carried through it."""
+"""A movement of every joint while links stand, in phases in which the same links touch the world."""
 
 from __future__ import annotations
 
@@ -10,23 +10,117 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only, require_shape
-from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.errors import RobotError
-from forcetorque.estimation import Contact, ContactType, Question, estimate
-from forcetorque.robot import (
-    BodyTree,
-    JointMotion,
-    RobotModel,
-    RootMotion,
-    Wrenches,
-    build_tree,
-    link_pose,
-    motion_of_link,
-)
-from forcetorque.simulation.motions.carriage import Carriage
-from forcetorque.simulation.motions.footing import Footing
-from forcetorque.simulation.motions.phase import Phase
+from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.errors import RobotError
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.robot.contacts import Contact, ContactType, Wrenches
+from forcetorque.robot.kinematics import link_pose, motion_of_link
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.tree import BodyTree, build_tree
+from forcetorque.simulation.motions.inverse_kinematics import Carriage
+
+
+class PhaseKind(StrEnum):
+    """How a robot is borne."""
+
+    HANGING = "hanging"
+    """By a link of its trunk, feet in the air."""
+    LANDING = "landing"
+    """By that link and both feet, while the first hands the weight over."""
+    DOUBLE_SUPPORT = "double_support"
+    """By both feet."""
+    SINGLE_SUPPORT = "single_support"
+    """By one foot."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Phase:
+    """A span of a movement in which the same links touch the world."""
+
+    label: str
+    """Its name, unique in the movement."""
+    kind: PhaseKind
+    """How the robot is borne."""
+    start_s: float
+    """Start; s since the start of the movement."""
+    end_s: float
+    """End; s since the start of the movement."""
+    touched: tuple[str, ...]
+    """Links that touch the world; each stands still."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Foothold:
+    """A link that stands still in the world from some instant on."""
+
+    tree: BodyTree
+    """The robot rooted at this link."""
+    world_H_link: FloatArray
+    """Where it stands; z of the world points up; shape (4, 4); m."""
+    start_s: float
+    """Since when; s."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "world_H_link", read_only(self.world_H_link, name="world_H_link", shape=(4, 4)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Footing:
+    """How a link moves because others, one after the other, stand still.
+
+    Where one follows the other, the joints between them have to be at rest, so that both stand still.
+    """
+
+    link: str
+    """Link that is carried."""
+    joints: Callable[[FloatArray], JointMotion]
+    """From instants (n,) in s to the motion of all free joints."""
+    footholds: tuple[Foothold, ...]
+    """What stands still, in turn; the first one before its start too."""
+
+    def poses(self, seconds: FloatArray, world_H_rest: FloatArray) -> FloatArray:
+        """Find where the link is.
+
+        Args:
+            seconds: Instants; shape (n,); s.
+            world_H_rest: Pose of the link at rest, which footholds tell already; shape (4, 4); m.
+
+        Returns:
+            `world_H_link`; shape (n, 4, 4); m.
+        """
+        poses = np.tile(world_H_rest, (len(seconds), 1, 1))
+        for hold, rows in self._in_turn(seconds):
+            poses[rows] = hold.world_H_link @ link_pose(hold.tree, self.joints(seconds[rows]), self.link)
+        return poses
+
+    def motion(self, seconds: FloatArray, world_H_rest: FloatArray, *, gravity: float) -> RootMotion:
+        """Give the motion of the link's frame.
+
+        Args:
+            seconds: Instants; shape (n,); s.
+            world_H_rest: Pose of the link at rest, which footholds tell already; shape (4, 4); m.
+            gravity: Magnitude of gravity; m/s2.
+
+        Returns:
+            The motion in the link's axes; n samples.
+        """
+        vectors = np.zeros((3, len(seconds), 3))
+        for hold, rows in self._in_turn(seconds):
+            still = RootMotion.fixed(-hold.world_H_link[2, :3], gravity=gravity)
+            carried = motion_of_link(hold.tree, self.joints(seconds[rows]), still, self.link)
+            vectors[:, rows] = carried.proper_acceleration, carried.angular_velocity, carried.angular_acceleration
+        proper, velocity, rate = vectors
+        return RootMotion(proper_acceleration=proper, angular_velocity=velocity, angular_acceleration=rate)
+
+    def _in_turn(self, seconds: FloatArray) -> list[tuple[Foothold, IntArray]]:
+        """What stands still at which instants."""
+        starts = [hold.start_s for hold in self.footholds[1:]]
+        turn = np.searchsorted(starts, seconds, side="right")
+        rows = ((hold, np.flatnonzero(turn == k)) for k, hold in enumerate(self.footholds))
+        return [(hold, own) for hold, own in rows if len(own)]
 
 
 class MovementKind(StrEnum):

@@ -5,12 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.simulation.motions.carriage import CARRIAGE_JOINTS
+from forcetorque.base.arrays import FloatArray
+from forcetorque.simulation.motions.inverse_kinematics import CARRIAGE_JOINTS
 from forcetorque.simulation.motions.movement import Movement, MovementKind
 from forcetorque.simulation.motions.spline import Spline
-from forcetorque.simulation.motions.stance import Stance
-from forcetorque.simulation.motions.steps import Steps
+from forcetorque.simulation.motions.stance import Stance, Steps
 
 _REACH_M = 0.03
 _TURN_RAD = 0.09

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import ShapeError
-from forcetorque.robot import JointMotion
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import ShapeError
+from forcetorque.robot.motion import JointMotion
 from forcetorque.simulation.motions.movement import Movement, MovementKind
 from forcetorque.simulation.motions.stand import Stand
 

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import ShapeError
-from forcetorque.robot import JointMotion
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import ShapeError
+from forcetorque.robot.motion import JointMotion
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
+
 
 _DEGREE = 5
 """Positions, velocities and accelerations of a spline of fifth degree are smooth, and so are two more derivatives."""

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import ShapeError
-from forcetorque.robot import JointMotion
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import ShapeError
+from forcetorque.robot.motion import JointMotion
 
 _PEAK = 1.875
 """Largest speed of a minimum-jerk move over its mean speed: 30 x^2 (1 - x)^2 at x = 1/2."""

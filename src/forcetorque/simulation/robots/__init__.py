@@ -4,7 +4,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from forcetorque.errors import MissingExtraError, RobotError, known_names
+from forcetorque.base.errors import MissingExtraError, RobotError, known_names
 
 ARM_URDF = Path(__file__).parent / "arm.urdf"
 """A small arm; its sensor is `arm_ft`, its base stands level."""

@@ -9,28 +9,24 @@ from functools import lru_cache
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.recording import Use
-from forcetorque.robot import RobotModel
-from forcetorque.simulation.motions import (
-    Movement,
-    MovementKind,
-    Stance,
-    Stand,
-    balancing_movement,
-    contact_switching_movement,
-    grid_movement,
-    random_movement,
-    random_placement,
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.experiment.validation_set import OFFSET_S
+from forcetorque.recording.recording import Use
+from forcetorque.robot.model import RobotModel
+from forcetorque.simulation.motions.contact_switching import contact_switching_movement
+from forcetorque.simulation.motions.insitu import balancing_movement, grid_movement, z_torque_movement
+from forcetorque.simulation.motions.movement import Movement, MovementKind
+from forcetorque.simulation.motions.on_both_feet import (
     squat_movement,
     standing_movement,
     stepping_movement,
     sway_movement,
-    z_torque_movement,
 )
-from forcetorque.simulation.scenario.schema import Recorded, ScenarioFile
+from forcetorque.simulation.motions.random_smooth import random_movement
+from forcetorque.simulation.motions.stance import Stance, random_placement
+from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.scenario.file import Recorded, ScenarioFile
 from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
-from forcetorque.study import OFFSET_S
 
 _MOVEMENTS, _STAMPS, _PLACEMENTS = 3, 5, 7
 """What a stream of random numbers is for: each has its own, so that one more recording changes no other."""

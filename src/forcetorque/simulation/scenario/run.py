@@ -10,22 +10,24 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.errors import FormatError, RobotError, known_names
-from forcetorque.recording import Recording, Signal, Stream, Use
+from forcetorque.base.errors import FormatError, RobotError, known_names
+from forcetorque.base.toml_file import read_toml
+from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.robot import RobotModel, read_urdf
+from forcetorque.recording.recording import Recording, Use
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.imu import SimulatedImu
 from forcetorque.simulation.load import with_load
-from forcetorque.simulation.motions import Movement
+from forcetorque.simulation.motions.movement import Movement
 from forcetorque.simulation.robot_errors import RobotErrors
 from forcetorque.simulation.robots import named_robot
+from forcetorque.simulation.scenario.file import Imu, RobotErrorSizes, ScenarioFile
 from forcetorque.simulation.scenario.plan import Plan, plan_recordings, validation_loads
-from forcetorque.simulation.scenario.schema import Imu, RobotErrorSizes, ScenarioFile
-from forcetorque.simulation.scenario.specimen import Specimen, draw_specimen
+from forcetorque.simulation.scenario.sensor_instance import Specimen, draw_specimen
 from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.trace import Trace
-from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.toml_table import read_toml
 
 _SENSORS, _POWER_UPS, _NOISE, _IMU, _ROBOT = 1, 2, 6, 8, 9
 """What a stream of random numbers is for, beside those of plans: one more recording changes no other."""

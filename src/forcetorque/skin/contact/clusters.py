@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, IntArray
-from forcetorque.skin.surface import SkinSurface
+from forcetorque.base.arrays import BoolArray, IntArray
+from forcetorque.skin.surface.surface import SkinSurface
 
 FEWEST: Final = 2
 """Active taxels that make a contact: one alone may be noise."""

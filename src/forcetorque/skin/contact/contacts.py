@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The contacts that a frame of pressures shows: where each is, and what it does to the link."""
+"""The contacts of a frame of pressures: position, wrench, and contacts with more than one maximum of pressure."""
 
 from __future__ import annotations
 
@@ -8,10 +8,12 @@ from typing import Final, Self
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray, require_shape
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, require_shape
 from forcetorque.skin.contact.clusters import NO_CONTACT, clusters
-from forcetorque.skin.contact.frame import PressureFrame
-from forcetorque.skin.wrench import SkinPatch, WrenchMethod, WrenchOperator
+from forcetorque.skin.contact.reading import PressureFrame
+from forcetorque.skin.surface.surface import SkinSurface
+from forcetorque.skin.wrench.operator import WrenchMethod, WrenchOperator
+from forcetorque.skin.wrench.patch import SkinPatch
 
 SURPRISE_SHARE: Final = 0.303
 """Error of the pressure between taxels that one taxel stands for, over what its neighbours did not foretell of it."""
@@ -201,3 +203,44 @@ def _covariance(
     scaled = groups.weights * np.sqrt(frame.sd_Pa[taxels] ** 2 + between**2)[:, None]
     squares = np.stack([own.T @ own for own in np.split(scaled, groups.starts[1:])])
     return squares + SHAPE_SHARE**2 * wrench[:, :, None] * wrench[:, None]
+
+
+_LEVELS: Final = (0.2, 0.35, 0.5, 0.65)
+"""Shares of the peak above which hills are looked for; between two objects the pressure falls further than that."""
+_SMALLEST: Final = 2
+"""Taxels that make a hill."""
+
+
+def lobes(surface: SkinSurface, contacts: SkinContacts, pressures: FloatArray) -> IntArray:
+    """Count the hills of pressure in each contact.
+
+    Args:
+        surface: Who is whose neighbour.
+        contacts: The contacts.
+        pressures: Pressure on each taxel; shape (n,); Pa.
+
+    Returns:
+        Hills of each contact; more than one may be as many objects that touch each other; shape (c,).
+    """
+    most = np.ones(len(contacts), dtype=np.int64)
+    if not len(contacts):
+        return most
+    peaks = np.where(contacts.active, contacts.peak_Pa[contacts.contact], np.inf)
+    for level in _LEVELS:
+        most = np.maximum(most, _hills(surface, contacts, pressures > level * peaks))
+    return most
+
+
+def _hills(surface: SkinSurface, contacts: SkinContacts, above: BoolArray) -> IntArray:
+    """Groups of neighbours above a level, by contact."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    count = len(surface)
+    start, end = surface.edges[above[surface.edges].all(axis=1)].T
+    graph = coo_array((np.ones(len(start), dtype=np.int8), (start, end)), shape=(count, count))
+    _, group = connected_components(graph, directed=False)
+    taxels = np.flatnonzero(above)
+    groups, first, size = np.unique(group[taxels], return_index=True, return_counts=True)
+    owners = contacts.contact[taxels[first[size >= _SMALLEST]]]
+    return np.bincount(owners, minlength=len(contacts))

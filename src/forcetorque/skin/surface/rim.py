@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.skin.surface.surface import SkinSurface
 
 HALF_PITCH_M: Final = 0.0033

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A triangulated skin: taxels as corners, facets that look outwards, and who is whose neighbour."""
+"""A triangulated skin: taxels as corners, facets that face outwards, neighbours; bent, or laid flat."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers
-from forcetorque.errors import SkinError
-from forcetorque.skin.surface.orientation import outward_triangles
-from forcetorque.skin.surface.triangulation import LONGEST_EDGE_M, surface_triangles
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers
+from forcetorque.base.errors import SkinError
+from forcetorque.skin.surface.triangulation import LONGEST_EDGE_M, outward_triangles, surface_triangles
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -135,3 +134,29 @@ def _unit(vectors: FloatArray) -> FloatArray:
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     unit: FloatArray = np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0.0)
     return unit
+
+
+def unrolled(surface: SkinSurface) -> FloatArray:
+    """Lay a patch flat, along the axis that its normals turn about.
+
+    An arc whose normal has turned by a stands out by R sin(a) to the side, and is R a long: what stands out is drawn
+    a / sin(a) longer. A flat patch stays as it is.
+
+    Args:
+        surface: The patch.
+
+    Returns:
+        Places in a plane, across and along; shape (n, 2); m.
+    """
+    normals = surface.vertex_normals
+    _, _, directions = np.linalg.svd(normals, full_matrices=False)
+    axis = directions[2]
+    ahead = normals.mean(axis=0) - (normals.mean(axis=0) @ axis) * axis
+    ahead /= np.linalg.norm(ahead)
+    side = np.cross(axis, ahead)
+    turn = np.arctan2(normals @ side, normals @ ahead)
+    out = surface.positions @ side
+    # the place from which it stands out is where the normal looks straight ahead
+    slope = np.column_stack([np.ones(len(out)), np.sin(turn)])
+    out = out - np.linalg.lstsq(slope, out, rcond=None)[0][0]
+    return np.column_stack([out / np.sinc(turn / np.pi), surface.positions @ axis])

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
 
 _ROUNDS = 30
 """Steps of the fit; it settles in less than ten."""

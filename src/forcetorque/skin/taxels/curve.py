@@ -8,8 +8,8 @@ from enum import StrEnum
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import FitError
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import FitError
 from forcetorque.skin.taxels import capacitor, monotone, polynomial
 
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, read_only, require_shape
-from forcetorque.errors import SkinError
+from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_shape
+from forcetorque.base.errors import SkinError
 from forcetorque.skin.messages import require_counts
 
 REST_SHARE = 0.03

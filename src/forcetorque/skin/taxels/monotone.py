@@ -7,7 +7,7 @@ from math import comb
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
 
 DEGREE = 5
 """Of the polynomials: as many coefficients as thesis (7.1) has, but one, as rest is no pressure."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray
 
 ORDER = 5
 """Of thesis (7.1)."""

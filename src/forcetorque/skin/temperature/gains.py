@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From the change of thermal pads to what taxels read of heat."""
+"""From the change of thermal pads to the drift of taxels."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ from typing import Self
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers, require_shape
-from forcetorque.errors import SkinError
-from forcetorque.skin.layout import SkinLayout
-from forcetorque.skin.temperature.learned import TaxelHeat
-from forcetorque.skin.temperature.pads import followed_pads
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers, require_shape
+from forcetorque.base.errors import SkinError
+from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.temperature.pads import TaxelHeat, followed_pads
 
 
 class HeatRule(StrEnum):
@@ -175,3 +174,19 @@ def require_pads(layout: SkinLayout) -> None:
             f"patch {layout.name!r}: thermal_pads: expected at least one, got none in its layout; without them heat "
             "cannot be told from pressure"
         )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TaxelDrift:
+    """Fall of n taxels that is known to be no pressure, and how much more may be none."""
+
+    fall: FloatArray
+    """Counts below rest that are no pressure; shape (n,)."""
+    sd: FloatArray
+    """Standard deviation of that; shape (n,); counts."""
+    limit: FloatArray
+    """Further counts that heat through a contact may add, which no pad tells; NaN if not known; shape (n,)."""
+
+    def __post_init__(self) -> None:
+        for name in ("fall", "sd", "limit"):
+            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(len(self.fall),)))

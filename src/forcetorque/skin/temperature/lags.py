@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray
 
 _LATE_S: Final = (3.0, 6.0, 10.0, 15.0, 20.0, 30.0, 40.0, 60.0, 90.0)
 LAGS_S: Final = (*(-lag for lag in reversed(_LATE_S)), 0.0, *_LATE_S)

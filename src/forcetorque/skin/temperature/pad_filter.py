@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
+from forcetorque.base.arrays import FloatArray, read_only
 
 PADS_S: Final = 2.0
 """Time constant over which pads are averaged at least: their noise is common to ten taxels, and heat is slow; s."""

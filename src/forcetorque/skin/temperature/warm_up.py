@@ -7,14 +7,21 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray, require_shape
-from forcetorque.errors import SkinError
-from forcetorque.skin.layout import SkinLayout
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, require_shape
+from forcetorque.base.errors import SkinError
+from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.temperature.gains import HeatGains, require_pads
 from forcetorque.skin.temperature.lags import lagged, means_of, pad_lags
-from forcetorque.skin.temperature.learned import TaxelHeat, ThermalGain, WarmUp
 from forcetorque.skin.temperature.pad_filter import PadFilter
-from forcetorque.skin.temperature.pads import LEAST_CHANGE_COUNTS, LEAST_SHARE, followed_pads, sound_columns
+from forcetorque.skin.temperature.pads import (
+    LEAST_CHANGE_COUNTS,
+    LEAST_SHARE,
+    TaxelHeat,
+    ThermalGain,
+    WarmUp,
+    followed_pads,
+    sound_columns,
+)
 
 BLOCK_S: Final = 1.0
 """Time over which messages are averaged: noise falls, heat hardly changes."""

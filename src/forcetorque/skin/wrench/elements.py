@@ -18,9 +18,10 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.skin.surface import Rim, SkinSurface
-from forcetorque.spatial import cross
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.pose import cross
+from forcetorque.skin.surface.rim import Rim
+from forcetorque.skin.surface.surface import SkinSurface
 
 _SIDES: Final = ((0, 1), (1, 2), (2, 0))
 

@@ -8,8 +8,8 @@ from enum import StrEnum
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only, require_last_axis, require_shape
-from forcetorque.spatial import cross
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, require_last_axis, require_shape
+from forcetorque.base.pose import cross
 
 
 class WrenchMethod(StrEnum):

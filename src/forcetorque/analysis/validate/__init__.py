@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: BSD-3-Clause
-"""Sensors where nothing touches: by the contact force that they report, and by joint torques."""

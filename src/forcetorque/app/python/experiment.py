@@ -1,0 +1,301 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Experiments as scripts and notebooks hold them: `experiment["r_leg_ft_sensor"]` is one sensor with its questions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import fields
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
+
+from forcetorque.app.python.run import Run
+from forcetorque.base.output_file import refuse_output
+from forcetorque.calibration.joint.model_error import ModelTolerance
+from forcetorque.calibration.sensor_calibration import SensorCalibrations
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.candidates import NEW, Calibrations, named
+from forcetorque.experiment.contacts import contact_in_words
+from forcetorque.experiment.experiment import Experiment as ExperimentContent
+from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.loading import load_experiment as load_content
+from forcetorque.experiment.offset_policy import OffsetPolicy
+from forcetorque.locomotion.standing.pressure import PlaneTolerance
+from forcetorque.locomotion.standing.support_phases import ForceLimit
+from forcetorque.results.created import created_now
+from forcetorque.results.html import html_table, html_warnings
+from forcetorque.results.table import Table
+
+if TYPE_CHECKING:
+    from forcetorque.estimation.result import EstimateSummary
+    from forcetorque.inspection.inspect import Inspection
+    from forcetorque.locomotion.net_force.result import Coherence
+    from forcetorque.locomotion.standing.standing import Balance
+    from forcetorque.viewer.view import View
+
+
+class Experiment(ExperimentContent):
+    """Everything that an experiment file points to, sensors by name: `[experiment[name] for name in experiment]`."""
+
+    __slots__ = ()
+
+    @classmethod
+    def of(cls, content: ExperimentContent) -> Self:
+        """Hold an experiment.
+
+        Args:
+            content: Its content.
+
+        Returns:
+            The same, with its sensors by name.
+        """
+        return cls(**{field.name: getattr(content, field.name) for field in fields(content) if field.init})
+
+    def __getitem__(self, sensor: str) -> Run:
+        """Choose a sensor.
+
+        Args:
+            sensor: Its name, or another one that the robot model has for it.
+
+        Returns:
+            The sensor, with every question as a method.
+
+        Raises:
+            ExperimentError: If the experiment has none of that name.
+        """
+        return Run(self, self.sensor(sensor))
+
+    def __iter__(self) -> Iterator[str]:
+        return (sensor.name for sensor in self.sensors)
+
+    def __contains__(self, sensor: object) -> bool:
+        return any(sensor in (one.name, *self.model.sensor(one.name).aliases) for one in self.sensors)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
+
+    def balance(
+        self,
+        calibrations: Calibrations | None = None,
+        *,
+        touch: str = "15%",
+        release: str = "6%",
+        dwell_s: float = 0.0,
+        least_load: str | None = None,
+        height_band_m: float | None = None,
+        plane: PlaneTolerance | None = None,
+    ) -> Balance:
+        """Say which feet bear the robot, and where, over all intervals that are not to be ignored.
+
+        Args:
+            calibrations: How sensors are read; as logged or by their prior if left out.
+            touch: Force that a contact reaches, as `50N` or a share of the weight, as `15%`.
+            release: Force above which it lasts.
+            dwell_s: Shortest contact, and shortest pause, that counts; s.
+            least_load: Load below which there is no centre of pressure, written as `touch`; that if left out.
+            height_band_m: How far the centre of mass may be from its median height where (5.22) is asked for; m; it is
+                not if left out.
+            plane: How far soles may be out of one plane; `PlaneTolerance()` if left out.
+
+        Returns:
+            Phases, centres of pressure and of mass, with every sample in `intervals`.
+
+        Raises:
+            ExperimentError: If the file has no sole.
+            EstimationError: If no foot is down, or thresholds cross.
+        """
+        from forcetorque.experiment.sensor_models import corrections_of
+        from forcetorque.locomotion.standing.interval import BalanceOptions
+        from forcetorque.locomotion.standing.standing import balance
+
+        asked = BalanceOptions(
+            touch=ForceLimit.of(touch),
+            release=ForceLimit.of(release),
+            dwell_s=dwell_s,
+            least_load=None if least_load is None else ForceLimit.of(least_load),
+            height_band_m=height_band_m,
+            plane=PlaneTolerance() if plane is None else plane,
+        )
+        return balance([self], [corrections_of(self, named(calibrations))], asked)
+
+    def coherence(
+        self,
+        candidates: Calibration | Mapping[str, Mapping[str, Calibration]] | None = None,
+        offsets: Sequence[OffsetPolicy | str] = (),
+    ) -> Coherence:
+        """Hold the net contact force of every phase against the weight.
+
+        Args:
+            candidates: One calibration, or by name of the candidate its calibrations by any name; the prior is always
+                judged.
+            offsets: Where offsets come from, such as `one-link-imu:hanging`; as of `analysis.coherence`.
+
+        Returns:
+            Net forces and errors per offset, phase and candidate.
+        """
+        from forcetorque.locomotion.net_force.net_force import coherence
+
+        judged = {NEW: candidates} if isinstance(candidates, Calibration) else candidates or {}
+        sensors = {name: named(calibrations) for name, calibrations in judged.items()}
+        return coherence(self, sensors, offsets=offsets)
+
+    def inspect(self) -> Inspection:
+        """Find gaps, lost messages, frozen or saturated sensors, steps and contacts.
+
+        Returns:
+            What the recording holds, and what is wrong with it.
+        """
+        from forcetorque.inspection.inspect import inspected
+
+        return inspected(self)
+
+    def estimate(
+        self,
+        calibrations: Calibrations | None = None,
+        *,
+        contacts: Sequence[str] | None = None,
+        length_scale: float | None = None,
+        offset: OffsetPolicy | str = "fitted",
+        fuse: bool = False,
+        output: Path | str | None = None,
+        force: bool = False,
+    ) -> EstimateSummary:
+        """Estimate contact wrenches, joint torques and expected readings.
+
+        Args:
+            calibrations: How sensors are read; by their prior or as logged if left out.
+            contacts: `FRAME`, `FRAME:force` or `FRAME:force_along:x,y,z` each; those of the file if left out, else at
+                the sensors.
+            length_scale: Moment that weighs as much as one newton, for more than six unknowns; m.
+            offset: Where offsets come from, such as `one-link-imu:hanging`.
+            fuse: Whether joint torques of sensors, known contacts and motors are made one, beside each other.
+            output: File for every sample, .parquet or .csv; none if left out.
+            force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+
+        Returns:
+            Mean norms of contacts and residuals, with every sample in `intervals`.
+
+        Raises:
+            OutputError: If the file is an input, or one that `force` is needed for.
+        """
+        from forcetorque.estimation.estimate import estimate_experiment
+        from forcetorque.estimation.result import summarise_estimates
+        from forcetorque.estimation.skin.known_wrenches import frames_of_patches
+        from forcetorque.estimation.torque.fusion import fuse_experiment
+        from forcetorque.experiment.sensor_models import corrections_of
+
+        if output is not None:
+            refuse_output(output, inputs_sha256=self.inputs_sha256.values(), force=force)
+        stated = [contact_in_words(words, self.model) for words in contacts] if contacts else None
+        corrections = corrections_of(self, named(calibrations), offset=offset)
+        patches = frames_of_patches(self)
+        spans = estimate_experiment(self, corrections, contacts=stated, length_scale=length_scale, patches=patches)
+        fusions, frictions = fuse_experiment(self, corrections, contacts=stated, patches=patches) if fuse else ([], ())
+        file = None if output is None else Path(output)
+        summary = summarise_estimates(self, corrections, spans, file=file, fusions=fusions, frictions=frictions)
+        return summary.model_copy(update={"intervals": tuple(spans)})
+
+    def view(
+        self,
+        output: Path | str,
+        calibrations: Calibrations | None = None,
+        *,
+        sensors: Sequence[str] | None = None,
+        force: bool = False,
+    ) -> View:
+        """Write robot pose and force space, linked in time, as a page: `experiment.view("view.html", calibration)`.
+
+        Args:
+            output: File of the page, which works offline in any browser.
+            calibrations: How sensors are read, beside their priors; of a sensor any number.
+            sensors: Sensors to show; all if left out.
+            force: As of `estimate`.
+
+        Returns:
+            What the page shows. A robot from arrays is drawn without its looks, whose files only its URDF names.
+
+        Raises:
+            ForceTorqueError: If there are too many samples for one file; `forcetorque view` serves them.
+            OutputError: As of `estimate`.
+        """
+        from forcetorque.viewer.build import build_scene
+        from forcetorque.viewer.page import write_page
+        from forcetorque.viewer.view import View
+
+        refuse_output(output, inputs_sha256=self.inputs_sha256.values(), force=force)
+        robot = parse_experiment(self.file).robot if self.file.is_file() else None
+        urdf = None if robot is None else self.file.parent / robot.urdf
+        built = build_scene(self, named(calibrations), urdf=urdf, sensors=sensors)
+        written = write_page(Path(output), built)
+        return View.of(built).model_copy(update={"file": str(output), "file_bytes": written})
+
+    def _repr_html_(self) -> str:
+        start = self.recording.start_ns
+        table = Table(
+            caption=f"{self.name}: {self.model.name}, {', '.join(sensor.name for sensor in self.sensors)}",
+            headings=("interval", "use", "from, s", "to, s", "support"),
+            rows=tuple(
+                (
+                    one.label,
+                    one.use.value,
+                    f"{(one.start_ns - start) * 1e-9:.1f}",
+                    f"{(one.end_ns - start) * 1e-9:.1f}",
+                    "" if one.support is None else one.support.frame,
+                )
+                for one in self.recording.intervals
+            ),
+        )
+        found = (f"{finding.stream}: {finding.message}" for finding in self.recording.findings)
+        return html_warnings(found) + html_table(table)
+
+
+def load_experiment(path: Path | str) -> Experiment:
+    """Read an experiment file and everything that it points to.
+
+    Args:
+        path: TOML file; the paths in it are relative to its folder.
+
+    Returns:
+        The experiment, its sensors by name.
+
+    Raises:
+        MissingFileError: If a file is not there.
+        FormatError: If a file does not have its form.
+        ExperimentError: If the file contradicts itself, the robot or the recording.
+    """
+    return Experiment.of(load_content(path))
+
+
+def calibrate_jointly(
+    recordings: Sequence[ExperimentContent],
+    sensors: Sequence[str] | None = None,
+    *,
+    folder: Path | str = ".",
+    tolerance: ModelTolerance | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+) -> SensorCalibrations:
+    """Calibrate all sensors of a robot at once, from parts between them that nothing touches.
+
+    Args:
+        recordings: Experiments with one robot.
+        sensors: Sensors to calibrate; all of the first file if None.
+        folder: Where `save` of the result writes a file per sensor, and what they share.
+        tolerance: How far the robot model may be off; `ModelTolerance()` if None.
+        progress: Called with a line for people as work goes on, such as `print`.
+
+    Returns:
+        A calibration per sensor in `calibrations`, and in `joint` what they share: errors of the model, what is left of
+        the equations, spans that were touched.
+    """
+    from forcetorque.calibration.joint.robot import calibrate_jointly
+
+    created = created_now()
+    return calibrate_jointly(
+        recordings,
+        folder,
+        sensors,
+        code_version=version("forcetorque"),
+        created=created,
+        tolerance=tolerance,
+        progress=progress,
+    )

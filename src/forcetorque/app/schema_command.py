@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque schema`: the form of files and results, as JSON."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from typing import Annotated, Any
+
+import typer
+
+from forcetorque.base.errors import ForceTorqueError, known_names
+
+
+def schema(
+    name: Annotated[
+        str,
+        typer.Argument(
+            help="experiment, acceptance, bench, contestants, device_file, torque_loop_file, scenario, recording, "
+            "calibration, joint, moments, taxels or module_frames for a file; a command, with _ for its "
+            "space, for its result."
+        ),
+    ],
+) -> None:
+    """Print the JSON schema of a file or of a command's result.
+
+    Example: forcetorque schema experiment
+    """
+    known = {**_files(), **_results()}
+    _require(name, known)
+    sys.stdout.write(json.dumps(known[name](), indent=2) + "\n")
+
+
+def _require(name: str, known: dict[str, Callable[[], dict[str, Any]]]) -> None:
+    if name not in known:
+        raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
+
+
+def _files() -> dict[str, Callable[[], dict[str, Any]]]:
+    from forcetorque.calibration.joint.posterior import JointPosterior
+    from forcetorque.contests.entries import ContestFile
+    from forcetorque.device.file import DeviceFile
+    from forcetorque.evaluation.acceptance.file import AcceptanceFile
+    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.calibration.stored_moments import RecordingMoments
+    from forcetorque.experiment.file import ExperimentFile
+    from forcetorque.locomotion.torque_control.file import TorqueLoopFile
+    from forcetorque.recording.storage import recording_schema
+    from forcetorque.simulation.scenario.file import ScenarioFile
+    from forcetorque.skin.layout.formats.urdf_frames import ModuleFrames
+    from forcetorque.skin.taxels.patch_calibration import PatchCalibration
+    from forcetorque.workbench.file import BenchFile
+
+    return {
+        "experiment": ExperimentFile.model_json_schema,
+        "acceptance": AcceptanceFile.model_json_schema,
+        "bench": BenchFile.model_json_schema,
+        "device_file": DeviceFile.model_json_schema,
+        "contestants": ContestFile.model_json_schema,
+        "torque_loop_file": TorqueLoopFile.model_json_schema,
+        "scenario": ScenarioFile.model_json_schema,
+        "recording": recording_schema,
+        "calibration": Calibration.model_json_schema,
+        "joint": JointPosterior.model_json_schema,
+        "moments": RecordingMoments.model_json_schema,
+        "taxels": PatchCalibration.model_json_schema,
+        "module_frames": ModuleFrames.model_json_schema,
+    }
+
+
+def _results() -> dict[str, Callable[[], dict[str, Any]]]:
+    import forcetorque
+    from forcetorque.results.registry import result_classes
+
+    results = result_classes(forcetorque)
+    return {name: kind.described for name, kind in results.items()}

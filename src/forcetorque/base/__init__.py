@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What everything stands on: spatial algebra with one sign rule, units, noise, arrays, files and errors."""

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrays with a checked shape that nobody can change: in data classes, in pydantic models, and mappings of them."""
+
+from __future__ import annotations
+
+import copyreg
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+from pydantic import BaseModel, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from forcetorque.base.errors import ShapeError
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+BoolArray = npt.NDArray[np.bool_]
+
+
+def read_only(values: Any, *, name: str, shape: tuple[int | None, ...]) -> FloatArray:
+    """Copy values to a float64 array that nobody can change afterwards.
+
+    An array that is read-only already, with all memory that it is a view of, is taken as it is: a
+    recording of ten million samples need not be held twice, and a file mapped for reading not at all.
+
+    Args:
+        values: Anything NumPy can turn into numbers.
+        name: Name of the argument, for the message.
+        shape: Expected shape; `None` accepts any length of that axis.
+
+    Returns:
+        A read-only array of that shape.
+
+    Raises:
+        ShapeError: If the shape differs.
+    """
+    array = values if _is_frozen(values) else np.array(values, dtype=np.float64, order="C")
+    require_shape(array, name=name, shape=shape)
+    array.setflags(write=False)
+    return array
+
+
+def read_only_integers(values: Any, *, name: str, shape: tuple[int | None, ...]) -> IntArray:
+    """Copy whole numbers to an int64 array that nobody can change afterwards.
+
+    Args:
+        values: Anything NumPy can turn into whole numbers; an empty list is none of them.
+        name: Name of the argument, for the message.
+        shape: Expected shape; `None` accepts any length of that axis.
+
+    Returns:
+        A read-only array of that shape.
+
+    Raises:
+        ShapeError: If the shape differs, or a number has a fraction.
+    """
+    numbers = np.asarray(values)
+    require_shape(numbers, name=name, shape=shape)
+    array = numbers.astype(np.int64)
+    if not np.array_equal(array, numbers):
+        raise ShapeError(f"{name}: expected whole numbers, got {numbers[array != numbers].flat[0]}")
+    array.setflags(write=False)
+    return array
+
+
+def _is_frozen(values: Any) -> bool:
+    """Whether it is a C-ordered float64 array that nobody holds a writable view of by accident."""
+    if not isinstance(values, np.ndarray) or values.dtype != np.float64 or not values.flags.c_contiguous:
+        return False
+    while isinstance(values, np.ndarray):
+        if values.flags.writeable:
+            return False
+        values = values.base
+    return True
+
+
+def require_shape(array: npt.NDArray[Any], *, name: str, shape: tuple[int | None, ...]) -> None:
+    """Check the shape of an array; `None` accepts any length of that axis.
+
+    Args:
+        array: Array to check.
+        name: Name of the argument, for the message.
+        shape: Expected shape.
+
+    Raises:
+        ShapeError: If the shape differs.
+    """
+    fits = array.ndim == len(shape) and all(
+        expected is None or got == expected for got, expected in zip(array.shape, shape, strict=True)
+    )
+    if not fits:
+        wanted = "(" + ", ".join("n" if k is None else str(k) for k in shape) + ")"
+        raise ShapeError(f"{name}: expected an array of shape {wanted}, got {array.shape}")
+
+
+def require_last_axis(array: npt.NDArray[Any], *, name: str, length: int) -> None:
+    """Check that the components of an array lie along its last axis.
+
+    Args:
+        array: Array to check, any number of leading axes.
+        name: Name of the argument, for the message.
+        length: Expected length of the last axis.
+
+    Raises:
+        ShapeError: If the array is a scalar or its last axis has another length.
+    """
+    if array.ndim == 0 or array.shape[-1] != length:
+        raise ShapeError(f"{name}: expected shape (..., {length}), got {array.shape}")
+
+
+@dataclass(frozen=True, slots=True)
+class ArrayField:
+    """Annotation of an array field: `Annotated[FloatArray, ArrayField((6, None))]`."""
+
+    shape: tuple[int | None, ...]
+    """Expected shape; `None` accepts any length of that axis."""
+    minimum: float | None = None
+    """Least value; `None` accepts any."""
+
+    def _validate(self, values: Any) -> FloatArray:
+        if isinstance(values, list) and not values and self.shape[0] is None:
+            # lists within an empty one are lost: their lengths are those that are expected
+            values = np.zeros([length or 0 for length in self.shape])
+        try:
+            array = read_only(values, name="array", shape=self.shape)
+        except TypeError as error:
+            raise ValueError(f"expected nested lists of numbers, got {error}") from error
+        if not np.isfinite(array).all():
+            raise ValueError("expected finite numbers")
+        if self.minimum is not None and (array < self.minimum).any():
+            raise ValueError(f"expected numbers of at least {self.minimum:g}, got {array.min():g}")
+        return array
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(
+            self._validate,
+            serialization=core_schema.plain_serializer_function_ser_schema(lambda array: array.tolist()),
+        )
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        described: dict[str, Any] = {"type": "number"}
+        if self.minimum is not None:
+            described["minimum"] = self.minimum
+        for length in reversed(self.shape):
+            described = {"type": "array", "items": described}
+            if length is not None:
+                described |= {"minItems": length, "maxItems": length}
+        return described
+
+
+class ArrayModel(BaseModel):
+    """A model whose fields may be arrays, compared by their numbers: NumPy has no single answer, so pydantic fails."""
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and _same(self.__dict__, other.__dict__)
+
+
+def _same(one: Any, other: Any) -> bool:
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        numbers = all(isinstance(given, np.ndarray) and given.dtype.kind == "f" for given in (one, other))
+        return np.array_equal(one, other, equal_nan=numbers)
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(_same(one[name], other[name]) for name in one)
+    if isinstance(one, tuple | list) and type(one) is type(other):
+        return len(one) == len(other) and all(map(_same, one, other))
+    return one is other or bool(one == other)
+
+
+_Key = TypeVar("_Key")
+_Value = TypeVar("_Value")
+
+
+def read_only_mapping(mapping: Mapping[_Key, _Value]) -> MappingProxyType[_Key, _Value]:
+    """Copy a mapping to one that nobody can change afterwards.
+
+    Args:
+        mapping: Any mapping.
+
+    Returns:
+        The copy.
+    """
+    return MappingProxyType(dict(mapping))
+
+
+def _reduced(
+    mapping: MappingProxyType[Any, Any],
+) -> tuple[Callable[..., MappingProxyType[Any, Any]], tuple[dict[Any, Any]]]:
+    return read_only_mapping, (dict(mapping),)
+
+
+# Python pickles and deep-copies everything that an experiment holds but these: without it no experiment goes to
+# another process
+copyreg.pickle(MappingProxyType, _reduced)

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Means over short windows, and the standard error of a mean under slow noise."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.errors import FitError
+from forcetorque.base.noise.regression import half_width, regress
+from forcetorque.base.noise.slow_noise import Timeline
+
+WINDOW_S = 1.0
+"""Length of a window; s. Slow noise that lasts shorter averages out in it."""
+
+APART_S = 1e5
+"""Pause between recordings that are put one after the other; s. Slow noise has forgotten itself by then."""
+
+_ROUNDING = 1e-6
+"""Part of a window by which a stamp may be rounded: 0.99999999 s belongs to the second window of 1 s."""
+
+
+def means_over(time_s: Any, columns: Any, window_s: float = WINDOW_S) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Average the samples of one recording over windows that start with its first sample.
+
+    Windows in which there is no sample are left out, so that pauses stay pauses, and a recording that is sampled more
+    slowly keeps its samples.
+
+    Args:
+        time_s: Instants of the samples, not falling; shape (n,); s.
+        columns: Signals at the instants, all finite; shape (n, k).
+        window_s: Length of a window; s.
+
+    Returns:
+        Mean instants of the windows, shape (m,), in s; means of the signals, shape (m, k); and how many samples there
+        are in each, shape (m,).
+
+    Raises:
+        ShapeError: If the shapes differ.
+        FitError: If time falls, or anything is no finite number.
+    """
+    time, signals = np.asarray(time_s, dtype=np.float64), np.asarray(columns, dtype=np.float64)
+    require_shape(time, name="time_s", shape=(None,))
+    require_shape(signals, name="columns", shape=(len(time), None))
+    if not (np.isfinite(time).all() and np.isfinite(signals).all()):
+        raise FitError("means over windows: expected finite instants and signals; leave out samples with a gap")
+    if (np.diff(time) < 0.0).any():
+        raise FitError("time_s: expected instants that do not fall; sort the samples")
+    if not len(time):
+        return time.copy(), signals.copy(), np.zeros(0, dtype=np.int64)
+    window = np.floor((time - time[0]) / window_s + _ROUNDING)
+    starts = np.flatnonzero(np.diff(window, prepend=-1.0))
+    counts = np.diff(starts, append=len(time))
+    middle = time[0] + np.add.reduceat(time - time[0], starts) / counts
+    return middle, np.add.reduceat(signals, starts, axis=0) / counts[:, None], counts
+
+
+def one_after_another(instants: Sequence[FloatArray]) -> FloatArray:
+    """Put the instants of several recordings on one axis, so far apart that no slow noise goes on between them.
+
+    Args:
+        instants: Instants of each recording, not falling; shapes (n,); s.
+
+    Returns:
+        All of them, not falling; shape (sum of n,); s.
+    """
+    shifted: list[FloatArray] = []
+    start = 0.0
+    for time in instants:
+        if len(time):
+            shifted.append(time - time[0] + start)
+            start = float(shifted[-1][-1]) + APART_S
+    return np.concatenate(shifted) if shifted else np.zeros(0)
+
+
+_WINDOWS = 120.0
+"""Windows of a recording that is shorter than so many seconds."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class MeanError:
+    """What is known of the plain means of k signals over the samples of a recording."""
+
+    standard_error: FloatArray
+    """Standard errors; shape (k,); NaN for a single value."""
+    degrees_of_freedom: FloatArray
+    """Degrees of freedom of Student's t; shape (k,); 0 where an error cannot be told."""
+
+    def __post_init__(self) -> None:
+        k = len(self.standard_error)
+        for field in ("standard_error", "degrees_of_freedom"):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(k,)))
+
+    @property
+    def half_width(self) -> FloatArray:
+        """Half-widths of the 95 % intervals; shape (k,); infinite where an error cannot be told."""
+        return half_width(self.standard_error, self.degrees_of_freedom)
+
+
+def mean_error(values: Any, time_s: Any) -> MeanError:
+    """Estimate how far means over a recording are from what they would be over one without end.
+
+    Noise is white plus a slow offset. By simulation of recordings of 60 to 300 s, the 95 % intervals hold the mean in
+    96 % to 99 % under white noise, and in 91 % and more under slow noise that shows and forgets itself within the
+    recording; in 83 % if it takes three times as long. No recording tells of an offset that wanders as slowly as the
+    recording is long and hides in the white part: with a tenth of its deviation, 61 %.
+
+    Args:
+        values: Signals, all finite; shape (n, k), n at least 1.
+        time_s: Instants of the samples, not falling; shape (n,); s.
+
+    Returns:
+        Standard errors of the means over all samples, and their degrees of freedom.
+
+    Raises:
+        ShapeError: If the shapes differ.
+        FitError: If time falls, or anything is no finite number.
+    """
+    signals = np.asarray(values, dtype=np.float64)
+    require_shape(signals, name="values", shape=(None, None))
+    line, means = means_in_windows(time_s, signals)
+    plain = signals.mean(axis=0)
+    fit = regress(line, np.ones((len(line), 1)), means - plain, about=np.zeros((signals.shape[1], 1)))
+    error = fit.standard_error[:, 0]
+    return MeanError(
+        standard_error=np.where(np.isfinite(error), error, np.nan), degrees_of_freedom=fit.degrees_of_freedom[:, 0]
+    )
+
+
+def means_in_windows(time_s: Any, columns: Any) -> tuple[Timeline, FloatArray]:
+    """Average signals over windows of 1 s, or a hundred and twentieth of what was recorded if that is shorter.
+
+    Args:
+        time_s: Instants of the samples, not falling; shape (n,); s.
+        columns: Signals, all finite; shape (n, k).
+
+    Returns:
+        When the means were taken, in windows, so that noise of a short recording is slow that is slow against it; and
+        the means, shape (m, k).
+
+    Raises:
+        ShapeError: If the shapes differ.
+        FitError: If time falls, or anything is no finite number.
+    """
+    time = np.asarray(time_s, dtype=np.float64)
+    window = window_for(time)
+    middle, means, counts = means_over(time, columns, window)
+    return Timeline.of(middle / window, share=counts / np.median(counts)), means
+
+
+def window_for(time_s: FloatArray) -> float:
+    """Choose the length of windows for a recording.
+
+    Args:
+        time_s: Instants of the samples, not falling; shape (n,); s.
+
+    Returns:
+        1 s, or a hundred and twentieth of what was recorded if that is shorter; s.
+    """
+    recorded = float(np.median(np.diff(time_s))) * len(time_s) if len(time_s) > 1 else 0.0  # without pauses
+    return min(WINDOW_S, recorded / _WINDOWS) if recorded > 0.0 else WINDOW_S

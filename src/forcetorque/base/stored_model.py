@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The form of everything in a file of ours that holds a calibration, of a sensor or of skin."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import ConfigDict, ValidationError
+
+from forcetorque.base.arrays import ArrayModel
+from forcetorque.base.errors import FormatError, MissingFileError, ShapeError
+from forcetorque.base.run_files import declare_input
+
+
+class Part(ArrayModel):
+    """A frozen table of a file; unknown keys are errors."""
+
+    model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True)
+
+
+_Kind = TypeVar("_Kind", bound=Part)
+
+
+def read_part(path: Path | str, kind: type[_Kind], *, expected: str) -> _Kind:
+    """Read a file that holds one table.
+
+    Args:
+        path: JSON file.
+        kind: Class of the table.
+        expected: What is expected and what makes it, in words.
+
+    Returns:
+        The table.
+    """
+    file = Path(path)
+    return checked_part(file, kind, read_json(file, expected=expected))
+
+
+def read_json(file: Path, *, expected: str) -> Any:
+    """Read a file.
+
+    Args:
+        file: JSON file.
+        expected: As of `read_part`.
+
+    Returns:
+        Its content.
+
+    Raises:
+        MissingFileError: If there is no such file.
+        FormatError: If it is not JSON.
+    """
+    if not file.is_file():
+        raise MissingFileError(f"{file}: expected {expected}")
+    declare_input(file)
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))
+    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise FormatError(f"{file}: expected JSON, got {error}") from error
+
+
+def checked_part(file: Path, kind: type[_Kind], content: Any) -> _Kind:
+    """Make a table of the content of a file.
+
+    Args:
+        file: The file, for messages.
+        kind: Class of the table.
+        content: Its content.
+
+    Returns:
+        The table.
+
+    Raises:
+        FormatError: If it is not of this form.
+    """
+    try:
+        return kind.model_validate(content)
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(str(place) for place in first["loc"])
+        raise FormatError(f"{file}: {where}: {first['msg']}; the file was changed by hand or cut") from error
+    except ShapeError as error:
+        raise FormatError(f"{file}: {error}") from error

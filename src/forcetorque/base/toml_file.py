@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""TOML files with a checked form: unknown keys are errors, numbers are numbers, every error names its key."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic_core import ErrorDetails, PydanticCustomError
+
+from forcetorque.base.errors import FormatError, MissingFileError, known_names
+from forcetorque.base.input_file import require_file
+
+
+class Table(BaseModel):
+    """A table of the file; a key that it does not know is an error that lists the known ones."""
+
+    model_config = ConfigDict(
+        defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse_unknown_keys(cls, values: Any) -> Any:
+        known = {field.alias or name for name, field in cls.model_fields.items()}
+        for key in values if isinstance(values, dict) else ():
+            if key not in known:
+                raise PydanticCustomError(
+                    "unknown_key", "{message}", {"message": f"unknown key {key!r}; {known_names(key, known)}"}
+                )
+        return values
+
+
+Text = Annotated[str, Field(min_length=1)]
+# strict: a text or a flag is no number
+Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False, strict=True)]
+NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False, strict=True)]
+Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
+
+_Content = TypeVar("_Content", bound=Table)
+
+OPEN = "?"
+"""Value of a key that is still a question: whoever fills the file in answers it, and no command runs before."""
+
+_OPEN_KEY = re.compile(r"""(?P<key>[\w.-]+|"[^"]*")\s*=\s*[\[\s]*["']\?["']""")
+_TEXT = re.compile(r""""(?:[^"\\]|\\.)*"|'[^']*'""")
+_MOST_LINES = 12
+"""Lines of further questions in a message."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OpenQuestion:
+    """A key of a file that nobody has answered yet."""
+
+    line: int
+    """Its line, from 1."""
+    key: str
+    """The key."""
+    words: str
+    """What is asked: the comment behind it."""
+
+
+def word_or_table(value: Any) -> str:
+    """Tell which of two forms a key has that takes a word, such as a path, or a table: the tag of a union of both.
+
+    Args:
+        value: Its value.
+
+    Returns:
+        `word` or `table`.
+    """
+    return "word" if isinstance(value, str | Path) else "table"
+
+
+def open_questions(text: str) -> tuple[OpenQuestion, ...]:
+    """Find the questions in the text of a TOML file.
+
+    Args:
+        text: Content of the file.
+
+    Returns:
+        Its questions, one a line, in the order of the file.
+    """
+    questions = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        match = _OPEN_KEY.search(line)
+        if match and "#" not in _TEXT.sub("", line[: match.start()]):
+            words = line[match.end() :].partition("#")[2].strip()
+            questions.append(OpenQuestion(line=number, key=match["key"].strip('"'), words=words))
+    return tuple(questions)
+
+
+def toml_content(file: Path) -> tuple[str, dict[str, Any]]:
+    """Parse a TOML file, with or without the byte-order mark that some editors put in front.
+
+    Args:
+        file: The file; it exists. What is no UTF-8 or no TOML raises the ValueError of the parser.
+
+    Returns:
+        Its text without the mark, and the tables in it.
+    """
+    require_file(file, "a TOML file")
+    text = file.read_text(encoding="utf-8-sig")
+    return text, tomllib.loads(text)
+
+
+def read_toml(path: Path | str, form: type[_Content], *, what: str) -> _Content:
+    """Read and check a TOML file, without opening what it points to.
+
+    Args:
+        path: TOML file.
+        form: Its form.
+        what: What the file is called in messages.
+
+    Returns:
+        Its content.
+
+    Raises:
+        MissingFileError: If there is no such file.
+        FormatError: If it is not TOML, a question in it is open, or a key is unknown, missing or has a wrong value.
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise MissingFileError(f"{file}: expected {what}, there is none")
+    try:
+        text, content = toml_content(file)
+    except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, or numbers and lists beyond all bounds
+        raise FormatError(f"{file}: expected TOML, got {error}") from error
+    _require_answers(file, text)
+    try:
+        return form.model_validate(content)
+    except ValidationError as error:
+        raise FormatError(_one_line(file, content, error)) from error
+
+
+def _require_answers(file: Path, text: str) -> None:
+    questions = open_questions(text)
+    if not questions:
+        return
+    first, *more = questions
+    others = ", ".join(str(question.line) for question in more[:_MOST_LINES])
+    beyond = ", ..." if len(more) > _MOST_LINES else ""
+    rest = f" ({len(more)} more: line {others}{beyond})" if more else ""
+    words = f": {first.words}" if first.words else ""
+    raise FormatError(f"{file}:{first.line}: {first.key} is a question that is still open{rest}{words}")
+
+
+def _one_line(file: Path, content: dict[str, Any], error: ValidationError) -> str:
+    errors = _short_lists_once(error.errors())
+    # a list that is too short because its only element is wrong is no second error
+    places = [e["loc"] for e in errors]
+    first, *more = [
+        e for e in errors if e["type"] != "too_short" or not any(p[: len(e["loc"])] == e["loc"] != p for p in places)
+    ]
+    where = _place(content, first["loc"], missing=first["type"] == "missing") or "top level"
+    message = first["msg"]
+    if first["type"] == "tuple_type":
+        message = f"expected a list{f', written [[{where}]]' if isinstance(first['input'], dict) else ''}"
+    shown = first["type"] in ("missing", "unknown_key") or isinstance(first["input"], dict)
+    got = "" if shown else f", got {first['input']!r}"
+    rest = f" (and {len(more)} more)" if more else ""
+    return f"{file}: {where}: {message[:400]}{got[:200]}{rest}"
+
+
+def _short_lists_once(errors: list[ErrorDetails]) -> list[ErrorDetails]:
+    """Name a list of fixed length that is too short, in place of each element that it lacks: those have no place."""
+    kept: list[ErrorDetails] = []
+    for entry in errors:
+        *place, last = entry["loc"] or ("",)
+        if entry["type"] == "missing" and isinstance(last, int):
+            if kept and kept[-1]["type"] == "too_short" and kept[-1]["loc"] == tuple(place):
+                kept.pop()
+            entry |= {"type": "too_short", "loc": tuple(place), "msg": f"expected {last + 1} values"}
+        kept.append(entry)
+    return kept
+
+
+def _place(content: Any, location: tuple[int | str, ...], *, missing: bool) -> str:
+    """Name a key as the file has it, such as `sensor[0].serial`; the names of alternatives are no keys."""
+    place = ""
+    for depth, part in enumerate(location, start=1):
+        if isinstance(part, int) and isinstance(content, dict):
+            continue  # one table may stand for a list of one
+        if isinstance(part, int):
+            place, content = f"{place}[{part}]", content[part]
+        elif isinstance(content, dict) and part in content:
+            place, content = f"{place}.{part}", content[part]
+        elif missing and depth == len(location):
+            place = f"{place}.{part}"
+    return place.removeprefix(".")

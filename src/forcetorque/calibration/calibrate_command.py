@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque calibrate`: from an experiment file to calibration files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, known_names
+from forcetorque.results.terminal.options import ForceOption, FormatOption, SensorOption
+from forcetorque.results.terminal.output import Format, refuse_standard_output, report_error, show, start_logging
+
+if TYPE_CHECKING:
+    import logging
+
+    from forcetorque.calibration.sensor_calibration import SensorCalibrations
+    from forcetorque.experiment.calibration.estimation_type import EstimationType
+    from forcetorque.experiment.calibration.stored_moments import RecordingMoments
+    from forcetorque.experiment.campaign import Campaign
+    from forcetorque.experiment.experiment import Experiment
+
+
+def calibrate(
+    experiments: Annotated[
+        list[Path],
+        typer.Argument(
+            help="Experiment files (TOML), or files of moments (.json); all are fitted together. See docs/recording.md."
+        ),
+    ],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="A .json file for one sensor, or a folder for one file per sensor.")
+    ],
+    sensor: SensorOption = None,
+    regularisation: Annotated[
+        str | None,
+        typer.Option(
+            "--lambda", help="Lambda of a thesis' type in counts2, or `held-out`. Default: what the experiment says."
+        ),
+    ] = None,
+    kind: Annotated[
+        str | None,
+        typer.Option(
+            "--type",
+            help="`generative`, or a type of the thesis, SnTdTO to OwTrTO. Default: what the experiment says, else "
+            "generative.",
+        ),
+    ] = None,
+    nonlinear: Annotated[
+        bool | None,
+        typer.Option(
+            "--nonlinear/--linear",
+            help="Let quadratic terms correct readings where they win on recordings that were not fitted. Default: "
+            "what the experiment says, else not.",
+        ),
+    ] = None,
+    jointly: Annotated[
+        bool,
+        typer.Option(
+            "--jointly",
+            help="All sensors at once, from parts of the robot between them that nothing touches, whatever the feet "
+            "do; see docs/joint.md.",
+        ),
+    ] = False,
+    moments: Annotated[
+        Path | None,
+        typer.Option("--moments", help="Folder to keep what the fit needs of each recording, to be added to others."),
+    ] = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option(
+            "--figure",
+            help="PNG of what the recordings taught: errors of every load, before and after; with --jointly what is "
+            "left of the equation of every part.",
+        ),
+    ] = None,
+    force: ForceOption = False,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Fit matrix and offset of each sensor to any number of recordings.
+
+    Example: forcetorque calibrate cold.toml warm.toml -o calibrations
+    """
+    from functools import partial
+    from importlib.metadata import version
+
+    from forcetorque.base.output_file import declare_outputs
+    from forcetorque.calibration.calibrate_jointly_command import calibrate_together, refuse_beside_jointly
+    from forcetorque.calibration.reduce_recordings import store_moments
+    from forcetorque.calibration.sensor_calibration import SensorCalibrations, calibrate_for_file
+    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.results.created import created_now
+    from forcetorque.results.terminal.output import refuse_figure
+    from forcetorque.results.terminal.reading import campaign_of, read_experiments, stored_moments
+
+    log = start_logging()
+    refuse_standard_output("--output", output)
+    refuse_figure(figure, force=force)
+    if jointly:
+        alone = {"--lambda": regularisation, "--type": kind, "--nonlinear": nonlinear, "--moments": moments}
+        refuse_beside_jointly(alone)
+        calibrate_together(experiments, output, sensor, figure, log, output_format, force=force)
+        return
+    stored = stored_moments(experiments)
+    contents = read_experiments([path for path in experiments if path.suffix != ".json"], log)
+    names = _sensors(contents, stored, sensor)
+    files = _files(output, names)
+    declare_outputs(*filter(Path.exists, files), force=force)  # folders of the others are made when they are written
+    fit = partial(
+        calibrate_for_file,
+        code_version=version("forcetorque"),
+        created=created_now(),
+        regularisation=_lambda(regularisation),
+        kind=_kind(kind),
+        nonlinear=nonlinear,
+    )
+    results, refusals = [], []
+    for (name, serial), file in zip(names, files, strict=True):
+        log.info("fitting %s (%s)", name, serial)
+        campaign = campaign_of(contents, name) if contents else None
+        own = [one for one in stored.values() if one.sensor.name == name]
+        try:
+            with stated_in(f"{experiments[0]}: sensor {name!r}" if len(experiments) == 1 else f"sensor {name!r}"):
+                if moments is not None and campaign is not None:
+                    store_moments(campaign, moments, force=force)
+                results.append(fit(campaign, file, moments=own))
+        except ForceTorqueError as error:  # a limb that stands still says nothing against the others
+            refusals.append(error)
+            _warn_of_doubts(campaign, log)
+    if results:
+        refusals += _show(SensorCalibrations.together(results).save(force=force), figure, output_format)
+    _end(refusals)
+
+
+def _warn_of_doubts(campaign: Campaign | None, log: logging.Logger) -> None:
+    """Say what is doubtful in the data of a sensor that could not be fitted: it may be the reason."""
+    from forcetorque.calibration.sensor_calibration import data_doubts
+
+    for run in campaign.runs if campaign else ():
+        for sentence in data_doubts(run):
+            log.warning("%s", sentence)
+
+
+def _show(calibrations: SensorCalibrations, figure: Path | None, output_format: Format) -> list[ForceTorqueError]:
+    """Draw and show what was fitted; what cannot be drawn is shown all the same, and the refusal comes back."""
+    refusals = []
+    if figure is not None:
+        try:
+            calibrations = _drawn(calibrations, figure)
+        except ForceTorqueError as error:
+            refusals.append(error)
+    show(calibrations, output_format)
+    return refusals
+
+
+def _drawn(calibrations: SensorCalibrations, figure: Path) -> SensorCalibrations:
+    """Draw what the recordings taught of every sensor, and name the file in the result."""
+    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.calibration.figures.information import learnt_figure
+    from forcetorque.results.figures.canvas import png_bytes
+
+    learnt = {
+        f"{entry.calibration.sensor.name} ({entry.calibration.sensor.serial})": entry.learnt
+        for entry in calibrations.calibrations
+        if entry.learnt is not None
+    }
+    if not learnt:
+        raise ForceTorqueError(
+            f"--figure {figure}: expected a generative fit towards a prior, which tells what the recordings taught; "
+            "got none. Leave it out"
+        )
+    write_bytes_atomically(figure, png_bytes(learnt_figure(learnt)))
+    return calibrations.model_copy(update={"figure": str(figure)})
+
+
+def _end(refusals: Sequence[ForceTorqueError]) -> None:
+    """Say what was refused, and leave with exit code 2 if anything was."""
+    for refusal in refusals:
+        report_error(refusal)
+    if refusals:
+        raise typer.Exit(2)
+
+
+def _sensors(
+    contents: Mapping[Path, Experiment], stored: Mapping[Path, RecordingMoments], wanted: Sequence[str] | None
+) -> list[tuple[str, str]]:
+    """Names and serial numbers of the sensors that are meant: those of the first file, or of the moments."""
+    from forcetorque.results.terminal.reading import sensors_named
+
+    for content in contents.values():
+        sensors = [(sensor.name, sensor.serial) for sensor in sensors_named(content, wanted)]
+        break
+    else:
+        known = {one.sensor.name: one.sensor.serial for one in stored.values()}
+        for name in wanted or ():
+            if name not in known:
+                raise ExperimentError(f"--sensor: no file of moments is of {name!r}; {known_names(name, known)}")
+        sensors = [(name, known[name]) for name in dict.fromkeys(wanted or known)]
+    for path, one in stored.items():
+        # who names sensors leaves the others out on purpose
+        if wanted is None and one.sensor.name not in dict(sensors):
+            raise ExperimentError(
+                f"{path}: moments of {one.sensor.name!r}, which is not fitted here; leave the file out, or name "
+                "sensors with --sensor"
+            )
+    return sensors
+
+
+def _files(output: Path, sensors: Sequence[tuple[str, str]]) -> list[Path]:
+    from forcetorque.calibration.joint.robot import calibration_file
+
+    if output.suffix == ".json":
+        if len(sensors) != 1:
+            raise ExperimentError(
+                f"--output {output}: one file for {len(sensors)} sensors; name a folder, or one sensor with --sensor"
+            )
+        return [output]
+    if output.exists() and not output.is_dir():
+        raise ExperimentError(f"--output {output}: expected a folder or a .json file, got another file")
+    return [output / calibration_file(name, serial) for name, serial in sensors]
+
+
+def _kind(text: str | None) -> EstimationType | Literal["generative"] | None:
+    from forcetorque.experiment.calibration.estimation_type import estimation_type
+
+    if text is None:
+        return None
+    return "generative" if text == "generative" else estimation_type(text)
+
+
+def _lambda(text: str | None) -> float | Literal["held-out"] | None:
+    if text is None:
+        return None
+    if text == "held-out":
+        return "held-out"
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
+    if not value >= 0.0:
+        raise FitError(f"--lambda: expected a number of at least 0 counts2 or `held-out`, got {text!r}")
+    return value

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque calibrate --jointly`: all sensors of a robot at once."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+from pathlib import Path
+
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.files import write_bytes_atomically
+from forcetorque.base.output_file import declare_outputs
+from forcetorque.calibration.joint.data import JOINT_FILE
+from forcetorque.calibration.joint.robot import calibrate_jointly, calibration_file
+from forcetorque.calibration.sensor_calibration import SensorCalibrations
+from forcetorque.results.created import created_now
+from forcetorque.results.terminal.output import Format, show
+from forcetorque.results.terminal.reading import read_experiments, sensors_named
+
+
+def refuse_beside_jointly(options: Mapping[str, object]) -> None:
+    """Refuse options that only a sensor by itself has.
+
+    Args:
+        options: Values by option; None where it was not given.
+
+    Raises:
+        ExperimentError: If one was given.
+    """
+    for option, value in options.items():
+        if value is not None:
+            raise ExperimentError(
+                f"{option}: all sensors together have no such choice; leave out {option} or --jointly"
+            )
+
+
+def calibrate_together(
+    experiments: Sequence[Path],
+    output: Path,
+    sensors: Sequence[str] | None,
+    figure: Path | None,
+    log: logging.Logger,
+    output_format: Format,
+    *,
+    force: bool,
+) -> None:
+    """Calibrate all sensors at once, write and show what comes out.
+
+    Args:
+        experiments: Experiment files.
+        output: Folder for the calibrations.
+        sensors: Names of the sensors; None for all of the first file.
+        figure: File for the figure of what is left of the equations; None for none.
+        log: Where messages go.
+        output_format: Form of the result.
+        force: As of `declare_outputs`.
+
+    Raises:
+        ExperimentError: If the output is not a folder.
+    """
+    if output.suffix == ".json" or (output.exists() and not output.is_dir()):
+        raise ExperimentError(
+            f"--output {output}: expected a folder, for one file per sensor and {JOINT_FILE} with what they share"
+        )
+    contents = list(read_experiments(experiments, log).values())
+    chosen = sensors_named(contents[0], sensors)
+    files = [output / calibration_file(sensor.name, sensor.serial) for sensor in chosen]
+    declare_outputs(*filter(Path.exists, [*files, output / JOINT_FILE]), force=force)  # as of one sensor alone
+    result = calibrate_jointly(
+        contents,
+        output,
+        [sensor.name for sensor in chosen],
+        code_version=version("forcetorque"),
+        created=created_now(),
+        progress=log.info,
+    )
+    written = result.save(force=force)
+    show(_drawn(written, figure) if figure is not None else written, output_format)
+
+
+def _drawn(result: SensorCalibrations, figure: Path) -> SensorCalibrations:
+    from forcetorque.calibration.figures.joint import joint_figure
+    from forcetorque.results.figures.canvas import png_bytes
+
+    if result.joint is None:
+        return result
+    write_bytes_atomically(figure, png_bytes(joint_figure(result.joint.residuals)))
+    return result.model_copy(update={"figure": str(figure)})

@@ -1,0 +1,305 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of the directions of raw samples and wrenches that the loads of data sets excite."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.errors import ShapeError
+from forcetorque.base.wrench import FORCE, MOMENT, WRENCH_COMPONENTS
+from forcetorque.experiment.calibration.excitation import EXPLAINED_SHARE
+from forcetorque.results.figures.canvas import (
+    PLANES,
+    ROW_INCHES,
+    SMALL_PANEL_POINTS,
+    SMALL_POINTS,
+    THIN_REFERENCE_LINE,
+    TITLE_POINTS,
+    legend_below,
+    look,
+    new_figure,
+    shown_name,
+)
+from forcetorque.results.figures.curves import drawable, drawable_each, thinned_cloud
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+_DIRECTION_INCHES, _ROW_INCHES = 0.3, 1.25
+"""Height of a direction, and of what a row has beside its directions: title, axis and room; inch."""
+_MOST_WRITTEN = 10
+"""Channels up to which the parts of a direction have room to be written as numbers; beyond, only minus signs have."""
+_DARK = 0.72
+"""Part of a direction from which on its cell is so dark, of a luminance below 0.18, that white letters have the higher
+contrast."""
+_SEEN = 0.1
+"""Part of a direction from which on its cell is seen not to be white."""
+_ROOM = 0.3
+"""Part of the decades of an axis of counts, one at least, by which it goes on behind the strongest direction, for its
+number."""
+_ROUNDING = 1e-9
+"""Eigenvectors, and shares, pass their bounds by no more than rounding."""
+_EXCITED: dict[str, Any] = {"color": look(0).colour, "marker": look(0).marker}
+_NOT_EXCITED: dict[str, Any] = {"color": look(1).colour, "marker": "X"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Sensor:
+    """What is drawn of one sensor."""
+
+    name: str
+    """Its name."""
+    deviation: FloatArray
+    """Standard deviation along each direction; shape (c,); counts."""
+    explained: FloatArray
+    """Share of the variance that loads explain; shape (c,)."""
+    excited: BoolArray
+    """Whether they move the direction more than anything else does; shape (c,)."""
+    directions: FloatArray
+    """Directions, one per row, the largest part positive; shape (c, c)."""
+
+
+def excitation_figure(
+    names: Sequence[str],
+    variance: Sequence[FloatArray],
+    explained: Sequence[FloatArray],
+    excited: Sequence[Sequence[bool]],
+    directions: Sequence[FloatArray],
+) -> Figure:
+    """Draw what a data set has moved: raw directions, strongest first, and how far loads explain each.
+
+    Of every direction there are the standard deviation of the readings along it, the share of their variance that the
+    reference wrench explains, and the channels that it is made of. Along a direction that is not excited a matrix
+    is its prior's, or fitted to noise. They are those of `Calibration.validity`.
+
+    Args:
+        names: Names of the s sensors.
+        variance: Variance of the readings of each along its directions, not negative; shape (c,), c its own; counts2.
+        explained: Share of each variance that the reference explains, 0 to 1; shape (c,).
+        excited: Whether each direction counts as excited; shape (c,).
+        directions: Unit directions in the space of raw channels, one per row; shape (c, c). The sign of a row means
+            nothing; each is drawn with its largest part positive.
+
+    Returns:
+        The figure, a row for each sensor.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+        ShapeError: If there are no sensors, the lengths or shapes differ, or a value is not finite or out of its range.
+    """
+    sensors = _checked(names, variance, explained, excited, directions)
+    heights = [_ROW_INCHES + _DIRECTION_INCHES * len(sensor.deviation) for sensor in sensors]
+    figure = new_figure(sum(heights))
+    grid = figure.subplots(
+        len(sensors), 3, squeeze=False, gridspec_kw={"height_ratios": heights, "width_ratios": (1.0, 0.8, 1.2)}
+    )
+    for (strength, share, parts), sensor in zip(grid, sensors, strict=True):
+        _draw_deviation(strength, sensor)
+        _draw_explained(share, sensor)
+        _draw_directions(parts, sensor)
+        strength.set_title(shown_name(sensor.name), loc="left", fontsize=TITLE_POINTS)
+    keys = [("excited by the loads", {**_EXCITED, "markersize": 8.0, "linewidth": 1.2})]
+    keys.append(("not excited", {**_NOT_EXCITED, "markersize": 9.0, "linewidth": 1.2, "linestyle": ":"}))
+    keys.append((f"least share of an excited direction, {100 * EXPLAINED_SHARE:.0f} %", THIN_REFERENCE_LINE))
+    legend_below(figure, keys)
+    return figure
+
+
+def _checked(names: Sequence[str], *columns: Sequence[Any]) -> list[_Sensor]:
+    if not names:
+        raise ShapeError("names: expected at least one sensor to draw, got none")
+    for argument, values in zip(("variance", "explained", "excited", "directions"), columns, strict=True):
+        if len(values) != len(names):
+            raise ShapeError(f"{argument}: expected one array for each of {len(names)} sensors, got {len(values)}")
+    return [_sensor(name, *values) for name, *values in zip(names, *columns, strict=True)]
+
+
+def _sensor(name: str, variance: Any, explained: Any, excited: Any, directions: Any) -> _Sensor:
+    spread = drawable(variance, name=f"{name}: variance", shape=(None,))
+    c = len(spread)
+    share = drawable(explained, name=f"{name}: explained", shape=(c,))
+    moved = drawable(excited, name=f"{name}: excited", shape=(c,))
+    rows = drawable(directions, name=f"{name}: directions", shape=(c, c))
+    for argument, values, low, high in (
+        ("variance", spread, 0.0, np.inf),
+        ("explained", share, 0.0, 1.0),
+        ("excited", moved, 0.0, 1.0),
+        ("directions", rows, -1.0, 1.0),
+    ):
+        wrong = ~((values >= low - _ROUNDING) & (values <= high + _ROUNDING))
+        if wrong.any():
+            raise ShapeError(
+                f"{name}: {argument}: expected finite numbers of {low:g} to {high:g}, got {values[wrong][0]:g}"
+            )
+    largest = np.take_along_axis(rows, np.abs(rows).argmax(axis=1)[:, None], axis=1)
+    return _Sensor(
+        name=name,
+        deviation=np.sqrt(np.maximum(spread, 0.0)),
+        explained=share,
+        excited=moved.astype(np.bool_),
+        directions=rows * np.where(largest < 0.0, -1.0, 1.0),
+    )
+
+
+def _draw_deviation(panel: Axes, sensor: _Sensor) -> None:
+    """Standard deviations on a logarithmic axis, with their numbers; one that is 0 at the left edge."""
+    moved = sensor.deviation[sensor.deviation > 0.0]
+    least, most = (float(moved.min()), float(moved.max())) if len(moved) else (1.0, 1.0)
+    low, high = 0.5 * least, most * max(10.0, most / least) ** _ROOM
+    panel.set_xscale("log")
+    panel.set_xlim(low, high)
+    _draw_values(panel, sensor, np.maximum(sensor.deviation, low), low)
+    for row, value in enumerate(sensor.deviation):
+        text = f"{value:.3g}" if value < 1000.0 else f"{value:.0f}"
+        panel.annotate(
+            text, (max(value, low), row), (8.0, 0.0), textcoords="offset points", va="center", fontsize=SMALL_POINTS
+        )
+    panel.set_ylabel("raw direction", fontsize=SMALL_POINTS)
+    panel.set_xlabel("standard deviation, counts", fontsize=SMALL_POINTS)
+
+
+def _draw_explained(panel: Axes, sensor: _Sensor) -> None:
+    panel.axvline(100.0 * EXPLAINED_SHARE, **THIN_REFERENCE_LINE)
+    panel.set_xlim(0.0, 105.0)
+    _draw_values(panel, sensor, 100.0 * sensor.explained, 0.0)
+    panel.set_xlabel("variance explained by loads, %", fontsize=SMALL_POINTS)
+
+
+def _draw_values(panel: Axes, sensor: _Sensor, values: FloatArray, start: float) -> None:
+    """A line and a point for each direction; of those that are not excited the line is dotted."""
+    for row, (value, excited) in enumerate(zip(values, sensor.excited, strict=True)):
+        style = _EXCITED if excited else _NOT_EXCITED
+        panel.plot([start, value], [row, row], "-" if excited else ":", color=style["color"], linewidth=1.6)
+        panel.plot(
+            value,
+            row,
+            style["marker"],
+            color=style["color"],
+            markersize=8.0 if excited else 9.0,
+            clip_on=False,
+            zorder=3,
+        )
+    _number_directions(panel, len(values))
+    panel.tick_params(labelsize=SMALL_POINTS)
+    panel.grid(visible=True, axis="x", color="0.9", linewidth=0.6)
+    panel.set_axisbelow(True)
+
+
+def _number_directions(panel: Axes, count: int) -> None:
+    panel.set_ylim(count - 0.5, -0.5)
+    panel.set_yticks(range(count), [str(k + 1) for k in range(count)], fontsize=SMALL_POINTS)
+
+
+def _draw_directions(panel: Axes, sensor: _Sensor) -> None:
+    """Size of each part by darkness, which rises evenly in grey too; its sign, and with room its number, written."""
+    rows = sensor.directions
+    panel.imshow(np.abs(rows), cmap="Blues", vmin=0.0, vmax=1.0, aspect="auto")
+    written = len(rows) <= _MOST_WRITTEN
+    for row, column in np.ndindex(rows.shape):
+        part = rows[row, column]
+        text = f"{part:.2f}" if written else "–" if part < -_SEEN else ""
+        text = text.replace("-0.00", "0.00").replace("-", "−")
+        colour = "white" if abs(part) > _DARK else "black"
+        panel.text(column, row, text, ha="center", va="center", fontsize=SMALL_POINTS, color=colour)
+    _number_directions(panel, len(rows))
+    step = 1 if written else 2
+    panel.set_xticks(range(0, len(rows), step), [f"ch{k}" for k in range(0, len(rows), step)], fontsize=SMALL_POINTS)
+    meaning = "" if written else " (dark: large, –: negative)"
+    panel.set_xlabel(f"part of each channel in the direction{meaning}", fontsize=SMALL_POINTS)
+    panel.tick_params(length=0.0)
+
+
+_ROWS = (("force space", "N", FORCE), ("torque space", "N m", MOMENT))
+
+
+def space_figure(clouds: Mapping[str, FloatArray]) -> Figure:
+    """Draw which forces and torques each type of data set reaches: in space, and as seen along the axes [1].
+
+    Clouds of many samples are thinned evenly in time. The planar views outline the convex hull of all samples, and
+    wider clouds lie below narrower ones, so that none is hidden and one inside another is seen to be so.
+
+    Args:
+        clouds: Wrenches by the name of their data set type, in the order of time; shape (n, 6), n its own for each;
+            N, N m. A sample with a component that is not a finite number is left out.
+
+    Returns:
+        The figure, a row for forces and one for torques.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+        ShapeError: If there are no clouds, or one is empty or of another shape.
+
+    References:
+        [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figure 5.2.
+    """
+    wrenches_by_name = drawable_each(clouds, name="clouds", shape=(None, 6))
+    figure = new_figure(2 * ROW_INCHES[1])
+    # the narrow column keeps the label of the third axis clear of the next panel
+    grid = figure.add_gridspec(2, 5, width_ratios=(1.5, 0.1, 1.0, 1.0, 1.0))
+    for row, (title, unit, part) in enumerate(_ROWS):
+        parts = [wrenches[np.isfinite(wrenches).all(axis=1), part] for wrenches in wrenches_by_name.values()]
+        labels = [f"{name}, {unit}" for name in WRENCH_COMPONENTS[part]]
+        _draw_space(figure.add_subplot(grid[row, 0], projection="3d"), parts, labels, title=title)
+        for column, plane in enumerate(PLANES):
+            panel = figure.add_subplot(grid[row, column + 2])
+            _draw_plane(panel, [points[:, plane] for points in parts])
+            panel.set_xlabel(labels[plane[0]])
+            panel.set_ylabel(labels[plane[1]], labelpad=0.0)
+    legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(wrenches_by_name)])
+    return figure
+
+
+def _draw_space(panel: Any, parts: list[FloatArray], labels: list[str], *, title: str) -> None:
+    for k in _widest_first(parts):
+        style, points = look(k), thinned_cloud(parts[k])
+        panel.plot(*points.T, style.marker, color=style.colour, markersize=1.6, markeredgewidth=0.0)
+    panel.set_title(title, fontsize=TITLE_POINTS)
+    panel.locator_params(nbins=5)
+    for axis, label in zip("xyz", labels, strict=True):
+        getattr(panel, f"set_{axis}label")(label)
+        panel.tick_params(axis=axis, labelsize=SMALL_PANEL_POINTS)
+
+
+def _draw_plane(panel: Axes, parts: list[FloatArray]) -> None:
+    for k in _widest_first(parts):
+        style, points = look(k), thinned_cloud(parts[k])
+        panel.plot(*points.T, style.marker, color=style.colour, markersize=1.8, markeredgewidth=0.0, alpha=0.5)
+    for k, points in enumerate(parts):
+        # above all points
+        panel.plot(*outline(points).T, color=look(k).colour, linestyle=look(k).dashes, linewidth=1.2, zorder=3.0)
+    panel.set_aspect("equal", adjustable="datalim")
+    panel.tick_params(labelsize=SMALL_PANEL_POINTS)
+    panel.grid(visible=True, color="0.9", linewidth=0.6)
+    panel.set_axisbelow(True)
+
+
+def _widest_first(parts: list[FloatArray]) -> list[int]:
+    """Order of clouds by the area or volume over which they scatter, the widest first."""
+    sizes = [np.linalg.det(np.cov(points.T)) if len(points) > 1 else 0.0 for points in parts]
+    return sorted(range(len(parts)), key=lambda k: (-sizes[k], k))
+
+
+def outline(points: FloatArray) -> FloatArray:
+    """Outline the convex hull of points in a plane.
+
+    Args:
+        points: The points; shape (n, 2).
+
+    Returns:
+        Its corners, the first again at the end; none where the points have no area; shape (m, 2).
+    """
+    try:
+        corners = ConvexHull(points).vertices
+    except (QhullError, ValueError):
+        # fewer than three points, or all on one line: the points themselves show all there is
+        return points[:0]
+    closed: FloatArray = points[np.append(corners, corners[0])]
+    return closed

@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""All sensors of a robot in any number of recordings, read once, by calibrations that belong together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+from forcetorque.base.errors import EstimationError, MissingFileError
+from forcetorque.calibration.joint.artefact import sensor_artefact
+from forcetorque.calibration.joint.calibrate import JointResult, fit_stretches
+from forcetorque.calibration.joint.interval import JointInterval, joint_interval, required_prior
+from forcetorque.calibration.joint.model_error import ModelTolerance
+from forcetorque.calibration.joint.prior import ChangeSpread
+from forcetorque.calibration.reduce_recordings import channel_full_scale
+from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.campaign import Campaign
+from forcetorque.experiment.campaign_intervals import CampaignRecording
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Use
+
+JOINT_FILE = "joint.json"
+"""Name of the file with the covariance of all sensors, beside their calibrations."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class JointData:
+    """What the calibration intervals of recordings say of several sensors."""
+
+    campaigns: Mapping[str, Campaign]
+    """Every sensor in all recordings, by its name."""
+    intervals: tuple[JointInterval, ...]
+    """The intervals."""
+    left_out: tuple[str, ...] = ()
+    """Intervals in which every part is touched, in words."""
+
+    @classmethod
+    def of(
+        cls, experiments: Sequence[Experiment], sensors: Sequence[str] | None, progress: Callable[[str], None]
+    ) -> Self:
+        """Read them.
+
+        Args:
+            experiments: Recordings of one robot.
+            sensors: Sensors with a prior matrix; all of the first file if None.
+            progress: Called with what is being done.
+
+        Returns:
+            The data.
+
+        Raises:
+            ExperimentError: If there is no calibration interval, the files are of different sensors, or in one no
+                untouched part has all joints in the log.
+            EstimationError: If every part is touched in every interval.
+        """
+        names = tuple(sensor.name for sensor in experiments[0].sensors) if sensors is None else tuple(sensors)
+        campaigns = {name: Campaign([SensorRun(experiment, name) for experiment in experiments]) for name in names}
+        intervals, touched = [], []
+        for label, outcome in _intervals(campaigns[names[0]], names, progress):
+            if isinstance(outcome, JointInterval):
+                intervals.append(outcome)
+            else:
+                touched.append((label, outcome))
+        if not intervals:
+            raise touched[0][1]
+        left_out = tuple(f"interval {label!r} is left out: {error}" for label, error in touched)
+        return cls(campaigns=campaigns, intervals=tuple(intervals), left_out=left_out)
+
+    @property
+    def recordings(self) -> tuple[str, ...]:
+        """Names of the recordings that have a calibration interval."""
+        return tuple(dict.fromkeys(one.untouched.stretch.recording for one in self.intervals))
+
+    def of_recordings(self, recordings: Collection[str]) -> tuple[JointInterval, ...]:
+        """Pick the intervals of some recordings.
+
+        Args:
+            recordings: Their names.
+
+        Returns:
+            The intervals.
+        """
+        return tuple(one for one in self.intervals if one.untouched.stretch.recording in recordings)
+
+    def fit(
+        self,
+        intervals: Sequence[JointInterval],
+        tolerance: ModelTolerance | None = None,
+        progress: Callable[[str], None] = lambda _: None,
+    ) -> JointResult:
+        """Fit all sensors to some intervals.
+
+        Args:
+            intervals: Some of these intervals.
+            tolerance: How far the robot model may be off; `ModelTolerance()` if None.
+            progress: Called with what is being done.
+
+        Returns:
+            The fit.
+
+        Raises:
+            FitError: If there are no equations.
+        """
+        spreads = {name: _spread(campaign) for name, campaign in self.campaigns.items()}
+        return fit_stretches([one.untouched for one in intervals], tolerance, spreads=spreads, progress=progress)
+
+    def calibrations(
+        self, intervals: Sequence[JointInterval], result: JointResult, *, code_version: str, created: str
+    ) -> dict[str, Calibration]:
+        """Give the calibration of every sensor beside a part with forces and moments.
+
+        One of which only weights are known is no calibration: they tell nothing of its moments.
+
+        Args:
+            intervals: The intervals that were fitted.
+            result: The fit.
+            code_version: Version of this library, for the record.
+            created: Date and time, ISO 8601, for the record.
+
+        Returns:
+            Calibrations by sensor.
+        """
+        whole = {name for part in result.residuals if part.rows.all() and part.kept.any() for name in part.sensors}
+        return {
+            name: sensor_artefact(
+                name,
+                campaign,
+                intervals,
+                result,
+                joint_file=JOINT_FILE,
+                code_version=code_version,
+                created=created,
+            )
+            for name, campaign in self.campaigns.items()
+            if name in whole
+        }
+
+
+def _spread(campaign: Campaign) -> ChangeSpread:
+    full_scale = channel_full_scale(CampaignRecording.of(campaign.runs[0]))
+    return ChangeSpread.of(required_prior(campaign.sensor), full_scale)
+
+
+def _intervals(
+    campaign: Campaign, sensors: Sequence[str], progress: Callable[[str], None]
+) -> Iterator[tuple[str, JointInterval | EstimationError]]:
+    """Each with its label: what it says, or why no part of it does."""
+    runs = [
+        run for run in campaign.runs if any(one.use is Use.CALIBRATION for one in run.experiment.recording.intervals)
+    ]
+    for run in runs or campaign.runs[:1]:  # the first says itself what it lacks
+        for interval in run.experiment.intervals(Use.CALIBRATION):
+            label = campaign.label(run, interval.label)
+            progress(f"reading {label}")
+            try:
+                with campaign.stated(run):
+                    outcome: JointInterval | EstimationError = joint_interval(
+                        run.experiment,
+                        interval,
+                        sensors,
+                        label=label,
+                        recording=campaign.recording(run),
+                        session=campaign.session(run, interval.label),
+                    )
+            except EstimationError as error:
+                outcome = error
+            yield label, outcome
+
+
+FILES = "calibrations"
+"""What the calibrations are called together that are given as files, where there are several."""
+
+
+def read_candidates(paths: Iterable[Path]) -> dict[str, Mapping[str, Calibration]]:
+    """Read calibrations of the sensors of a robot: all files are one candidate, every folder is one of its own.
+
+    Args:
+        paths: Calibration files, and folders of them such as `calibrate --jointly` writes.
+
+    Returns:
+        By name of the candidate its calibrations by name of their file.
+
+    Raises:
+        MissingFileError: If a folder holds no calibration.
+        FormatError: If a file is none.
+    """
+    candidates: dict[str, Mapping[str, Calibration]] = {}
+    single: dict[str, Calibration] = {}
+    for path in paths:
+        if not path.is_dir():
+            single[str(path)] = read_calibration(path)
+            continue
+        files = sorted(file for file in path.glob("*.json") if file.name != JOINT_FILE)
+        if not files:
+            raise MissingFileError(f"{path}: expected a folder of calibrations, .json; it holds none")
+        candidates[str(path)] = {str(file): read_calibration(file) for file in files}
+    if single:
+        return {next(iter(single)) if len(single) == 1 else FILES: single, **candidates}
+    return candidates

@@ -1,0 +1,290 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Link groups without contact in an interval, what their joints and sensors logged, and their residuals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.calibration.joint.calibrate import UntouchedStretch
+from forcetorque.calibration.joint.contact_windows import residuals_by
+from forcetorque.calibration.joint.nodes import Stretch
+from forcetorque.calibration.joint.residuals import PartResidual
+from forcetorque.calibration.joint.windows import part_windows, window_means
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.contacts import contacts_in
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.sample_quality import unusable_in
+from forcetorque.experiment.sensor_reading import readings_at
+from forcetorque.recording.alignment import require_overlap, seconds_since
+from forcetorque.recording.recording import Interval, MovingSupport, Use
+from forcetorque.recording.sample_quality import UnusableCounts
+from forcetorque.robot.mechanics.root_motion import imu_frame
+from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
+from forcetorque.robot.mechanics.sub_model_equations import joints_of_cuts, joints_of_part, sensors_of, untouched_parts
+from forcetorque.robot.sub_model import SubModel
+from forcetorque.robot.tree import BodyTree, build_tree
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class LoggedParts:
+    """Parts that can be used, and why others cannot."""
+
+    parts: tuple[SubModel, ...]
+    """Parts whose joints were all logged."""
+    weighed: tuple[SubModel, ...]
+    """Parts that can be weighed at least: the joints between their sensors were logged."""
+    left_out: tuple[str, ...]
+    """What the others lack, in words."""
+
+    @classmethod
+    def of(cls, experiment: Experiment, parts: Sequence[SubModel], tree: BodyTree) -> Self:
+        """Look for the joints of parts in a log.
+
+        Args:
+            experiment: The experiment.
+            parts: The parts.
+            tree: The robot that they are of.
+
+        Returns:
+            The same parts by what was logged.
+        """
+        available = set(experiment.recording.joint_signals("position"))
+        logged, weighed, lacking = [], [], []
+        for part in parts:
+            missing = [joint for joint in joints_of_part(tree, part) if joint not in available]
+            if not missing:
+                logged.append(part)
+            elif available.issuperset(joints_of_cuts(tree, part)):
+                weighed.append(replace(part, name=f"weight on {', '.join(sensors_of(part))}"))
+            else:
+                lacking.append(f"part {part.name!r} needs the joint(s) {', '.join(missing)}, which the log lacks")
+        return cls(parts=tuple(logged), weighed=tuple(weighed), left_out=tuple(lacking))
+
+    @property
+    def sensors(self) -> frozenset[str]:
+        """Sensors that bound them."""
+        return frozenset(name for part in (*self.parts, *self.weighed) for name in sensors_of(part))
+
+    def joints(self, tree: BodyTree) -> tuple[str, ...]:
+        """Name the joints whose motion they need.
+
+        Args:
+            tree: The robot that they are of.
+
+        Returns:
+            Joints, each once.
+        """
+        whole = (joint for part in self.parts for joint in joints_of_part(tree, part))
+        cuts = (joint for part in self.weighed for joint in joints_of_cuts(tree, part))
+        return tuple(dict.fromkeys((*whole, *cuts)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RawWindows:
+    """Raw readings of one sensor over the windows of an interval."""
+
+    time_s: FloatArray
+    """Mean instants; shape (w,); s."""
+    means: FloatArray
+    """Mean readings; shape (w, c); counts; NaN where a window has a gap."""
+    minimum: FloatArray
+    """Smallest reading per channel; shape (c,); counts."""
+    maximum: FloatArray
+    """Largest reading per channel; shape (c,); counts."""
+    samples: int
+    """Samples with a reading."""
+    missing: int
+    """Samples without."""
+    unusable: UnusableCounts
+    """Samples of the sensor that say nothing of its load, among those of the interval."""
+
+    @classmethod
+    def of(cls, stretch: Stretch, raw: FloatArray, unusable: UnusableCounts) -> Self:
+        """Average raw readings.
+
+        Args:
+            stretch: The stretch that they are of.
+            raw: Readings at its instants; shape (n, c); counts; NaN in gaps.
+            unusable: Samples of the sensor that say nothing of its load, among those of the interval.
+
+        Returns:
+            The same over its windows.
+        """
+        whole = np.isfinite(raw).all(axis=1)
+        nothing = np.full(raw.shape[1], np.nan)
+        times, means = window_means(stretch, raw)
+        return cls(
+            time_s=times,
+            means=means,
+            minimum=raw[whole].min(axis=0) if whole.any() else nothing,
+            maximum=raw[whole].max(axis=0) if whole.any() else nothing,
+            samples=int(np.count_nonzero(whole)),
+            missing=int(np.count_nonzero(~whole)),
+            unusable=unusable,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class JointInterval:
+    """One interval of one recording."""
+
+    interval: Interval
+    """The interval."""
+    untouched: UntouchedStretch
+    """Its equations, and what is needed for them."""
+    raw: Mapping[str, RawWindows]
+    """Raw readings by the names of the sensors."""
+
+
+def joint_interval(
+    experiment: Experiment,
+    interval: Interval,
+    sensors: Sequence[str],
+    *,
+    label: str | None = None,
+    recording: str | None = None,
+    session: str | None = None,
+) -> JointInterval:
+    """Take what an interval says of several sensors at once.
+
+    Args:
+        experiment: The experiment.
+        interval: One of its intervals.
+        sensors: Names of its sensors.
+        label: Name of the interval among those of other recordings; its label if None.
+        recording: Name of the recording among others; that of the experiment if None.
+        session: Session that the interval is of, among those of other recordings; by its file if None.
+
+    Returns:
+        Readings by the prior matrices, at the instants of the first sensor, and the motion of the robot. Parts whose
+        joints are not in the log are left out, and named.
+
+    Raises:
+        ExperimentError: If the interval has no support, or of no untouched part all joints are in the log.
+    """
+    support = interval.support
+    if support is None:
+        raise ExperimentError(f"interval {interval.label!r}: expected a support frame or an IMU, got none")
+    model = experiment.model_on(support)
+    present = contacts_in(interval, experiment.contacts)
+    touched = tuple(dict.fromkeys((support.frame, *(entry.contact.link for entry in present))))
+    if isinstance(support, MovingSupport):
+        # the motion is known where the IMU is: nothing needs to be carried to another link
+        support = replace(support, frame=imu_frame(experiment.model, experiment.recording, support))
+    tree = build_tree(model, support.frame)
+    logged = LoggedParts.of(experiment, untouched_parts(tree, sensors, touched), tree)
+    if not logged.parts and not logged.weighed:
+        raise ExperimentError(
+            f"interval {interval.label!r}: of no untouched part are all joints in the log: {'; '.join(logged.left_out)}"
+        )
+    used = [experiment.sensor(name) for name in sensors if name in logged.sensors]
+    source = experiment.recording.stream(used[0].stream)
+    for sensor in used[1:]:
+        require_overlap(source, experiment.recording.stream(sensor.stream))
+    samples = padded_samples(experiment.recording, source, interval, None)
+    joints, root = robot_motion_at(
+        experiment.recording,
+        experiment.model,
+        support,
+        logged.joints(tree),
+        source,
+        samples.stamp_ns,
+        processing=experiment.processing,
+    )
+    priors = {sensor.name: required_prior(sensor) for sensor in used}
+    raw = {sensor.name: readings_at(experiment, sensor, (), samples.stamp_ns).raw for sensor in used}
+    stretch = Stretch(
+        label=interval.label if label is None else label,
+        recording=experiment.session_names(None)[0] if recording is None else recording,
+        session=experiment.session_names(interval.label)[0] if session is None else session,
+        time_s=seconds_since(samples.stamp_ns, experiment.recording.start_ns),
+        tree=tree,
+        joints=joints,
+        root=root,
+        readings={name: raw[name] @ prior.T for name, prior in priors.items()},
+        touched=touched,
+    )
+    return JointInterval(
+        interval=interval,
+        untouched=UntouchedStretch(
+            stretch=stretch, parts=logged.parts, weighed=logged.weighed, left_out=logged.left_out
+        ),
+        raw={
+            name: RawWindows.of(stretch, values, unusable_in(experiment, experiment.sensor(name), interval))
+            for name, values in raw.items()
+        },
+    )
+
+
+def required_prior(sensor: ExperimentSensor) -> FloatArray:
+    """Give the prior matrix of a sensor, which a joint calibration changes.
+
+    Args:
+        sensor: The sensor.
+
+    Returns:
+        The matrix; shape (6, c); N/count, N m/count.
+
+    Raises:
+        ExperimentError: If it has none.
+    """
+    if sensor.prior is None:
+        raise ExperimentError(
+            f"sensor {sensor.name!r}: expected a prior matrix, which a joint calibration changes; state the matrix of "
+            'its data sheet as `prior`, or "identity" for a log of wrenches'
+        )
+    return sensor.prior
+
+
+def part_residuals(experiment: Experiment, calibrations: Mapping[str, Calibration], use: Use) -> list[PartResidual]:
+    """Add up what the sensors of every part read, and take off what moves its bodies.
+
+    Args:
+        experiment: The experiment.
+        calibrations: Calibrations by the names of their sensors.
+        use: Use of the intervals that are asked.
+
+    Returns:
+        What is left by the prior matrices and by the calibrations, of every part all of whose sensors have one and
+        whose joints were logged. Both with the offsets that suit the interval best, unless the calibrations know its
+        session; then they keep theirs.
+    """
+    used = {
+        sensor.name: calibrations[sensor.name]
+        for sensor in experiment.sensors
+        if sensor.name in calibrations and sensor.prior is not None
+    }
+    intervals = [interval for interval in experiment.recording.intervals if interval.use is use]
+    return [residual for interval in intervals if used for residual in _residuals(experiment, interval, used)]
+
+
+def _residuals(
+    experiment: Experiment, interval: Interval, calibrations: Mapping[str, Calibration]
+) -> Iterator[PartResidual]:
+    try:
+        one = joint_interval(experiment, interval, list(calibrations)).untouched
+    except ForceTorqueError:  # no support, or something touches every part: then there is nothing to add up
+        return
+    sessions = experiment.session_names(interval.label)
+    for windows in part_windows(one.stretch, one.parts, (), weighed=one.weighed):
+        if not len(windows):
+            continue
+        own = {name: calibrations[name] for name in windows.sensors}
+        offsets = {
+            name: session.offset
+            for name, calibration in own.items()
+            for session in calibration.sessions
+            if session.name in sessions
+        }
+        factors = {
+            name: calibration.matrix @ np.linalg.pinv(required_prior(experiment.sensor(name)))
+            for name, calibration in own.items()
+        }
+        left = residuals_by(windows, factors, offsets if len(offsets) == len(own) else None)
+        yield PartResidual.of(windows, left, np.ones(len(windows), dtype=bool))

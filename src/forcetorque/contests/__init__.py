@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sensors and methods compared on one motion, under loads that none was fitted on."""
+
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from forcetorque.contests.entries import read_entries
+    from forcetorque.contests.ranking import contest
+
+__all__ = [
+    "contest",
+    "read_entries",
+]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "contest": "forcetorque.contests.ranking",
+        "read_entries": "forcetorque.contests.entries",
+    },
+)

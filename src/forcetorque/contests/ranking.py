@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A contest: sensors and methods through one motion, under loads that nobody was fitted on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.arrays import BoolArray
+from forcetorque.base.errors import ExperimentError, FitError, SensorError, SerialNumberError, ShapeError
+from forcetorque.contests.entries import Entries
+from forcetorque.contests.methods import Phases, Reader, reader_of, trials_of
+from forcetorque.contests.pairs import Parts, Standing, rated_pairs
+from forcetorque.contests.phases import Trial, by_load, common_phases, require_same_motion
+from forcetorque.contests.result import (
+    ContestantRow,
+    ContestLoadRow,
+    ContestPairRow,
+    LeftOutRow,
+    contestant_row,
+    load_rows,
+    pair_row,
+    score_rows,
+)
+from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.results.result import Result
+from forcetorque.results.table import Table, table_of
+
+SAME_LOAD_KG = 0.1
+"""A judged load that differs by less from a fitted one was fitted on; they come in steps of 5 kg."""
+
+_RATES = (
+    "intervals of all pairs hold together with 95 %: of contests without a difference at most 5 % rank anybody, and of "
+    "contests whose errors differ by a quarter or more at most 5 % call a pair equal (no difference); not told apart: "
+    "too few, or too unlike, stretches of the motion"
+)
+
+
+class Contest(Result):
+    """Who errs less than whom."""
+
+    schema_name: Literal["forcetorque/contest/1"] = Field(default="forcetorque/contest/1", alias="schema")
+    """Form of the result."""
+    contest: str
+    """Name of the contest."""
+    figure: str | None = None
+    """File of the figure."""
+    offset: str
+    """Which offset all were judged with."""
+    phases: int
+    """Phases of the motion that all runs have."""
+    loads_kg: tuple[float, ...]
+    """Loads that judged, on which nobody was fitted; kg."""
+    winner: str | None
+    """The one that errs less than every other beyond doubt, by force and moment together; none where nobody does."""
+    contestants: tuple[ContestantRow, ...]
+    """Contestants, the best first."""
+    loads: tuple[ContestLoadRow, ...]
+    """Their errors under every load."""
+    pairs: tuple[ContestPairRow, ...]
+    """Every contestant against every other."""
+    left_out: tuple[LeftOutRow, ...]
+    """Those that lack what their method needs."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give ranks, scores, errors by load and pairs.
+
+        Yields:
+            Tables and sentences.
+        """
+        loads = ", ".join(f"{load:g}" for load in self.loads_kg)
+        judged = f"loads of {loads} kg, on which nobody was fitted, in {self.phases} phases"
+        yield table_of(self.contestants, f"{self.contest}: {judged}; offset {self.offset}")
+        yield from self._verdict()
+        yield table_of(score_rows(self.contestants), "scores by component, all loads together")
+        yield table_of(self.loads, "root mean square error under every load")
+        yield table_of([pair for pair in self.pairs if pair.error_of == "wrench"], "pairs, force and moment together")
+        yield _RATES
+        if self.left_out:
+            yield table_of(self.left_out, "could not take part")
+        if self.figure is not None:
+            yield f"drawn to {self.figure}"
+
+    def _verdict(self) -> Iterator[str]:
+        best = [row.contestant for row in self.contestants if row.rank == 1]
+        if self.winner is not None:
+            yield f"{self.winner} errs least, beyond doubt"
+        else:
+            yield f"nobody wins beyond doubt; in the first place: {'; '.join(best)}"
+        for pair in self.pairs:
+            if pair.error_of == "wrench" and pair.judgement == "no difference":
+                yield f"{pair.contestant} and {pair.other} are equal: {pair.ratio:.2f}, {_ends(pair)}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give contestants, then pairs, as flat lines.
+
+        Returns:
+            The lines; `row` says what each is.
+        """
+        rows: tuple[tuple[str, Sequence[ContestantRow | ContestPairRow]], ...] = (
+            ("contestant", self.contestants),
+            ("pair", self.pairs),
+        )
+        return [{"row": kind, **row.flat()} for kind, lines in rows for row in lines]
+
+
+def _ends(pair: ContestPairRow) -> str:
+    if pair.ratio_low is None or pair.ratio_high is None or pair.ratio_low == pair.ratio_high:
+        return "the same in every sample"
+    return f"{pair.ratio_low:.2f} to {pair.ratio_high:.2f}"
+
+
+@with_recording_notes
+def contest(entries: Entries, *, code_version: str, created: str) -> Contest:
+    """Let sensors and methods meet on the same loads.
+
+    Errors are averaged over phases of the motion, squared and pooled over runs with one load before anything is
+    compared.
+
+    Args:
+        entries: Who meets, and on what.
+        code_version: Version of this library, for the record of what is fitted.
+        created: Date and time, ISO 8601, for the same.
+
+    Returns:
+        Ranks, scores and pairs; contestants that lack what their method needs are named, the others go on.
+
+    Raises:
+        ExperimentError: If fewer than two can be judged, on loads that all share and nobody was fitted on.
+    """
+    readers, left_out = _readers(entries, code_version=code_version, created=created)
+    judged_loads = _require_unfitted(readers)
+    phases = Phases(entries.phases)
+    trials = {reader.entry.name: trials_of(reader, phases, entries.offset) for reader in readers}
+    require_same_motion(phases.paths, phases=entries.phases)
+    common = common_phases(trials)
+    loads = {name: by_load(own) for name, own in trials.items()}
+    parts = {name: Parts.of(own, common) for name, own in loads.items()}
+    scale = _scale(trials, common)
+    pairs = rated_pairs(parts, scale=scale)
+    standing = Standing.of(tuple(parts), pairs)
+    rows = [
+        contestant_row(reader, loads[name], parts[name], common, scale=scale, places=standing.places[name])
+        for reader in readers
+        for name in [reader.entry.name]
+    ]
+    rows.sort(key=lambda row: (row.rank, row.error_percent))
+    return Contest(
+        contest=entries.name,
+        offset=entries.offset.value,
+        phases=int(common.sum()),
+        loads_kg=judged_loads,
+        winner=standing.winner,
+        contestants=tuple(rows),
+        loads=tuple(row for name in parts for row in load_rows(name, loads[name], parts[name])),
+        pairs=tuple(map(pair_row, pairs)),
+        left_out=tuple(left_out),
+        warnings=tuple(_doubts(rows)),
+    )
+
+
+def _readers(entries: Entries, *, code_version: str, created: str) -> tuple[list[Reader], list[LeftOutRow]]:
+    readers: list[Reader] = []
+    left_out: list[LeftOutRow] = []
+    for entry in entries.contestants:
+        try:
+            readers.append(reader_of(entry, entries.runs, code_version=code_version, created=created))
+        except (ExperimentError, FitError, SensorError, SerialNumberError, ShapeError) as error:
+            left_out.append(LeftOutRow(contestant=entry.name, method=entry.method.value, why=str(error)))
+    every = {load for reader in readers for load in _loads(reader)}
+    for reader in tuple(readers):
+        lacking = sorted(load for load in every if load not in _loads(reader))
+        if lacking:
+            readers.remove(reader)
+            why = f"no run judges it under {', '.join(f'{load:g}' for load in lacking)} kg, as others are"
+            left_out.append(LeftOutRow(contestant=reader.entry.name, method=reader.entry.method.value, why=why))
+    if len(readers) < 2:
+        reasons = "; ".join(f"{row.contestant}: {row.why}" for row in left_out)
+        raise ExperimentError(
+            f"contest {entries.name!r}: expected at least two contestants that can be judged under the same loads, got "
+            f"{len(readers)}; {reasons}"
+        )
+    return readers, left_out
+
+
+def _loads(reader: Reader) -> tuple[float, ...]:
+    return tuple(sorted({run.load_kg for run, _ in reader.judged}))
+
+
+def _require_unfitted(readers: Sequence[Reader]) -> tuple[float, ...]:
+    """Refuse loads that favour one contestant because it was fitted on them."""
+    for reader in readers:
+        for load in reader.fitted_loads_kg:
+            runs = [run.name for other in readers for run, _ in other.judged if abs(run.load_kg - load) < SAME_LOAD_KG]
+            if runs:
+                raise ExperimentError(
+                    f"{runs[0]}: expected loads to judge that nobody was fitted on, got {load:g} kg, on which "
+                    f"{reader.entry.name!r} was; such a load favours it: judge with another weight, or fit on others "
+                    "(fitted_on)"
+                )
+    return _loads(readers[0])
+
+
+def _scale(trials: Mapping[str, Sequence[Trial]], common: BoolArray) -> tuple[float, float]:
+    """Root mean square force and moment that were judged, of all contestants; N, N m."""
+    references = np.concatenate([trial.reference[common] for own in trials.values() for trial in own])
+    moved = references - references.mean(axis=0)
+    return (
+        float(np.sqrt((moved[:, :3] ** 2).sum(axis=1).mean())),
+        float(np.sqrt((moved[:, 3:] ** 2).sum(axis=1).mean())),
+    )
+
+
+def _doubts(rows: Sequence[ContestantRow]) -> Iterator[str]:
+    if all(row.repeatability is None for row in rows):
+        yield "no load was hung twice: precision and drift cannot be told; repeat a run"
+    without = [row.contestant for row in rows if row.full_scale is None]
+    if without and len(without) < len(rows):
+        yield f"no percent of full scale for {', '.join(without)}: state catalogue or full_scale"

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A calibration device (thesis 6.2 to 6.5): parts, motion, excitation, demands, and simulated recordings."""
+
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from forcetorque.device.device import design_device
+    from forcetorque.device.files import write_device
+
+__all__ = [
+    "design_device",
+    "write_device",
+]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "design_device": "forcetorque.device.device",
+        "write_device": "forcetorque.device.files",
+    },
+)

@@ -1,0 +1,338 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The thirteen requirements of a calibration device (thesis 6.2.1), and what is demanded of its parts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from collections.abc import Sequence as Several
+from enum import StrEnum
+from typing import Annotated
+
+import numpy as np
+
+from forcetorque.device.description import device_load
+from forcetorque.device.envelope import Silhouette
+from forcetorque.device.excitation import Run, least_excitation, uncertain, workbench_loads
+from forcetorque.device.expected_wrench import answer_of
+from forcetorque.device.file import DeviceFile
+from forcetorque.device.grades import FORCE_LIMIT_N, MOMENT_LIMIT_NM, LoadErrors
+from forcetorque.device.held_out import SAMPLES
+from forcetorque.device.tolerances import Tolerances
+from forcetorque.results.row import Row, Shown, ShownWrench, WrenchValues
+from forcetorque.workbench.bench import Placement
+
+
+class Verdict(StrEnum):
+    """What becomes of a requirement."""
+
+    MET = "met"
+    NOT_MET = "not met"
+    NOT_COMPUTED = "not computed"
+
+
+class RequirementRow(Row):
+    """One requirement of the thesis (6.2.1)."""
+
+    number: Annotated[int, Shown("no.")]
+    """Its number."""
+    requirement: Annotated[str, Shown("requirement")]
+    """What is demanded."""
+    verdict: Annotated[Verdict, Shown("verdict")]
+    """Whether it is met."""
+    value: Annotated[float | None, Shown("value", digits=3)] = None
+    """What was computed; None where nothing was."""
+    limit: Annotated[float | None, Shown("limit", digits=3)] = None
+    """What it is held against."""
+    unit: Annotated[str, Shown("unit")] = ""
+    """Unit of both."""
+    met_to_kg: Annotated[float | None, Shown("met up to", "kg", digits=1)] = None
+    """Load up to which it is met, carrier included; None where no load meets it, or the load does not matter."""
+    why: str
+    """How it was judged, or why it was not."""
+
+
+class MotorRow(Row):
+    """What a motor bears."""
+
+    joint: Annotated[str, Shown("motor")]
+    """Joint that it turns."""
+    peak_Nm: Annotated[float, Shown("peak", "N m", digits=2)]
+    """Largest torque, of weight alone."""
+    moving_peak_Nm: Annotated[float, Shown("moving", "N m", digits=2)]
+    """Largest torque with what the motion adds."""
+    average_Nm: Annotated[float | None, Shown("average (6.1)", "N m", digits=2)]
+    """Average by path; None of a motor that only holds."""
+    average_over_peak: Annotated[float | None, Shown("over peak", digits=3)]
+    """Average over the peak; None of a motor that only holds, or bears nothing."""
+    rms_Nm: Annotated[float, Shown("RMS", "N m", digits=2)]
+    """Root mean square over time."""
+    holding_Nm: Annotated[float, Shown("holding", "N m", digits=2)]
+    """Largest torque while it stands still."""
+    limit_Nm: Annotated[float, Shown("limit", "N m", digits=1)]
+    """What it may give, as described."""
+
+
+class UnwindingRow(Row):
+    """How averages depend on how yaw gets back."""
+
+    yaw_return: Annotated[str, Shown("yaw returns")]
+    """How it does."""
+    yaw_path_deg: Annotated[float, Shown("path of yaw", "deg", digits=0)]
+    """Path of yaw, both ways counted."""
+    pitch_over_peak: Annotated[float | None, Shown("pitch, average over peak", digits=3)]
+    """Of the motor of pitch."""
+    yaw_over_peak: Annotated[float | None, Shown("yaw, average over peak", digits=3)]
+    """Of the motor of yaw."""
+
+
+class HingeRow(Row):
+    """What gravity does about the hinge on a way."""
+
+    step: Annotated[int, Shown("step")]
+    """Step that it belongs to."""
+    hinge: Annotated[str, Shown("hinge")]
+    """`locked` or `free`."""
+    from_deg: Annotated[float, Shown("from", "deg", digits=1)]
+    """Where the hinge is when it begins."""
+    to_deg: Annotated[float, Shown("to", "deg", digits=1)]
+    """Where it is when it ends."""
+    least_Nm: Annotated[float, Shown("least", "N m", digits=2)]
+    """Smallest moment about the hinge, towards larger angles; of a free one, kept where the way begins."""
+    most_Nm: Annotated[float, Shown("most", "N m", digits=2)]
+    """Largest."""
+
+
+class LockRow(Row):
+    """Whether a load gets to the other lock."""
+
+    load: Annotated[str, Shown("load")]
+    """The load."""
+    reaches: Annotated[bool, Shown("reaches the lock")]
+    """Whether gravity drives it to the other lock and never back, without friction."""
+    holding_Nm: Annotated[float, Shown("lock holds", "N m", digits=2)]
+    """Largest moment on a lock."""
+    closing_Nm: Annotated[float, Shown("left 1 deg before", "N m", digits=3)]
+    """Moment that is left 1 degree before the lock: more friction stops it farther away."""
+
+
+class EnvelopeRow(Row):
+    """What is swept in one view."""
+
+    view: Annotated[str, Shown("seen from")]
+    """View."""
+    width_m: Annotated[float, Shown("width", "m", digits=3)]
+    """Width of the rectangle around it."""
+    height_m: Annotated[float, Shown("height", "m", digits=3)]
+    """Its height."""
+    rectangle_m2: Annotated[float, Shown("rectangle", "m2", digits=3)]
+    """Its area."""
+    hull_m2: Annotated[float, Shown("convex hull", "m2", digits=3)]
+    """Area of the convex hull."""
+
+
+class BudgetRow(Row):
+    """What one quantity does to the reference of one sensor, the others being right."""
+
+    sensor: Annotated[str, Shown("sensor")]
+    """Sensor."""
+    quantity: Annotated[str, Shown("quantity")]
+    """Quantity that is off; `all` for all at once."""
+    plus_minus: Annotated[float | None, Shown("+-", digits=3)]
+    """How far it is off at most, half of a full width; None for all at once."""
+    unit: Annotated[str, Shown("unit")]
+    """Unit of that."""
+    rms: Annotated[WrenchValues, ShownWrench(digits=3)]
+    """Root mean square over the motion; N, N m."""
+    largest: WrenchValues
+    """Largest magnitude of each component; N, N m."""
+    force_N: Annotated[float, Shown("largest f", "N", digits=3)]
+    """Largest norm of the error of the force."""
+    moment_Nm: Annotated[float, Shown("largest t", "N m", digits=3)]
+    """Largest norm of the error of the moment."""
+
+
+class GradeRow(Row):
+    """What a grade of encoders or of an inertial sensor does to the reference."""
+
+    gravity_by: Annotated[str, Shown("gravity by")]
+    """`encoders` of pitch and yaw, or `IMU`."""
+    full_width: Annotated[float, Shown("width", digits=4)]
+    """Full width of the error of each."""
+    plus_minus: Annotated[float, Shown("+-", digits=4)]
+    """Half of it."""
+    unit: Annotated[str, Shown("unit")]
+    """Unit of both."""
+    rms: Annotated[WrenchValues, ShownWrench(digits=3)]
+    """Root mean square over the motion, as Table 6.3 has it; N, N m."""
+    one_force_N: Annotated[float, Shown("one: f", "N", digits=2)]
+    """Largest error of the force where one encoder, or one axis of the inertial sensor, is off alone."""
+    one_moment_Nm: Annotated[float, Shown("one: t", "N m", digits=3)]
+    """Of the moment."""
+    largest: WrenchValues
+    """Largest magnitude of each component with all of them off; N, N m."""
+    largest_force_N: Annotated[float, Shown("all: f", "N", digits=2)]
+    """Largest component of the force's error with all of them off: what requirement 6 limits."""
+    largest_moment_Nm: Annotated[float, Shown("all: t", "N m", digits=3)]
+    """Of the moment's."""
+    force_norm_N: float
+    """Largest norm of the force's error."""
+    moment_norm_Nm: float
+    """Largest norm of the moment's error."""
+    force_met_to_kg: Annotated[float | None, Shown("0.5 N to", "kg", digits=1)]
+    """Load up to which no component of the force is off by more than requirement 6 allows; None if none."""
+    moment_met_to_kg: Annotated[float | None, Shown("0.02 N m to", "kg", digits=1)]
+    """The same of the moment."""
+
+
+MOST_SENSORS = 3
+"""Sensors at a time, by requirement 7."""
+LARGEST_LOAD_KG = 35.0
+"""Load that the device must bear, by requirement 5; kg."""
+MOST_JOINTS = 6
+"""Degrees of freedom that requirement 10 wants fewer of."""
+ENVELOPE_M2 = 1.5
+"""Space that the motion must be contained in, by requirement 11; m2."""
+MOST_LOADINGS = 3
+"""How often weights may be put on, by requirement 2."""
+
+_SPACING_DEG = 10.0
+_NOT_COMPUTED = {
+    3: ("loading feels neither difficult nor dangerous", "people say so, no geometry"),
+    4: ("by hand only mount, load, start", "who unlocks the hinge is not part of the description"),
+    8: ("a sensor is mounted within 2 min", "screws and holes are not described; people are timed"),
+    9: ("cost of at most 10000 EUR", "no prices are described"),
+    12: ("sensor at 15 to 55 degC", "there is no model of heat in the interfaces"),
+    13: ("dynamic behaviour can be analysed", "neither friction nor a release of the load is described"),
+}
+
+
+def requirement_rows(
+    file: DeviceFile, silhouettes: Several[Silhouette], errors: Mapping[str, LoadErrors]
+) -> tuple[RequirementRow, ...]:
+    """Judge the requirements.
+
+    Args:
+        file: The device, with all sensors that it may have, and what it does.
+        silhouettes: What it sweeps.
+        errors: Errors of the references by sensor.
+
+    Returns:
+        A row for each requirement, two for forces and moments of the sixth.
+    """
+    rows = [
+        _excitation(file),
+        _judged(
+            2,
+            "weights are put on at most 3 times",
+            float(len(file.simulation.loads_kg)),
+            MOST_LOADINGS,
+            "",
+            "loads that it calibrates with, each put on at once",
+        ),
+        *_strength(file),
+        *_errors(errors),
+        _judged(
+            10,
+            "fewer than 6 degrees of freedom",
+            float(len(file.joint_names)),
+            MOST_JOINTS - 1,
+            "",
+            f"{', '.join(file.joint_names)}",
+        ),
+        _space(silhouettes),
+        *(
+            RequirementRow(number=number, requirement=text, verdict=Verdict.NOT_COMPUTED, why=why)
+            for number, (text, why) in _NOT_COMPUTED.items()
+        ),
+    ]
+    return tuple(sorted(rows, key=lambda row: row.number))
+
+
+def _judged(number: int, text: str, value: float, limit: float, unit: str, why: str) -> RequirementRow:
+    return RequirementRow(
+        number=number,
+        requirement=text,
+        verdict=Verdict.MET if value <= limit else Verdict.NOT_MET,
+        value=value,
+        limit=limit,
+        unit=unit,
+        why=why,
+    )
+
+
+def _excitation(file: DeviceFile) -> RequirementRow:
+    """What the motion with the loads of the file excites least, over what the positions of the workbench do."""
+    loads_kg = file.simulation.loads_kg
+    runs = tuple(
+        Run(device=file, load=device_load(file, load_kg), sequence=file.sequence, hold_s=file.motion.hold_s)
+        for load_kg in loads_kg
+    )
+    poses = [run.sampled(SAMPLES // len(runs)) for run in runs]
+    bench = workbench_loads(Placement(angle_rad=0.0, position_m=0.0), SAMPLES)
+    least = {sensor: least_excitation(uncertain(poses, sensor, Tolerances()), bench) for sensor in file.sensor_names}
+    worst = min(least, key=lambda sensor: least[sensor])
+    loads = " and ".join(f"{load_kg:g} kg" for load_kg in loads_kg)
+    return RequirementRow(
+        number=1,
+        requirement="excitation at least that of the 24 positions",
+        verdict=Verdict.MET if least[worst] >= 1.0 else Verdict.NOT_MET,
+        value=least[worst],
+        limit=1.0,
+        unit="of theirs",
+        why=f"the motion with {loads}, in the direction in which {worst} is excited least; remedies are above",
+    )
+
+
+def _strength(file: DeviceFile) -> Iterator[RequirementRow]:
+    limits = {"pitch": file.pitch.torque_Nm, "yaw": file.yaw.torque_Nm}
+    met_kg, peaks = None, dict.fromkeys(limits, 0.0)
+    for load_kg in file.loads_kg:
+        load = device_load(file, load_kg)
+        answer = answer_of(file, load, file.sequence.still_poses(file, load, spacing_deg=_SPACING_DEG))
+        peaks = {joint: float(np.abs(answer.torque(joint)).max()) for joint in limits}
+        if all(peaks[joint] <= limit for joint, limit in limits.items()):
+            met_kg = load.mass_kg
+    joint = max(limits, key=lambda name: peaks[name] / limits[name])
+    heaviest = max(file.loads_kg)
+    why = f"motor of {joint} against its limit at {heaviest:g} kg; strength of parts is not computed"
+    row = _judged(5, "bears 35 kg", peaks[joint], limits[joint], "N m", why)
+    bears = row.verdict is Verdict.MET and heaviest >= LARGEST_LOAD_KG
+    verdict = Verdict.MET if bears else Verdict.NOT_MET
+    yield row.model_copy(update={"verdict": verdict, "met_to_kg": met_kg})
+    yield RequirementRow(
+        number=7,
+        requirement="up to 3 sensors at a time",
+        verdict=verdict,
+        value=float(len(file.sensor)),
+        limit=float(MOST_SENSORS),
+        unit="sensors",
+        met_to_kg=met_kg,
+        why="the stack of three is what everything here is computed with; motors bear it as 5 says",
+    )
+
+
+def _errors(errors: Mapping[str, LoadErrors]) -> Iterator[RequirementRow]:
+    for place, (text, limit, unit) in enumerate(
+        (
+            ("force of the reference within 0.5 N", FORCE_LIMIT_N, "N"),
+            ("moment of the reference within 0.02 N m", MOMENT_LIMIT_NM, "N m"),
+        )
+    ):
+        components = slice(3 * place, 3 * place + 3)
+        largest = {sensor: float(one.at_most.largest[components].max()) for sensor, one in errors.items()}
+        worst = max(largest, key=lambda sensor: largest[sensor])
+        row = _judged(
+            6,
+            text,
+            largest[worst],
+            limit,
+            unit,
+            f"largest component at {worst}, everything that is off at its worst; see the errors of references",
+        )
+        yield row.model_copy(update={"met_to_kg": errors[worst].met_to_kg[place]})
+
+
+def _space(silhouettes: Several[Silhouette]) -> RequirementRow:
+    largest = max(silhouettes, key=lambda one: one.rectangle_m2)
+    why = f"rectangle around all that is swept seen from {largest.view}, where it is largest; no stand, no cables"
+    return _judged(11, "motion contained in 1.5 m2", largest.rectangle_m2, ENVELOPE_M2, "m2", why)

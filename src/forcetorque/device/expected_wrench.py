@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The expected wrench of a device at rest, what it is computed from, and what sensors and motors feel in motion."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import SensorError, known_names
+from forcetorque.base.pose import split_pose
+from forcetorque.device.description import Device, HungLoad
+from forcetorque.device.model import BASE, device_model, device_root
+from forcetorque.robot.contacts import Wrenches
+from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import BodyTree, build_tree
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class DeviceAnswer:
+    """Wrenches and torques of n samples."""
+
+    wrenches: Wrenches
+    """True readings of the sensors, each in its frame: what the load does to the device."""
+    joints: tuple[str, ...]
+    """Joints of the columns of `torques`."""
+    torques: FloatArray
+    """What motor or lock does along the coordinate of each joint; shape (n, joints); N m."""
+
+    def torque(self, joint: str) -> FloatArray:
+        """Give the torque of a joint.
+
+        Args:
+            joint: One of `joints`.
+
+        Returns:
+            Its torque; shape (n,); N m.
+        """
+        return self.torques[:, self.joints.index(joint)]
+
+
+def answer_of(device: Device, load: HungLoad, motion: JointMotion) -> DeviceAnswer:
+    """Compute what a motion does to sensors and motors.
+
+    Args:
+        device: The device.
+        load: What hangs on its hinge.
+        motion: Motion of all its joints, at rest or not.
+
+    Returns:
+        Wrenches and torques at every sample.
+    """
+    question = Question(
+        tree=build_tree(device_model(device, load), BASE),
+        expected=device.sensor_names,
+        torques=device.joint_names,
+        equations=(),
+    )
+    answer = estimate(question, motion, device_root(device))
+    return DeviceAnswer(
+        wrenches=Wrenches(names=device.sensor_names, values=answer.expected),
+        joints=device.joint_names,
+        torques=answer.torques,
+    )
+
+
+ENCODERS = ("pitch", "yaw")
+"""Joints whose encoders tell where gravity is; error in rad."""
+HINGE = "hinge"
+"""Joint whose position a lock tells, or an encoder; error in rad."""
+IMU = ("imu_x", "imu_y", "imu_z")
+"""Components of gravity that an inertial sensor beside the sensor tells instead; error in m/s2."""
+MASS = "mass"
+"""Mass of the load; error as a share of it."""
+BRACKET_LENGTH = "bracket_length"
+"""Length from sensor to hinge; error in m."""
+LOAD_LENGTH = "load_length"
+"""Length from hinge to load; error in m."""
+COMPLIANCE = "compliance"
+"""Angle by which motors and arm give way; rad for each N m."""
+QUANTITIES = (*ENCODERS, HINGE, *IMU, MASS, BRACKET_LENGTH, LOAD_LENGTH, COMPLIANCE)
+"""All that a reference is computed from."""
+
+_LINEAR = frozenset((MASS, BRACKET_LENGTH, LOAD_LENGTH))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Reference:
+    """The reference of one sensor of a device over n poses at rest, at the values of its quantities that are true."""
+
+    device: Device
+    """The device."""
+    load: HungLoad
+    """What hangs on its hinge."""
+    poses: JointMotion
+    """Poses of all its joints, at rest; n of them."""
+    sensor: str
+    """The sensor."""
+
+    def __post_init__(self) -> None:
+        if self.sensor not in self.device.sensor_names:
+            raise SensorError(
+                f"device {self.device.name!r} has no sensor {self.sensor!r}; "
+                f"{known_names(self.sensor, self.device.sensor_names)}"
+            )
+
+    def wrench(self, errors: Mapping[str, Any] | None = None) -> FloatArray:
+        """Compute the reference from quantities that are off.
+
+        Args:
+            errors: Errors by quantity, of `QUANTITIES`; shape (n,), or a number for all poses; none if left out.
+
+        Returns:
+            Wrenches in the sensor's frame, what the load does to the device; shape (n, 6); N, N m.
+
+        Raises:
+            SensorError: If a quantity is none of these.
+        """
+        off = {name: np.broadcast_to(error, len(self.poses)) for name, error in (errors or {}).items()}
+        for name in off:
+            if name not in QUANTITIES:
+                raise SensorError(
+                    f"errors of the reference: unknown quantity {name!r}; {known_names(name, QUANTITIES)}"
+                )
+        if any(name in off for name in IMU):
+            wrench = self._by_imu(np.column_stack([off.get(name, np.zeros(len(self.poses))) for name in IMU]))
+        else:
+            wrench = self._by_encoders(off)
+        return wrench + self._of_load(off)
+
+    def slope(self, quantity: str) -> FloatArray:
+        """Tell how the reference changes with a quantity.
+
+        Args:
+            quantity: One of `QUANTITIES`.
+
+        Returns:
+            Change of the wrench per unit of the quantity; shape (n, 6).
+        """
+        if quantity in _LINEAR:
+            return self._units[quantity]
+        # of an angle, the error of a central difference is 2e-9 of the slope
+        step = 1e-4
+        if quantity == COMPLIANCE:
+            step /= max(np.abs(torque).max() for torque in self._torques.values())
+        slope: FloatArray = (self.wrench({quantity: step}) - self.wrench({quantity: -step})) / (2.0 * step)
+        return slope
+
+    def _by_encoders(self, off: Mapping[str, FloatArray]) -> FloatArray:
+        position = np.array(self.poses.position)
+        for joint in (*ENCODERS, HINGE):
+            column = self.poses.names.index(joint)
+            position[:, column] += off.get(joint, 0.0)
+            if COMPLIANCE in off and joint != HINGE:  # the motor is ahead of the arm that it holds
+                position[:, column] += off[COMPLIANCE] * self._torques[joint]
+        return self._read(self._tree, JointMotion.at_rest(self.poses.names, position))
+
+    def _by_imu(self, error: FloatArray) -> FloatArray:
+        base_R_sensor = split_pose(link_pose(self._tree, self.poses, f"{self.sensor}_outboard"))[0]
+        root = device_root(self.device)
+        # all stands still, so that what the sensor feels more, the base feels more
+        felt = root.proper_acceleration + np.einsum("nij,nj->ni", base_R_sensor, error)
+        wrong = replace(root, proper_acceleration=felt)
+        return expected_wrenches(self._tree, self.poses, wrong, (self.sensor,))[self.sensor]
+
+    def _of_load(self, off: Mapping[str, FloatArray]) -> FloatArray:
+        """What errors of mass and lengths add; shape (n, 6)."""
+        change = np.zeros((len(self.poses), 6))
+        for quantity in _LINEAR & off.keys():
+            change += off[quantity][:, None] * self._units[quantity]
+        return change
+
+    @cached_property
+    def _units(self) -> dict[str, FloatArray]:
+        """What one more unit of mass and lengths adds, in which the wrench is linear."""
+        true = self._read(self._tree, self.poses)
+        return {quantity: self._read(self._one_more(quantity), self.poses) - true for quantity in _LINEAR}
+
+    def _one_more(self, quantity: str) -> BodyTree:
+        """The device with twice the mass on it, or with one metre more of a length."""
+        inertia, hinge = self.load.inertia, self.device.hinge
+        if quantity == BRACKET_LENGTH:
+            bracket = hinge.bracket.model_copy(update={"height_m": hinge.bracket.height_m + 1.0})
+            longer = self.device.changed(hinge=hinge.model_copy(update={"bracket": bracket}))
+            return build_tree(device_model(longer, self.load), BASE)
+        if quantity == MASS:
+            more = inertia + inertia
+        else:
+            along = self.load.centre_of_mass_m / np.linalg.norm(self.load.centre_of_mass_m)
+            more = replace(inertia, first_moment=inertia.first_moment + inertia.mass * along)
+        return build_tree(device_model(self.device, replace(self.load, inertia=more)), BASE)
+
+    @cached_property
+    def _tree(self) -> BodyTree:
+        return build_tree(device_model(self.device, self.load), BASE)
+
+    @cached_property
+    def _torques(self) -> dict[str, FloatArray]:
+        answer = answer_of(self.device, self.load, self.poses)
+        return {joint: answer.torque(joint) for joint in ENCODERS}
+
+    def _read(self, tree: BodyTree, poses: JointMotion) -> FloatArray:
+        return expected_wrenches(tree, poses, device_root(self.device), (self.sensor,))[self.sensor]

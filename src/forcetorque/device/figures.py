@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of a calibration device: motion, motors, space, errors, and options for its excitation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ShapeError
+from forcetorque.base.files import new_folder
+from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.calibration.figures.excitation import space_figure
+from forcetorque.device.demand_result import GradeRow
+from forcetorque.device.device import DeviceDesign
+from forcetorque.device.envelope import VIEWS, Silhouette
+from forcetorque.device.grades import FORCE_LIMIT_N, MOMENT_LIMIT_NM
+from forcetorque.device.span import DirectionRow
+from forcetorque.results.figures.canvas import (
+    REFERENCE_COLOUR,
+    ROW_INCHES,
+    SMALL_POINTS,
+    TITLE_POINTS,
+    legend_below,
+    look,
+    new_figure,
+    png_bytes,
+    shown_name,
+)
+from forcetorque.results.figures.curves import draw_over_time, drawable_each, instants, thinned_line
+from forcetorque.robot.motion import JointMotion
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+def device_figure(time_s: FloatArray, motion: JointMotion, torques: Mapping[str, FloatArray]) -> Figure:
+    """Draw positions of joints, and torques on their axes, over time [1].
+
+    Args:
+        time_s: Instants that do not fall; shape (n,); s.
+        motion: Motion of the joints at them; rad.
+        torques: Torques by joint; shape (n,) each; N m.
+
+    Returns:
+        The figure, a panel for positions and one for torques.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+        ShapeError: If there is nothing to draw, or the shapes differ.
+
+    References:
+        [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figures 6.5 and 6.9.
+    """
+    time = instants(time_s)
+    positions = dict(zip(motion.names, np.rad2deg(motion.position).T, strict=True))
+    rows = {"position, deg": positions, "torque, N m": torques}
+    figure = new_figure(1.4 * ROW_INCHES[1])
+    panels = figure.subplots(len(rows), 1, sharex=True)
+    for panel, (label, lines) in zip(panels, rows.items(), strict=True):
+        drawable_lines = drawable_each(lines, name=label, shape=(len(time),))
+        for number, values in enumerate(drawable_lines.values()):
+            at, drawn = thinned_line(time, values[:, None])
+            draw_over_time(panel, at, drawn[:, 0], look(number), turn=number, count=len(drawable_lines))
+        panel.set_ylabel(label, fontsize=TITLE_POINTS)
+        panel.tick_params(labelsize=SMALL_POINTS)
+    panels[-1].set_xlabel("time, s", fontsize=TITLE_POINTS)
+    figure.align_ylabels()
+    keys = [(shown_name(name), look(number).key | {"linestyle": "-"}) for number, name in enumerate(positions)]
+    legend_below(figure, keys)
+    return figure
+
+
+_AXES = "xyz"
+
+
+def envelope_figure(silhouettes: Sequence[Silhouette]) -> Figure:
+    """Draw what is swept in each view, and the rectangle around it [1].
+
+    Args:
+        silhouettes: What is swept.
+
+    Returns:
+        The figure, a panel per view.
+
+    References:
+        [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figure 6.13.
+    """
+    figure = new_figure(1.2 * ROW_INCHES[1])
+    for panel, silhouette in zip(figure.subplots(1, len(silhouettes), squeeze=False)[0], silhouettes, strict=True):
+        _draw_envelope(panel, silhouette)
+    legend_below(
+        figure,
+        [
+            ("convex hull of what is swept", {"color": look(0).colour, "linestyle": "-"}),
+            ("rectangle around it", {"color": REFERENCE_COLOUR, "linestyle": "--"}),
+        ],
+    )
+    return figure
+
+
+def _draw_envelope(panel: Axes, silhouette: Silhouette) -> None:
+    closed = np.concatenate([silhouette.outline, silhouette.outline[:1]])
+    panel.fill(*closed.T, color=look(0).colour, alpha=0.2)
+    panel.plot(*closed.T, color=look(0).colour, linewidth=1.4)
+    low, high = silhouette.outline.min(axis=0), silhouette.outline.max(axis=0)
+    corners = np.array([low, [high[0], low[1]], high, [low[0], high[1]], low])
+    panel.plot(*corners.T, color=REFERENCE_COLOUR, linestyle="--", linewidth=1.0)
+    panel.set_aspect("equal", adjustable="datalim")
+    panel.set_title(f"from {silhouette.view}, {silhouette.rectangle_m2:.2f} m2", fontsize=TITLE_POINTS)
+    first, second = VIEWS[silhouette.view]
+    panel.set_xlabel(f"{_AXES[first]}, m", fontsize=TITLE_POINTS)
+    panel.set_ylabel(f"{_AXES[second]}, m", fontsize=TITLE_POINTS)
+    panel.tick_params(labelsize=SMALL_POINTS)
+
+
+_SIZES = ("root mean square", "largest, one off alone", "largest component, all off", "largest norm, all off")
+
+
+def reference_error_figure(grades: Sequence[GradeRow]) -> Figure:
+    """Draw root mean squares and largest errors of forces and moments against what requirement 6 allows.
+
+    Args:
+        grades: Errors by grade.
+
+    Returns:
+        The figure: forces, and below moments.
+    """
+    ordered = sorted(grades, key=lambda row: (row.gravity_by, row.full_width))
+    figure = new_figure(1.5 * ROW_INCHES[1])
+    above, below = figure.subplots(2, 1, sharex=True)
+    forces = [[row.rms[:3].max(), row.one_force_N, row.largest_force_N, row.force_norm_N] for row in ordered]
+    moments = [[row.rms[3:].max(), row.one_moment_Nm, row.largest_moment_Nm, row.moment_norm_Nm] for row in ordered]
+    _draw_errors(above, np.array(forces), FORCE_LIMIT_N, "error of the force, N")
+    _draw_errors(below, np.array(moments), MOMENT_LIMIT_NM, "error of the moment, N m")
+    below.set_xticks(
+        range(len(ordered)),
+        [f"{row.gravity_by}\n±{row.plus_minus:g} {row.unit}" for row in ordered],
+        fontsize=SMALL_POINTS,
+    )
+    legend_below(
+        figure,
+        [
+            *(
+                (name, {"color": look(k).colour, "marker": look(k).marker, "linestyle": "none"})
+                for k, name in enumerate(_SIZES)
+            ),
+            ("requirement 6", {"color": REFERENCE_COLOUR, "linestyle": "--"}),
+        ],
+    )
+    return figure
+
+
+def _draw_errors(panel: Axes, errors: FloatArray, limit: float, label: str) -> None:
+    from matplotlib.ticker import LogLocator, NullLocator
+
+    for k in range(errors.shape[1]):
+        places = np.arange(len(errors)) + 0.12 * (k - 1.5)
+        panel.plot(places, errors[:, k], linestyle="none", marker=look(k).marker, color=look(k).colour, markersize=6.0)
+    panel.axhline(limit, color=REFERENCE_COLOUR, linestyle="--", linewidth=1.0)
+    panel.set_yscale("log")
+    panel.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    panel.yaxis.set_major_formatter("{x:g}")
+    panel.yaxis.set_minor_locator(NullLocator())
+    panel.set_ylabel(label, fontsize=TITLE_POINTS)
+    panel.tick_params(labelsize=SMALL_POINTS)
+
+
+def remedies_figure(rows: Sequence[DirectionRow]) -> Figure:
+    """Draw predicted errors by the axis that is loaded; what is not known at all is left out.
+
+    Args:
+        rows: Errors of force and moment, by what the sensor was calibrated by.
+
+    Returns:
+        The figure, a panel for each error.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+        ShapeError: If there is nothing to draw.
+    """
+    if not rows:
+        raise ShapeError("remedies: expected at least one row, got none")
+    figure = new_figure(1.4 * ROW_INCHES[1])
+    errors = tuple(dict.fromkeys(row.error for row in rows))
+    names = tuple(dict.fromkeys(row.motion for row in rows))
+    panels = figure.subplots(len(errors), 1, sharex=True, squeeze=False)[:, 0]
+    for panel, error in zip(panels, errors, strict=True):
+        for row in (row for row in rows if row.error == error):
+            number = names.index(row.motion)
+            values = np.array([getattr(row, component) for component in WRENCH_COMPONENTS])
+            at = np.arange(6) + 0.7 * ((number + 0.5) / len(names) - 0.5)
+            known = np.isfinite(values)
+            style = look(number)
+            panel.plot(at[known], values[known], linestyle="none", marker=style.marker, color=style.colour)
+        panel.set_yscale("log")
+        panel.set_ylabel(f"error of {error}", fontsize=TITLE_POINTS)
+        panel.tick_params(labelsize=SMALL_POINTS)
+    panels[-1].set_xticks(range(6), WRENCH_COMPONENTS)
+    panels[-1].set_xlabel("axis that is loaded, by 100 N or 5 N m", fontsize=TITLE_POINTS)
+    figure.align_ylabels()
+    legend_below(figure, [(shown_name(name), look(k).key | {"linestyle": "none"}) for k, name in enumerate(names)])
+    return figure
+
+
+def write_device_figures(design: DeviceDesign, output: Path) -> DeviceDesign:
+    """Draw a device, all or nothing.
+
+    Args:
+        design: The device.
+        output: Folder to make, for `motion.png` (figures 6.5 and 6.9 of the thesis), `space.png` (6.6 and 6.7),
+            `remedies.png` (predicted errors by direction), `envelope.png` (6.13) and `errors.png` (Table 6.3).
+
+    Returns:
+        The design with the names of the files.
+    """
+    picture, demands = design.picture, design.demands
+    torques = {joint: picture.answer.torque(joint) for joint in picture.answer.joints}
+    figures = {
+        "motion.png": device_figure(picture.time_s, picture.motion, torques),
+        "space.png": space_figure(picture.clouds),
+        "remedies.png": remedies_figure(design.span.directions),
+        "envelope.png": envelope_figure(demands.silhouettes),
+        "errors.png": reference_error_figure(demands.grades),
+    }
+    with new_folder(output) as folder:
+        for name, figure in figures.items():
+            (folder / name).write_bytes(png_bytes(figure))
+    return design.model_copy(update={"figures": tuple(str(output / name) for name in figures)})

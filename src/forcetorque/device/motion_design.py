@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A motion that teaches more than the 12 steps in the same time, by the engine that plans recordings of robots.
+
+Postures are picked and changed by `evaluation.planning`; what belongs to the device is the way from one to the next:
+the hinge changes its lock only where gravity takes the load there, with the arm straight down at one end and level at
+the other.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass, field, replace
+from typing import Final
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.device.description import Device, HungLoad
+from forcetorque.device.held_out import SAMPLES, held_out_loads, sample_noise
+from forcetorque.device.rest_wrenches import RestTable
+from forcetorque.device.sequence import Sequence, joint_ranges
+from forcetorque.device.tolerances import Tolerances
+from forcetorque.device.trajectory import joint_speeds
+from forcetorque.planning.information import blank_posterior
+from forcetorque.planning.search import Choices, Volume, picked_orders, search
+from forcetorque.simulation.motions.waypoints import Waypoints, shortest_moves
+from forcetorque.workbench.span import load_sizes
+from forcetorque.workbench.uncertain_loads import MatrixError
+
+_SEED: Final = 22
+_AROUND_DEG: Final = 360.0
+_YAW_OF_LOCK: Final = {90.0: (0.0, 360.0), -90.0: (180.0,)}
+"""Where yaw may be when gravity takes the load from 0 to a lock; deg."""
+_QUARTER: Final = np.pi / 2.0
+_START: Final = (-90.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class DesignedMotion:
+    """A motion through postures, with what it leaves unknown."""
+
+    postures: FloatArray
+    """Postures that were picked, without those in which the lock is changed; shape (k, 3); rad."""
+    sequence: Sequence
+    """All postures."""
+    duration_s: float
+    """How long it takes; s."""
+    value: float
+    """Logarithm of the volume that the matrix is left in, by noise and by what may be wrong with the device."""
+    squares: tuple[float, float]
+    """Mean squares of the errors of force and moment that are foretold at held-out loads; N^2, (N m)^2."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Designer:
+    """A device with a load and a time."""
+
+    device: Device
+    """The device, with locks at -90, 0 and 90 degrees and no turn."""
+    load: HungLoad
+    """What hangs on it."""
+    sensor: str
+    """Sensor that is to be calibrated."""
+    seconds: float
+    """How long the motion may take; s."""
+    hold_s: float = 1.0
+    """Rest at every posture; s."""
+    candidates: int = 240
+    """Postures to pick from."""
+    swaps: int = 1000
+    """Postures that are tried in place of others."""
+    tolerances: Tolerances = Tolerances()
+    """How exact the device is."""
+    rest: RestTable = field(init=False)
+    """What its sensor feels at rest."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rest", RestTable.of(self.device, self.load, self.sensor, self.tolerances))
+
+    def better_than(self, begun: FloatArray) -> DesignedMotion:
+        """Find the motion of least volume that foretells no larger mean square errors than another one does.
+
+        Volume alone would trade a moment that is used for a force that is known well already.
+
+        Args:
+            begun: Postures of the other motion, from which one search begins too; shape (k, 3); rad.
+
+        Returns:
+            The best of what was tried.
+        """
+        most = np.array(self.through(begun).squares)
+
+        def judged(postures: FloatArray) -> DesignedMotion:
+            motion = self.through(postures)
+            return motion if (np.array(motion.squares) <= most).all() else replace(motion, value=np.inf)
+
+        rng = np.random.default_rng(_SEED)
+        drawn = self._drawn(rng)
+        loads = self.rest.loads(drawn)
+        choices = Choices(
+            columns=loads.wrench,
+            travel_s=lambda start: self._travel(drawn[start], drawn),
+            hold_s=self.hold_s,
+            seconds=self.seconds - self.hold_s,
+        )
+        noise = np.diag(sample_noise()) + (loads.fresh**2).sum(axis=2).mean(axis=0)
+        posterior = blank_posterior(np.sqrt(noise), load_sizes(loads.wrench))
+        return search(
+            judged,
+            drawn,
+            [*picked_orders(posterior, Volume(), choices, drawn), begun],
+            seconds=self.seconds,
+            swaps=self.swaps,
+            rng=rng,
+        )
+
+    def through(self, postures: FloatArray) -> DesignedMotion:
+        """Go through postures.
+
+        Args:
+            postures: Postures in turn; shape (k, 3); rad.
+
+        Returns:
+            The motion.
+        """
+        places, unlocked = [postures[0]], [False]
+        for start, end in itertools.pairwise(postures):
+            for place, free in zip(*_ways(start, end[None]), strict=True):
+                if np.abs(place[0] - places[-1]).max() > 0.0:
+                    places.append(place[0])
+                    unlocked.append(free)
+        sequence = Sequence(
+            name="optimised",
+            joints=self.device.joint_names,
+            postures=np.stack(places),
+            steps=tuple(range(1, len(places) + 1)),
+            unlocked=tuple(unlocked[1:]),
+        )
+        line = Waypoints.at_speed(sequence.joints, sequence.postures, self._speeds, hold_s=self.hold_s)
+        error = self._error(sequence, line)
+        return DesignedMotion(
+            postures=postures,
+            sequence=sequence,
+            duration_s=line.duration_s,
+            value=error.volume,
+            squares=error.trace(held_out_loads()),
+        )
+
+    @property
+    def _speeds(self) -> FloatArray:
+        speeds = joint_speeds(self.device)
+        return np.array([speeds[joint] for joint in self.device.joint_names])
+
+    def _error(self, sequence: Sequence, line: Waypoints) -> MatrixError:
+        seconds = np.linspace(0.0, line.duration_s, SAMPLES)
+        way = np.clip(np.searchsorted(line.departures_s, seconds, side="right") - 1, 0, None)
+        locked = ~np.array(sequence.unlocked)[way]
+        return self.rest.loads(line(seconds[locked]).position).matrix_error(sample_noise())
+
+    def _drawn(self, rng: np.random.Generator) -> FloatArray:
+        """Postures to pick from, the start first, each other one at a lock and half of them at ends of pitch."""
+        low, high = joint_ranges(self.device)["pitch"]
+        drawn = np.column_stack(
+            [
+                rng.uniform(max(low, -90.0), min(high, 90.0), self.candidates),
+                rng.uniform(0.0, _AROUND_DEG, self.candidates),
+                rng.choice(self.device.hinge.locks_deg, self.candidates),
+            ]
+        )
+        drawn[::2, :2] = 45.0 * np.rint(drawn[::2, :2] / 45.0)
+        drawn[0] = _START
+        postures: FloatArray = np.deg2rad(drawn)
+        return postures
+
+    def _travel(self, start: FloatArray, postures: FloatArray) -> FloatArray:
+        """Time from a posture to others, rests included; shape (n,); s."""
+        seconds, locks = np.zeros(len(postures)), _degrees(postures[:, -1])
+        speeds = self._speeds
+        for lock in np.unique(locks):
+            ends = postures[locks == lock]
+            places = [np.tile(start, (len(ends), 1)), *_ways(start, ends)[0]]
+            for here, there in itertools.pairwise(places):
+                seconds[locks == lock] += shortest_moves(there - here, speeds) + self.hold_s
+        return seconds
+
+
+def _ways(start: FloatArray, ends: FloatArray) -> tuple[list[FloatArray], list[bool]]:
+    """Postures after the start on the ways to ends at one lock, and whether the hinge is unlocked on the way to each.
+
+    Args:
+        start: Posture; shape (3,); rad.
+        ends: Postures at one lock; shape (n, 3); rad.
+
+    Returns:
+        Postures of all ways, each of shape (n, 3), in rad, and as many flags.
+    """
+    before, after = float(_degrees(start[-1])), float(_degrees(ends[0, -1]))
+    places: list[FloatArray] = []
+    if before not in (after, 0.0):
+        yaw = _nearest(np.full(len(ends), start[1]), before)
+        places += [_at(0.0, yaw, before), _at(-_QUARTER, yaw, 0.0)]
+    if after not in (before, 0.0):
+        yaw = _nearest(ends[:, 1], after)
+        places += [_at(-_QUARTER, yaw, 0.0), _at(0.0, yaw, after)]
+    # every other way is that on which gravity takes the load to a lock
+    return [*places, ends], [*(number % 2 == 1 for number in range(len(places))), False]
+
+
+def _at(pitch: float, yaw: FloatArray, lock_deg: float) -> FloatArray:
+    return np.column_stack([np.full(len(yaw), pitch), yaw, np.full(len(yaw), np.deg2rad(lock_deg))])
+
+
+def _nearest(yaw: FloatArray, lock_deg: float) -> FloatArray:
+    """Where yaw may be for a lock, next to where it is; shape (n,); rad."""
+    allowed = np.deg2rad(_YAW_OF_LOCK[lock_deg])
+    nearest: FloatArray = allowed[np.abs(yaw[:, None] - allowed).argmin(axis=1)]
+    return nearest
+
+
+def _degrees(angle: FloatArray) -> FloatArray:
+    degrees: FloatArray = np.rad2deg(angle).round(6)
+    return degrees

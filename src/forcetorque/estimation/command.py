@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque estimate`: contact wrenches, joint torques and expected readings of a recording."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.results.terminal.options import (
+    CalibrationsOption,
+    ExperimentsArgument,
+    ForceOption,
+    FormatOption,
+    OffsetOption,
+)
+from forcetorque.results.terminal.output import Format, show, start_logging
+
+if TYPE_CHECKING:
+    from logging import Logger
+
+    from forcetorque.estimation.result import EstimateSummary
+    from forcetorque.estimation.torque_curves import TorquePicture
+    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.experiment import Experiment
+
+
+def estimate(
+    experiments: ExperimentsArgument,
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            help="File for every sample, .parquet or .csv; of several experiments one each, NAME.EXPERIMENT.parquet.",
+        ),
+    ],
+    calibration: CalibrationsOption = None,
+    offset: OffsetOption = "fitted",
+    contacts: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--contacts",
+            help="FRAME, FRAME:force or FRAME:force_along:x,y,z; repeat for more. Default: those of the file, else "
+            "at the sensors.",
+        ),
+    ] = None,
+    length_scale: Annotated[
+        float | None,
+        typer.Option("--length-scale", help="Moment that weighs as much as one newton; m. For more than six unknowns."),
+    ] = None,
+    fuse: Annotated[
+        bool,
+        typer.Option(
+            "--fuse", help="Joint torques of sensors, known contacts and motors too, beside each other and made one."
+        ),
+    ] = False,
+    figure: Annotated[
+        Path | None,
+        typer.Option(
+            "--figure",
+            help="PNG of joint torques over time, by source with --fuse; of several experiments one each, as -o.",
+        ),
+    ] = None,
+    force: ForceOption = False,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Estimate contact wrenches, joint torques and expected readings.
+
+    Example: forcetorque estimate experiment.toml -o estimates.parquet
+    """
+    from forcetorque.base.output_file import declare_outputs
+    from forcetorque.estimation.result import estimates_of_recordings
+    from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
+    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.loading import load_touched_robot
+    from forcetorque.formats.sample_table import SUFFIXES
+    from forcetorque.results.terminal.output import refuse_figure
+    from forcetorque.results.terminal.reading import read_calibrations, read_touched_robot
+
+    log = start_logging()
+    _refuse_ending(output, SUFFIXES)
+    refuse_figure(figure, force=force)
+    refuse_a_file_twice(experiments)
+    files, figures = _outputs(experiments, output), {} if figure is None else _outputs(experiments, figure)
+    written = [*files.values(), *(file for file in figures.values() if file != figure)]
+    declare_outputs(*written, force=force)
+    if len(experiments) > 1 and any(file.exists() for file in written):
+        for path in experiments:  # what is written first may be an input of what is read last
+            load_touched_robot(path)
+    calibrations = read_calibrations(calibration)
+    summaries = {}
+    for path, file in files.items():
+        # a recording goes when its estimates are written: there may be more of them than memory holds
+        content = read_touched_robot(path, log)
+        with stated_in(str(path)):
+            summaries[str(path)] = _estimated(
+                content,
+                calibrations,
+                contacts,
+                length_scale,
+                file,
+                log,
+                offset=offset,
+                fuse=fuse,
+                figure=figures.get(path),
+            )
+    several = len(summaries) > 1
+    show(estimates_of_recordings(summaries) if several else summaries[str(experiments[0])], output_format)
+
+
+def _estimated(
+    content: Experiment,
+    calibrations: Mapping[str, Calibration],
+    contacts: Sequence[str] | None,
+    length_scale: float | None,
+    file: Path,
+    log: Logger,
+    *,
+    offset: str,
+    fuse: bool,
+    figure: Path | None,
+) -> EstimateSummary:
+    """Estimate over one experiment, write every sample, and draw the torques where a file is named."""
+    from forcetorque.estimation.estimate import estimate_experiment
+    from forcetorque.estimation.result import summarise_estimates
+    from forcetorque.estimation.skin.known_wrenches import frames_of_patches
+    from forcetorque.estimation.torque.fusion import fuse_experiment
+    from forcetorque.estimation.torque_curves import torque_picture
+    from forcetorque.experiment.contacts import contact_in_words
+    from forcetorque.experiment.sensor_models import corrections_of
+
+    named = [contact_in_words(words, content.model) for words in contacts] if contacts else None
+    corrections = corrections_of(content, calibrations, offset=offset)
+    for sensor, correction in corrections.items():
+        log.info("%s: %s", sensor, correction.source)
+    patches = frames_of_patches(content)
+    with _Progress() as progress:
+        spans = estimate_experiment(
+            content,
+            corrections,
+            contacts=named,
+            length_scale=length_scale,
+            progress=progress.show,
+            patches=patches,
+        )
+    fusions, frictions = fuse_experiment(content, corrections, contacts=named, patches=patches) if fuse else ([], ())
+    summary = summarise_estimates(content, corrections, spans, file=file, fusions=fusions, frictions=frictions)
+    if figure is None:
+        return summary
+    _draw(torque_picture(content, spans, fusions), figure, log)
+    return summary.model_copy(update={"figure": str(figure)})
+
+
+def _draw(picture: TorquePicture, figure: Path, log: Logger) -> None:
+    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.estimation.figures import torque_figure
+    from forcetorque.results.figures.canvas import png_bytes
+
+    if picture.left_out:
+        log.info("drawn are the joints whose torques change most, not %s", ", ".join(picture.left_out))
+    drawn = torque_figure(picture.seconds, picture.joints, picture.torques, deviations=picture.deviations)
+    write_bytes_atomically(figure, png_bytes(drawn))
+
+
+def _outputs(experiments: Sequence[Path], output: Path) -> dict[Path, Path]:
+    """File for the samples of every experiment: the one that is named, or one each with its name before the ending."""
+    from forcetorque.experiment.recording_names import distinct_files
+
+    if len(experiments) == 1:
+        return {experiments[0]: output}
+    names = distinct_files(experiments)
+    return {path: output.with_suffix(f".{names[path].replace('/', '-')}{output.suffix}") for path in experiments}
+
+
+def _refuse_ending(output: Path, endings: Sequence[str]) -> None:
+    """Say so before hours are spent on what cannot be written."""
+    if output.suffix not in endings:
+        raise ForceTorqueError(f"--output {output}: expected a name that ends in {' or '.join(endings)}")
+
+
+class _Progress:
+    """A bar on standard error, where somebody looks at it."""
+
+    def __enter__(self) -> _Progress:
+        from rich.console import Console
+        from rich.progress import Progress
+
+        self.bar = Progress(console=Console(file=sys.stderr), transient=True, disable=not sys.stderr.isatty())
+        self.bar.start()
+        self.task = self.bar.add_task("estimating", total=None)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.bar.stop()
+
+    def show(self, done: int, total: int) -> None:
+        self.bar.update(self.task, completed=done, total=total)

@@ -1,0 +1,353 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What estimates over the intervals of an experiment amount to, and the file with every sample of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.noise.stationary import sample_statistics
+from forcetorque.estimation.estimate import IntervalEstimates
+from forcetorque.estimation.fusion.motor import Friction
+from forcetorque.estimation.samples_file import EstimatedSpan, write_estimates
+from forcetorque.estimation.skin.summary import SkinContactSummary, skin_doubts, skin_rows
+from forcetorque.estimation.torque.fusion import IntervalFusion, TorqueFusion, summarise_fusion
+from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.sensor_reading import Correction
+from forcetorque.experiment.validity import ReadingsOutside, outside_row, sentences
+from forcetorque.recording.alignment import seconds_since
+from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.result import Result
+from forcetorque.results.row import Row, Shown
+from forcetorque.results.table import Table, table_of
+
+
+class ContactSummary(Row):
+    """One contact over one interval."""
+
+    interval: Annotated[str, Shown("interval")]
+    """Label of the interval."""
+    contact: Annotated[str, Shown("contact")]
+    """Name of the contact."""
+    samples: Annotated[int, Shown("samples")]
+    """Number of samples with an estimate."""
+    force_mean_N: Annotated[float | None, Shown("force", "N", digits=2, error="force_half_width_95_N")]
+    """Mean norm of the force."""
+    force_standard_error_N: float | None
+    """Standard error of that mean; none where the norm is no stationary noise (`noise.is_stationary`)."""
+    force_half_width_95_N: float | None
+    """Half-width of its 95 % interval; none likewise."""
+    force_deviation_N: Annotated[float | None, Shown("deviation", "N", digits=2)]
+    """Standard deviation of the norm from sample to sample; none for one sample."""
+    force_smallest_N: Annotated[float | None, Shown("smallest", "N", digits=2)]
+    """Smallest norm of the force."""
+    force_largest_N: Annotated[float | None, Shown("largest", "N", digits=2)]
+    """Largest norm of the force."""
+    moment_mean_Nm: Annotated[float | None, Shown("moment", "N m", digits=3)]
+    """Mean norm of the moment."""
+
+
+class SubModelSummary(Row):
+    """The equation of one sub-model over one interval."""
+
+    interval: Annotated[str, Shown("interval")]
+    """Label of the interval."""
+    part: Annotated[str, Shown("sub-model")]
+    """Sensor at its base, or the support frame."""
+    rank: Annotated[int, Shown("rank")]
+    """Smallest rank over the samples."""
+    condition_largest: Annotated[float | None, Shown("condition", digits=1)]
+    """Largest condition over the samples."""
+    residual_force_mean_N: Annotated[float | None, Shown("residual", "N", digits=2)]
+    """Mean norm of the force that its contacts leave unexplained."""
+    residual_moment_mean_Nm: Annotated[float | None, Shown("residual", "N m", digits=3)]
+    """Mean norm of the moment that they leave unexplained."""
+    ambiguous: tuple[tuple[str, ...], ...]
+    """Groups of unknowns that cannot be told apart."""
+
+
+class EstimatedRecording(Row):
+    """The estimates of one of several recordings."""
+
+    experiment: str
+    """Name of the experiment."""
+    file: str | None
+    """File with every sample, where one was written."""
+    rows: int
+    """Number of samples, which are its rows."""
+    readings: dict[str, str]
+    """By sensor, how its reading became a wrench."""
+    contacts: tuple[ContactSummary, ...]
+    """One per interval and contact."""
+    parts: tuple[SubModelSummary, ...]
+    """One per interval and sub-model."""
+    left_out: tuple[str, ...]
+    """What the log does not allow to estimate."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
+    fusion: TorqueFusion | None = None
+    """Joint torques of several sources; None where they were not asked for."""
+    skin: tuple[SkinContactSummary, ...] = ()
+    """One per interval and contact on skin."""
+    figure: str | None = None
+    """File of the figure of joint torques, where one was drawn."""
+
+
+class EstimateSummary(Result):
+    """What touches the robot over the intervals of an experiment, and how well its equations determine that."""
+
+    of_several: ClassVar[tuple[str, ...]] = ("recordings",)
+
+    interval_uses = ()
+
+    schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment; of several recordings their names, apart by semicolons."""
+    file: str | None
+    """File with every sample, where one was written."""
+    rows: int
+    """Number of samples, which are its rows."""
+    readings: dict[str, str]
+    """By sensor, how its reading became a wrench."""
+    contacts: tuple[ContactSummary, ...]
+    """One per interval and contact."""
+    parts: tuple[SubModelSummary, ...]
+    """One per interval and sub-model."""
+    left_out: tuple[str, ...]
+    """What the log does not allow to estimate."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
+    fusion: TorqueFusion | None = None
+    """Joint torques of several sources; None where they were not asked for."""
+    skin: tuple[SkinContactSummary, ...] = ()
+    """One per interval and contact on skin."""
+    figure: str | None = None
+    """File of the figure of joint torques, where one was drawn."""
+    recordings: tuple[EstimatedRecording, ...] = ()
+    """Of several recordings one each, where these things then stand; none where there is one recording."""
+    intervals: tuple[IntervalEstimates, ...] = Field(default=(), exclude=True, repr=False)
+    """Every sample, where it was asked for in a script; none where they went to a file."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give a table of the contacts and one of the sub-models, of one recording after the other.
+
+        Yields:
+            Tables and sentences.
+        """
+        for recording in self.recordings or (self,):
+            yield from _tables(recording)
+        yield (
+            "force and moment: mean norms of what the environment does to the robot, in the contact frame, "
+            "± half a 95 % interval of the mean where the norm is stationary noise; deviation: of a sample"
+        )
+        for recording in self.recordings or (self,):
+            if recording.file is not None:
+                yield f"{recording.rows} rows written to {recording.file}"
+            if recording.figure is not None:
+                yield f"joint torques drawn to {recording.figure}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give the contacts as lines.
+
+        Returns:
+            A line per interval and contact; of several recordings with the name of the experiment and the file.
+        """
+        several = [
+            {"experiment": recording.experiment, "file": recording.file, **row.flat()}
+            for recording in self.recordings
+            for row in recording.contacts
+        ]
+        return several or [row.flat() for row in self.contacts]
+
+    def columns(self) -> list[str]:
+        """Name the columns of the lines.
+
+        Returns:
+            The same where nothing could be estimated.
+        """
+        return [*(("experiment", "file") if self.recordings else ()), *ContactSummary.model_fields]
+
+
+def _tables(recording: EstimateSummary | EstimatedRecording) -> Iterator[Table | str]:
+    if recording.contacts:
+        yield table_of(recording.contacts, recording.experiment)
+    if recording.skin:
+        yield table_of(recording.skin, f"{recording.experiment}: contacts on skin")
+    if recording.parts:
+        yield table_of(recording.parts, "")
+    for row in recording.parts:
+        for group in row.ambiguous:
+            yield f"{row.part}, {row.interval}: cannot tell apart {', '.join(group)}"
+    if recording.fusion is not None:
+        yield from recording.fusion.blocks()
+
+
+@with_recording_notes
+def estimates_of_recordings(summaries: Mapping[str, EstimateSummary]) -> EstimateSummary:
+    """Put what several recordings amount to together; nothing is pooled, as every one has samples of its own.
+
+    Args:
+        summaries: Summaries by name of the experiment file.
+
+    Returns:
+        One that holds them all.
+    """
+    return EstimateSummary(
+        experiment="; ".join(summary.experiment for summary in summaries.values()),
+        file=None,
+        rows=sum(summary.rows for summary in summaries.values()),
+        readings={},
+        contacts=(),
+        parts=(),
+        left_out=(),
+        recordings=tuple(
+            EstimatedRecording(**{name: getattr(summary, name) for name in EstimatedRecording.model_fields})
+            for summary in summaries.values()
+        ),
+        warnings=tuple(f"{name}: {words}" for name, summary in summaries.items() for words in summary.warnings),
+    )
+
+
+@with_recording_notes
+def summarise_estimates(
+    experiment: Experiment,
+    corrections: Mapping[str, Correction],
+    spans: Sequence[IntervalEstimates],
+    *,
+    file: Path | None = None,
+    fusions: Sequence[IntervalFusion] = (),
+    frictions: tuple[Friction, ...] = (),
+) -> EstimateSummary:
+    """Say what estimates amount to, and write every sample of them to a file.
+
+    Args:
+        experiment: The experiment.
+        corrections: How its sensors were read.
+        spans: Its estimates, as `estimate_experiment` gives them.
+        file: File for every sample, .parquet or .csv; none if left out.
+        fusions: Fused torques over the same intervals, as `fuse_experiment` gives them; none if they are not wanted.
+        frictions: Friction of the motors, likewise.
+
+    Returns:
+        Mean norms of contacts and residuals.
+
+    Raises:
+        FormatError: If the name of the file ends otherwise.
+    """
+    if file is not None:
+        fused = {one.interval.label: one for one in fusions}
+        tables = [_for_table(experiment, span, fused.get(span.interval.label)) for span in spans]
+        write_estimates(file, tables, experiment.model)
+    fusion = summarise_fusion(experiment, list(fusions), frictions) if fusions else None
+    left_out = tuple(dict.fromkeys(sentence for span in spans for sentence in span.left_out))
+    validity = tuple(_outside(corrections, spans))
+    return EstimateSummary(
+        experiment=experiment.name,
+        file=None if file is None else str(file),
+        rows=sum(len(span.stamp_ns) for span in spans),
+        readings={sensor: correction.source for sensor, correction in corrections.items()},
+        contacts=tuple(row for span in spans for row in _contacts(span)),
+        parts=tuple(row for span in spans for row in _parts(span)),
+        left_out=left_out,
+        validity=validity,
+        fusion=fusion,
+        skin=tuple(row for span in spans for row in skin_rows(span)),
+        warnings=(
+            *sentences(validity),
+            *_doubts(corrections, spans),
+            *(f"left out: {sentence}" for sentence in left_out),
+            *(() if fusion is None else fusion.warnings()),
+        ),
+    )
+
+
+def _outside(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[ReadingsOutside]:
+    for sensor, correction in corrections.items():
+        if correction.calibration is not None:
+            yield outside_row(
+                correction.matrix_source, correction.calibration, [span.applied[sensor] for span in spans]
+            )
+
+
+def _doubts(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[str]:
+    exact = tuple(
+        name for name, one in corrections.items() if one.calibration is None or one.calibration.posterior is None
+    )
+    resting = tuple(name for name, one in corrections.items() if one.calibration is None and one.removes_offset)
+    for span in spans:
+        yield from skin_doubts(span, exact, resting)
+    for sensor, one in corrections.items():
+        if not one.removes_offset:
+            yield (
+                f"{sensor}: no offset removed, so that its forces hold whatever offset the sensor has; see --offset, "
+                "from Python offset"
+            )
+
+
+def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalFusion | None) -> EstimatedSpan:
+    return EstimatedSpan(
+        label=span.interval.label,
+        stamp_ns=span.stamp_ns,
+        time_s=seconds_since(span.stamp_ns, experiment.recording.start_ns),
+        measured=span.measured,
+        estimates=span.estimates,
+        outside={
+            sensor: np.ma.masked_array(applied.outside, mask=~applied.known) for sensor, applied in span.applied.items()
+        },
+        fused_joints=() if fused is None else fused.fusion.joints,
+        torques={} if fused is None else dict(fused.columns()),
+        uncertain=span.uncertain,
+        centres={source.contact.name: source.centre for source in span.skin},
+        identities={source.contact.name: source.identity for source in span.skin},
+    )
+
+
+def _contacts(span: IntervalEstimates) -> Iterator[ContactSummary]:
+    for name in span.estimates.layout.contacts:
+        wrench = span.estimates.contact(name)
+        norms = _norms(wrench)
+        time_s = seconds_since(span.stamp_ns, int(span.stamp_ns[0]))[np.isfinite(wrench).all(axis=1)]
+        force = None if norms is None else sample_statistics(norms[:, :1], time_s)
+        yield ContactSummary(
+            interval=span.interval.label,
+            contact=name,
+            samples=0 if norms is None else len(norms),
+            force_mean_N=None if force is None else float(force.mean[0]),
+            force_standard_error_N=None if force is None else finite_or_none(float(force.standard_error[0])),
+            force_half_width_95_N=None if force is None else finite_or_none(float(force.half_width[0])),
+            force_deviation_N=None if force is None else finite_or_none(float(force.deviation[0])),
+            force_smallest_N=None if force is None else float(force.smallest[0]),
+            force_largest_N=None if force is None else float(force.largest[0]),
+            moment_mean_Nm=None if norms is None else float(norms[:, 1].mean()),
+        )
+
+
+def _parts(span: IntervalEstimates) -> Iterator[SubModelSummary]:
+    estimates = span.estimates
+    for k, name in enumerate(estimates.layout.parts):
+        whole = np.isfinite(estimates.residual[:, k]).all(axis=1)
+        norms = _norms(estimates.residual[:, k])
+        mean = None if norms is None else norms.mean(axis=0)
+        condition = estimates.condition[:, k][np.isfinite(estimates.condition[:, k])]
+        yield SubModelSummary(
+            interval=span.interval.label,
+            part=name,
+            rank=int(estimates.rank[whole, k].min()) if whole.any() else 0,
+            condition_largest=float(condition.max()) if len(condition) else None,
+            residual_force_mean_N=None if mean is None else float(mean[0]),
+            residual_moment_mean_Nm=None if mean is None else float(mean[1]),
+            ambiguous=span.ambiguous.get(name, ()),
+        )
+
+
+def _norms(wrench: FloatArray) -> FloatArray | None:
+    """Norms of force and moment in samples without a gap; shape (n, 2); N, N m; None if every sample has one."""
+    whole = wrench[np.isfinite(wrench).all(axis=1)]
+    return np.linalg.norm(whole.reshape(-1, 2, 3), axis=2) if len(whole) else None

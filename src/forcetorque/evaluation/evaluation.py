@@ -1,0 +1,357 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Evaluate calibrations of a sensor on data that were not fitted: errors against the expected wrench."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.noise.means import one_after_another
+from forcetorque.evaluation.load_cases.evidence import JudgedExcitation, fewest_independent, still_words
+from forcetorque.evaluation.load_cases.judgement import use_verdicts
+from forcetorque.evaluation.load_cases.prior_comparison import PriorComparison, comparison_sentence, prior_comparisons
+from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_sentences
+from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.candidates import Calibrations, JudgedCandidate, JudgedRow, JudgedWrenches, named
+from forcetorque.experiment.error_statistics import wrench_errors
+from forcetorque.experiment.offset_policy import Offset
+from forcetorque.experiment.unfitted_samples import doubts_about_choice, require_unseen
+from forcetorque.experiment.validity import ReadingsOutside, readings_outside, sentences
+from forcetorque.payload.diagnostics import circular_loads
+from forcetorque.recording.recording import Use
+from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.result import Result
+from forcetorque.results.row import Shown, ShownWrench, WrenchValues
+from forcetorque.results.table import VAGUE_WORDS, Table, short_names, table_of, with_first_column, without_vague
+
+if TYPE_CHECKING:
+    from forcetorque.experiment.sensor_run import SensorRun
+
+
+_WORTH = ("independent", "excitation_N", "excitation_Nm")
+"""What tells how much an error is worth, in the second table."""
+
+_VARYING = {"offset", "rmse", "force_error_mean_N", "moment_error_mean_Nm"}
+"""What the first table has."""
+
+ERROR_WORDS = (
+    "per axis: RMSE, and below it the constant part of it; force, moment: mean norm of the error ± half its 95 % "
+    f"interval ({VAGUE_WORDS}); moved: standard deviation of the load"
+)
+"""Which number is which."""
+
+
+def error_tables(
+    rows: Sequence[CandidateErrors], caption: str, *, recordings: Sequence[str] | None = None
+) -> Iterator[Table]:
+    """Put errors into two tables that fit a page.
+
+    Args:
+        rows: Errors, at least one row.
+        caption: What they are of.
+        recordings: Recording of every row; None where there is one for all.
+
+    Yields:
+        RMSE per axis with norms; and mean errors per axis of the same candidates, where the offset is not that of the
+        judged samples themselves, which leaves none, with what tells how much the errors are worth.
+    """
+    yield _named(without_vague(table_of(rows, caption, leave_out={"bias", *_WORTH})), recordings)
+    kept = [k for k, row in enumerate(rows) if row.offset is not Offset.JUDGED_MEAN]
+    names = None if recordings is None else [recordings[k] for k in kept]
+    shown = table_of([rows[k] for k in kept], "mean error, by its own offset", leave_out=_VARYING)
+    yield _named(shown, names)
+
+
+def smoothing_words(run: SensorRun) -> str:
+    """Say whether reading and reference are smoothed before they are compared.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        The words.
+    """
+    smoothing = run.experiment.processing.smoothing
+    return "not smoothed" if smoothing is None else f"reading and reference smoothed over {smoothing.window_s:g} s"
+
+
+def _named(table: Table, recordings: Sequence[str] | None) -> Table:
+    return table if recordings is None else with_first_column(table, "recording", recordings)
+
+
+class CandidateErrors(JudgedRow):
+    """Errors of one candidate with one offset; per axis in the order fx fy fz (N) tx ty tz (N m)."""
+
+    samples: int
+    """Number of judged samples."""
+    rmse: Annotated[WrenchValues, ShownWrench(digits=3)]
+    """Root mean square error per component; N, N m."""
+    bias: Annotated[WrenchValues, ShownWrench(digits=3)]
+    """Mean error per component, its constant part; N, N m."""
+    largest: WrenchValues
+    """Largest absolute error per component; N, N m."""
+    force_error_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_error_half_width_95_N")]
+    """Mean norm of the force error."""
+    force_error_standard_error_N: float | None
+    """Standard error of that mean; None for one sample."""
+    force_error_half_width_95_N: float | None
+    """Half-width of its 95 % interval; None where it cannot be told."""
+    force_error_largest_N: float
+    """Largest norm of the force error."""
+    moment_error_mean_Nm: Annotated[float, Shown("moment", "N m", digits=3, error="moment_error_half_width_95_Nm")]
+    """Mean norm of the moment error."""
+    moment_error_standard_error_Nm: float | None
+    """Standard error of that mean; None for one sample."""
+    moment_error_half_width_95_Nm: float | None
+    """Half-width of its 95 % interval; None where it cannot be told."""
+    moment_error_largest_Nm: float
+    """Largest norm of the moment error."""
+    independent: Annotated[float | None, Shown("independent", digits=0)]
+    """How many independent samples the errors are worth, of the component worth the fewest; None where none changes."""
+    excitation_N: Annotated[float, Shown("moved", "N", digits=1)]
+    """Standard deviation of the reference force over the judged samples, all three components together."""
+    excitation_Nm: Annotated[float, Shown("moved", "N m", digits=2)]
+    """The same of the reference moment."""
+    load_N: float
+    """What that is little or much of: root mean square judged force, or standard deviation of the fitted ones where
+    that is larger."""
+    load_Nm: float
+    """The same of the moment."""
+
+    @property
+    def hardly_moved(self) -> bool:
+        """Whether force or moment moved so little that a wrong matrix would show nothing in this error."""
+        return self.hardly_moved_words is not None
+
+    @property
+    def hardly_moved_words(self) -> str | None:
+        """The same in words; None where the loads moved."""
+        return still_words(self.excitation_N, self.load_N, self.excitation_Nm, self.load_Nm)
+
+
+class RecordingErrors(CandidateErrors):
+    """The same on one of several recordings."""
+
+    recording: str
+    """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
+
+
+class Evaluation(Result):
+    """Errors of calibrations, and of the priors that they came from, on data that was not fitted."""
+
+    of_several: ClassVar[tuple[str, ...]] = ("recordings",)
+
+    interval_uses = ()
+
+    schema_name: Literal["forcetorque/evaluate/1"] = Field(default="forcetorque/evaluate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment; of several recordings their names, apart by semicolons."""
+    verdicts: tuple[CandidateErrors, ...]
+    """One per sensor, candidate and offset, errors of all recordings pooled."""
+    recordings: tuple[RecordingErrors, ...] = ()
+    """One per sensor, candidate, offset and recording; none where there is one recording."""
+    comparisons: tuple[PriorComparison, ...] = ()
+    """Calibrations against their priors, force and moment, all recordings pooled."""
+    smoothing: tuple[str, ...] = ()
+    """Whether reading and reference were smoothed, in words; of several recordings one per way."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """One per calibration: how far the judged readings lie outside what it was fitted on."""
+    uses: tuple[UseVerdict, ...] = ()
+    """One per calibration and load case: whether it may be used."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give a table per sensor, one of its recordings where there are several, and what calibrations are worth.
+
+        Yields:
+            Tables and sentences.
+        """
+        for sensor in dict.fromkeys(row.sensor for row in self.verdicts):
+            rows = [row for row in self.verdicts if row.sensor == sensor]
+            apart = [row for row in self.recordings if row.sensor == sensor]
+            names = list(dict.fromkeys(row.recording for row in apart))
+            where = f"{len(names)} recordings" if names else self.experiment
+            judged = f"{rows[0].samples} samples that were not fitted"
+            yield from error_tables(rows, f"{where}: {sensor} ({rows[0].serial}), {judged}")
+            if apart:
+                caption = f"{sensor} ({rows[0].serial}), each recording by itself"
+                yield from error_tables(apart, caption, recordings=[row.recording for row in apart])
+        yield f"{ERROR_WORDS}; {'; '.join(self.smoothing)}"
+        yield from self._sentences()
+        yield from use_sentences(self.uses)
+
+    def _sentences(self) -> Iterator[str]:
+        """Say what every calibration is worth against its prior, with either offset."""
+        names = short_names([row.candidate for row in self.verdicts])
+        several = len({row.sensor for row in self.verdicts}) > 1
+        pairs: dict[tuple[str, str, Offset], list[PriorComparison]] = {}
+        for row in self.comparisons:
+            pairs.setdefault((row.sensor, row.candidate, row.offset), []).append(row)
+        for (sensor, candidate, _), rows in pairs.items():
+            yield (f"{sensor}: " if several else "") + comparison_sentence(names[candidate], rows)
+
+    def records(self) -> list[dict[str, object]]:
+        """Give the verdicts as flat lines, and where there are several recordings those on each.
+
+        Returns:
+            A line per row; of several recordings `recording` says which, and is empty where they are pooled.
+        """
+        pooled = [row.flat() for row in self.verdicts]
+        if not self.recordings:
+            return pooled
+        return [{"recording": "", **row} for row in pooled] + [row.flat() for row in self.recordings]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Judged:
+    """What one candidate measures with one offset, and what it should."""
+
+    candidate: JudgedCandidate
+    offset: Offset
+    wrench: FloatArray
+    reference: FloatArray
+    time_s: FloatArray
+
+
+@with_recording_notes
+def evaluate(runs: Runs, calibrations: Calibrations) -> Evaluation:
+    """Judge calibrations, and the priors that they came from, on data that was not fitted.
+
+    Args:
+        runs: The sensor in one recording, or in several.
+        calibrations: Its calibrations by name, or one; without any the prior of the experiment is judged.
+
+    Returns:
+        For every candidate the errors with the offset of the fitted data and with the mean of the judged samples of
+        each recording removed; a prior that several calibrations share comes once. Judged one by one, calibrations
+        that need the same variables have the same errors as together. Errors of several recordings are pooled before
+        anything is averaged. And whether each may be used for the loads to come.
+
+    Raises:
+        SerialNumberError: If a calibration is of another sensor.
+        ExperimentError: If a judged interval was fitted, the robot now reads the sensor in another frame or sign, or a
+            load case cannot be had at the sensor.
+        FitError: If a load case changes a variable that a calibration does not know.
+        ShapeError: If a matrix does not have one column per channel of the sensor.
+    """
+    campaign, judged = Campaign.of(runs), named(calibrations)
+    errors = judge_errors(campaign, judged)
+    return errors.model_copy(update={"uses": use_verdicts(campaign, judged)})
+
+
+def judge_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
+    """Judge calibrations by their errors alone, whatever they are to be used for.
+
+    Args:
+        runs: The sensor in one recording, or in several.
+        calibrations: Its calibrations by name; without any the prior of the experiment is judged.
+
+    Returns:
+        What `evaluate` gives, without verdicts on uses.
+
+    Raises:
+        SerialNumberError: If a calibration is of another sensor.
+        ExperimentError: If a judged interval was fitted, or the robot now reads the sensor in another frame or sign.
+        ShapeError: If a matrix does not have one column per channel of the sensor.
+    """
+    campaign = Campaign.of(runs)
+    wrenches: dict[str, JudgedWrenches] = {}
+    warnings: list[str] = []
+    for run in campaign.runs_with(Use.VALIDATION):
+        with campaign.stated(run):
+            for name, calibration in calibrations.items():
+                require_unseen(name, calibration, run)
+            wrenches[campaign.recording(run)] = run.judged(calibrations)
+        doubts = [words for name, one in calibrations.items() for words in doubts_about_choice(run, name, one)]
+        doubts += circular_loads(run)
+        warnings += (
+            [f"{campaign.recording(run)}: {sentence}" for sentence in doubts] if len(campaign.runs) > 1 else doubts
+        )
+    validity = readings_outside(campaign, calibrations)
+    judged = {recording: list(_judged(wrenches[recording])) for recording in wrenches}
+    apart = (
+        RecordingErrors(recording=recording, **_statistics(campaign, row, calibrations))
+        for rows in zip(*judged.values(), strict=True)
+        for recording, row in zip(judged, rows, strict=True)
+    )
+    verdicts = tuple(
+        CandidateErrors(**_statistics(campaign, _pooled(rows), calibrations))
+        for rows in zip(*judged.values(), strict=True)
+    )
+    return Evaluation(
+        experiment="; ".join(campaign.recordings),
+        verdicts=verdicts,
+        recordings=tuple(apart) if len(campaign.runs) > 1 else (),
+        comparisons=prior_comparisons(campaign.sensor.name, list(wrenches.values())),
+        smoothing=tuple(dict.fromkeys(map(smoothing_words, campaign.runs_with(Use.VALIDATION)))),
+        validity=validity,
+        warnings=(*at_rest(verdicts), *sentences(validity), *warnings),
+    )
+
+
+def _judged(judged: JudgedWrenches) -> Iterator[_Judged]:
+    for candidate, offset, wrench in judged.with_either_offset():
+        yield _Judged(
+            candidate=candidate, offset=offset, wrench=wrench, reference=judged.reference, time_s=judged.time_s
+        )
+
+
+def _pooled(rows: Sequence[_Judged]) -> _Judged:
+    if len(rows) == 1:
+        return rows[0]
+    return replace(
+        rows[0],
+        wrench=np.concatenate([row.wrench for row in rows]),
+        reference=np.concatenate([row.reference for row in rows]),
+        time_s=one_after_another([row.time_s for row in rows]),
+    )
+
+
+def at_rest(verdicts: Sequence[CandidateErrors]) -> tuple[str, ...]:
+    """Say where the loads hardly moved while errors were measured.
+
+    Args:
+        verdicts: The errors.
+
+    Returns:
+        A sentence per sensor where it is so: all its candidates are judged on the same samples.
+    """
+    words = [(row.sensor, row.hardly_moved_words) for row in verdicts]
+    return tuple(dict.fromkeys(f"{sensor}: {still}" for sensor, still in words if still is not None))
+
+
+def _statistics(campaign: Campaign, judged: _Judged, calibrations: Mapping[str, Calibration]) -> dict[str, Any]:
+    errors = wrench_errors(judged.wrench, judged.reference, judged.time_s)
+    excitation = JudgedExcitation.of(judged.reference, calibrations.values())
+    return {
+        "sensor": campaign.sensor.name,
+        "serial": campaign.sensor.serial,
+        "candidate": judged.candidate.name,
+        "offset": judged.offset,
+        "offset_source": judged.candidate.offset_source(judged.offset),
+        "prior": judged.candidate.prior,
+        "samples": errors.count,
+        "rmse": errors.rmse,
+        "bias": errors.bias,
+        "largest": errors.largest,
+        "force_error_mean_N": errors.force_mean,
+        "force_error_standard_error_N": finite_or_none(errors.force_mean_error),
+        "force_error_half_width_95_N": finite_or_none(errors.force_mean_half_width),
+        "force_error_largest_N": errors.force_largest,
+        "moment_error_mean_Nm": errors.moment_mean,
+        "moment_error_standard_error_Nm": finite_or_none(errors.moment_mean_error),
+        "moment_error_half_width_95_Nm": finite_or_none(errors.moment_mean_half_width),
+        "moment_error_largest_Nm": errors.moment_largest,
+        "independent": fewest_independent(judged.wrench - judged.reference, judged.time_s),
+        "excitation_N": excitation.force,
+        "excitation_Nm": excitation.moment,
+        "load_N": excitation.load_force,
+        "load_Nm": excitation.load_moment,
+    }

@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of clouds of forces or moments, with the ellipsoid and the sphere through them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Final, Literal, get_args
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ShapeError
+from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.calibration.figures.excitation import outline
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
+from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
+from forcetorque.results.figures.canvas import (
+    PLANES,
+    REFERENCE_COLOUR,
+    ROW_INCHES,
+    TITLE_POINTS,
+    Look,
+    legend_below,
+    look,
+    new_figure,
+    shown_name,
+)
+from forcetorque.results.figures.curves import drawable, thinned_cloud
+from forcetorque.results.table import short_names
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+_OUTLINE_POINTS = 181
+_MAPPED, _FREE = look(1), look(2)
+_FEW = 300
+"""Points that can be told apart one by one."""
+_FAR = 2.5
+"""An outline that is so many times larger than the cloud would hide it and is not drawn."""
+
+
+def sphere_figure(spheres: Sequence[SensorSphere]) -> Figure:
+    """Draw the clouds, ellipsoids and spheres of sensors as seen along the axes [1].
+
+    Everything is moved so that the offset of the sensor is zero, as well as it is known: the centre of the ellipsoid
+    with the model if it is identifiable, else of the one without if that is; else the mean of measured minus reference
+    forces; without a reference the centre of the sphere of one radius, or the middle of the cloud. Ellipsoids are
+    outlined as they are seen, so the outline reaches to their half-widths, not to the axis intersections. An outline
+    that is not identifiable is dotted, and left out where it is far larger than the cloud.
+
+    Args:
+        spheres: Analyses, a row each.
+
+    Returns:
+        The figure, three views per row.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+        ShapeError: If there is no analysis.
+
+    References:
+        [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figures 4.2 to 4.4.
+    """
+    if not spheres:
+        raise ShapeError("spheres: expected at least one to draw, got none")
+    names = short_names([sphere.candidate for sphere in spheres])
+    figure = new_figure(ROW_INCHES[1] * len(spheres))
+    rows = figure.subplots(len(spheres), 3, squeeze=False)
+    for panels, sphere in zip(rows, spheres, strict=True):
+        centre = _centre(sphere)
+        for panel, plane in zip(panels, PLANES, strict=True):
+            _draw_plane(panel, sphere, centre, plane)
+        panels[0].set_title(
+            shown_name(f"{sphere.sensor} ({sphere.serial}), {names[sphere.candidate]}"),
+            loc="left",
+            fontsize=TITLE_POINTS,
+        )
+    legend_below(figure, _keys(spheres))
+    return figure
+
+
+def _keys(spheres: Sequence[SensorSphere]) -> list[tuple[str, dict[str, Any]]]:
+    keys: list[tuple[str, dict[str, Any]]] = [("forces read", {**look(0).key, "linestyle": "none"})]
+    if any(sphere.analysis.mapped is not None for sphere in spheres):
+        keys.append(("ellipsoid with the model", {"color": _MAPPED.colour, "linestyle": _MAPPED.dashes}))
+    keys.append(("ellipsoid without the model", {"color": _FREE.colour, "linestyle": _FREE.dashes}))
+    if any(not fit.tilt_identifiable for sphere in spheres for fit in _fits(sphere)):
+        keys.append(("not identifiable", {"color": "0.5", "linestyle": ":"}))
+    if any(sphere.analysis.mass is not None for sphere in spheres):
+        keys.append(("weight by the model", {"color": REFERENCE_COLOUR, "linestyle": "-"}))
+    return keys
+
+
+def _fits(sphere: SensorSphere) -> list[Any]:
+    mapped = sphere.analysis.mapped
+    return [sphere.analysis.free] if mapped is None else [mapped.fit, sphere.analysis.free]
+
+
+def _centre(sphere: SensorSphere) -> FloatArray:
+    """What the sensor reads without force, as well as it is known; shape (3,)."""
+    analysis = sphere.analysis
+    if analysis.mapped is not None and analysis.mapped.fit.identifiable:
+        return analysis.mapped.centre
+    if analysis.free.identifiable and analysis.free.ellipsoid is not None:
+        return analysis.free.ellipsoid.centre
+    if sphere.reference is not None:
+        shift: FloatArray = (sphere.force - sphere.reference).mean(axis=0)
+        return shift
+    if analysis.radius.centre is not None:
+        return analysis.radius.centre
+    middle: FloatArray = sphere.force.mean(axis=0)
+    return middle
+
+
+def _draw_plane(panel: Axes, sphere: SensorSphere, centre: FloatArray, plane: tuple[int, int]) -> None:
+    force = thinned_cloud(sphere.force - centre)[:, plane]
+    cloud = look(0)
+    size_points = 5.0 if len(force) < _FEW else 1.8
+    panel.plot(*force.T, cloud.marker, color=cloud.colour, markersize=size_points, markeredgewidth=0.0, alpha=0.5)
+    analysis = sphere.analysis
+    if analysis.mass is not None:
+        circle = analysis.mass * analysis.gravity * _circle()
+        panel.plot(*circle.T, color=REFERENCE_COLOUR, linewidth=1.0)
+    size = max(float(np.ptp(sphere.force, axis=0).max()), (analysis.mass or 0.0) * analysis.gravity)
+    drawn = [(analysis.free, _FREE)]
+    if analysis.mapped is not None:
+        drawn.append((analysis.mapped.fit, _MAPPED))
+    for fit, style in drawn:
+        if fit.ellipsoid is not None and float(fit.ellipsoid.half_widths.max()) < _FAR * size:
+            outline = ellipsoid_outline(fit.ellipsoid, plane) - centre[list(plane)]
+            panel.plot(
+                *outline.T, color=style.colour, linestyle=style.dashes if fit.tilt_identifiable else ":", linewidth=1.4
+            )
+    panel.set_aspect("equal", adjustable="datalim")
+    panel.grid(visible=True, color="0.9", linewidth=0.6)
+    panel.set_axisbelow(True)
+    panel.set_xlabel(f"{WRENCH_COMPONENTS[plane[0]]}, N")
+    panel.set_ylabel(f"{WRENCH_COMPONENTS[plane[1]]}, N")
+
+
+def ellipsoid_outline(ellipsoid: Ellipsoid, plane: tuple[int, int]) -> FloatArray:
+    """Outline an ellipsoid as it is seen along an axis.
+
+    Args:
+        ellipsoid: The ellipsoid.
+        plane: Indices of the two axes that are seen.
+
+    Returns:
+        Points of the closed outline; shape (m, 2).
+    """
+    # the shadow of an ellipsoid: what its inverse shape has of the plane
+    shadow = np.linalg.inv(ellipsoid.shape)[np.ix_(plane, plane)]
+    outline: FloatArray = ellipsoid.centre[list(plane)] + _circle() @ np.linalg.cholesky(shadow).T
+    return outline
+
+
+def _circle() -> FloatArray:
+    angle = np.linspace(0.0, 2.0 * np.pi, _OUTLINE_POINTS)
+    return np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+Quantity = Literal["force", "moment"]
+"""What the clouds are of."""
+
+_LABELS: Final[dict[Quantity, list[str]]] = {
+    "force": [f"{name}, N" for name in WRENCH_COMPONENTS[:3]],
+    "moment": [f"{name}, N m" for name in WRENCH_COMPONENTS[3:]],
+}
+
+
+def force_space_figure(
+    clouds: Mapping[str, Sequence[tuple[str, FloatArray]]], *, quantity: Quantity = "force"
+) -> Figure:
+    """Draw clouds of forces, or of moments, as seen along the three axes.
+
+    Clouds of one name look alike in all rows. Those of many samples are thinned evenly in time; dashes outline the
+    convex hull of all samples, above all points, so that a cloud that lies under another is seen.
+
+    Args:
+        clouds: By the title of a row, names and forces or moments of its clouds, drawn in this order; shape (n, 3);
+            N or N m. A sample with a component that is not a finite number is left out.
+        quantity: What they are, `force` or `moment`; of wrenches (n, 6) the first or the last three columns.
+
+    Returns:
+        The figure, a row of three views per title.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+        ShapeError: If there are no rows, one has no clouds, a cloud is empty or of another shape, or the quantity is
+            another.
+    """
+    if quantity not in _LABELS:
+        raise ShapeError(f"quantity: expected one of {list(get_args(Quantity))}, got {quantity!r}")
+    rows = _checked(clouds)
+    names = list(dict.fromkeys(name for named in rows.values() for name, _ in named))
+    looks = {name: look(k) for k, name in enumerate(names)}
+    figure = new_figure(ROW_INCHES[1] * len(rows))
+    grid = figure.subplots(len(rows), 3, squeeze=False)
+    labels = _LABELS[quantity]
+    for panels, (title, named) in zip(grid, rows.items(), strict=True):
+        for panel, plane in zip(panels, PLANES, strict=True):
+            _draw_force_plane(panel, [(looks[name], points[:, plane]) for name, points in named])
+            panel.set_xlabel(labels[plane[0]])
+            panel.set_ylabel(labels[plane[1]])
+        panels[0].set_title(shown_name(title), fontsize=TITLE_POINTS, loc="left")
+    legend_below(figure, [(shown_name(name), style.key) for name, style in looks.items()])
+    return figure
+
+
+def _checked(clouds: Mapping[str, Sequence[tuple[str, Any]]]) -> dict[str, list[tuple[str, FloatArray]]]:
+    """Clouds of every row without the samples that are not whole."""
+    if not clouds:
+        raise ShapeError("clouds: expected at least one row of clouds to draw, got none")
+    rows = {}
+    for title, named in clouds.items():
+        if not named:
+            raise ShapeError(f"clouds[{title!r}]: expected at least one cloud to draw, got none")
+        drawables = [
+            (name, drawable(points, name=f"clouds[{title!r}], {name!r}", shape=(None, 3))) for name, points in named
+        ]
+        rows[title] = [(name, points[np.isfinite(points).all(axis=1)]) for name, points in drawables]
+    return rows
+
+
+def _draw_force_plane(panel: Axes, clouds: list[tuple[Look, FloatArray]]) -> None:
+    for style, points in clouds:
+        panel.plot(
+            *thinned_cloud(points).T, style.marker, color=style.colour, markersize=2.4, markeredgewidth=0.0, alpha=0.5
+        )
+    for style, points in clouds:
+        panel.plot(*outline(points).T, color=style.colour, linestyle=style.dashes, linewidth=1.2, zorder=3.0)
+    panel.set_aspect("equal", adjustable="datalim")
+    panel.grid(visible=True, color="0.9", linewidth=0.6)
+    panel.set_axisbelow(True)

@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What error a sensor will make at the loads of a use, as its posterior knows it: before the calibration and after.
+
+The error of a reading under a load w is linear in the unknowns u of the posterior: `T (u - mean of u) x` after, with
+x = [w, variables, offset of the session], and with the mean kept in and T = 1 for the prior matrix. Its mean square
+over the loads of a use is `d S d^T` for every component, d a row of the unknowns and S the mean of x x^T: draws of u
+give its distribution exactly.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.errors import FitError
+from forcetorque.base.wrench import FORCE_AND_MOMENT
+from forcetorque.evaluation.load_cases.load_case import LoadCase, UseOffset
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.posterior import Posterior
+
+CONFIDENCE: Final = 0.95
+"""Probability with which force and moment errors are both at most the upper ends that are stated.
+
+Each end is therefore exceeded with half of the rest, which also makes the two ends of one size a 95 % interval.
+"""
+_TAIL: Final = 0.5 * (1.0 - CONFIDENCE)
+_DRAWS: Final = 4000
+_SEED: Final = 16
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ErrorSources:
+    """Root mean square of what each source adds to an error; matrix and offset of one fit lean against each other."""
+
+    matrix: float
+    """Error of the matrix."""
+    offset: float
+    """Error of the offset; 0 where it is taken anew."""
+    variables: float
+    """Error of the coefficients of variables such as temperature."""
+    noise: float
+    """Noise of a reading that is averaged over a second."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ErrorSize:
+    """Root mean square error over the loads of a use, of force or moment."""
+
+    typical: float
+    """Median."""
+    at_least: float
+    """Lower end of its 95 % interval; errors below it are common where a sensor repeats itself better than assumed."""
+    at_most: float
+    """Upper end of its 95 % interval."""
+    axes: FloatArray
+    """Expected root mean square of the three components; shape (3,)."""
+    sources: ErrorSources
+    """Where it comes from."""
+    draws: FloatArray
+    """Draws of it, from which any quantile follows; shape (m,)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PredictedError:
+    """Predicted error of readings at the loads of a use."""
+
+    force: ErrorSize
+    """Of the force; N."""
+    moment: ErrorSize
+    """Of the moment; N m."""
+
+    def within(self, force_N: float, moment_Nm: float) -> float:
+        """Give the probability that force and moment errors are both no more than what is allowed.
+
+        Args:
+            force_N: Allowed root mean square force error.
+            moment_Nm: Allowed root mean square moment error.
+
+        Returns:
+            The probability.
+        """
+        held: BoolArray = (self.force.draws <= force_N) & (self.moment.draws <= moment_Nm)
+        return float(held.mean())
+
+
+def predict(calibration: Calibration, case: LoadCase) -> PredictedError:
+    """Predict the error of a calibration at the loads of a use.
+
+    Args:
+        calibration: A calibration of the generative model.
+        case: The use.
+
+    Returns:
+        The error, noise of a reading included.
+
+    Raises:
+        FitError: If the calibration has no posterior, or not the variables of the use.
+    """
+    return predict_by(_posterior(calibration), case)
+
+
+def predict_by(posterior: Posterior, case: LoadCase) -> PredictedError:
+    """Predict the error at the loads of a use by what is known of a sensor.
+
+    Args:
+        posterior: What is known.
+        case: The use.
+
+    Returns:
+        The error, noise of a reading included.
+
+    Raises:
+        FitError: If the posterior has not the variables of the use.
+    """
+    unknowns = posterior.to_wrench @ _draws(posterior)
+    return _error(unknowns, posterior, posterior.to_wrench, moment_of_use(posterior, case))
+
+
+def predict_prior(calibration: Calibration, case: LoadCase) -> PredictedError | None:
+    """Say what error the prior matrix makes at the loads of a use, by all that the recordings tell of it.
+
+    Its offset is that which the same recordings give it, and it knows of no variables.
+
+    Args:
+        calibration: A calibration of the generative model.
+        case: The use.
+
+    Returns:
+        The error; None without a prior.
+
+    Raises:
+        FitError: If the calibration has no posterior, or not the variables of the use.
+    """
+    posterior = _posterior(calibration)
+    if calibration.prior is None:
+        return None
+    to_wrench = np.eye(6) if posterior.space == "wrench" else calibration.prior.matrix
+    unknowns = to_wrench @ (posterior.mean + _draws(posterior))
+    if posterior.space == "channel":
+        unknowns[..., :6] -= np.eye(6)
+    if case.offset is UseOffset.FITTED:
+        unknowns[..., _offset_place(posterior)] += calibration.prior.offset
+    return _error(unknowns, posterior, to_wrench, moment_of_use(posterior, case))
+
+
+def _posterior(calibration: Calibration) -> Posterior:
+    if calibration.posterior is None:
+        raise FitError(
+            f"an error at other loads needs a calibration with a covariance, got one of type "
+            f"{calibration.estimation_type!r}; fit it by the generative model, the default of `forcetorque calibrate`"
+        )
+    return calibration.posterior
+
+
+def _draws(posterior: Posterior) -> FloatArray:
+    """Deviations of all unknowns from their mean, the same ones on every call; shape (m, rows, p)."""
+    values, vectors = np.linalg.eigh(posterior.covariance)
+    roots = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
+    normal = np.random.default_rng(_SEED).normal(size=(_DRAWS, *posterior.mean.shape))
+    draws: FloatArray = np.einsum("ijk,mik->mij", roots, normal)
+    return draws
+
+
+def _offset_place(posterior: Posterior) -> int:
+    """Column of the offset of the last session, the one that `Calibration.offset` is of."""
+    return 6 + len(posterior.variables) + len(posterior.sessions) - 1
+
+
+def moment_of_use(posterior: Posterior, case: LoadCase) -> FloatArray:
+    """Average the products of what the unknowns of a row are multiplied by over the loads of a use.
+
+    Args:
+        posterior: What the unknowns are of.
+        case: The use.
+
+    Returns:
+        Mean products; shape (p, p).
+
+    Raises:
+        FitError: If the posterior has not the variables of the use.
+    """
+    absent = [name for name in case.changes if name not in posterior.variables]
+    if absent:
+        raise FitError(
+            f"load case {case.name!r}: expected changes of variables that the calibration has, which are "
+            f"{', '.join(posterior.variables) or 'none'}, got {', '.join(absent)}; fit the variable or leave it out"
+        )
+    x = np.zeros((len(case.wrench), posterior.mean.shape[1]))
+    x[:, :6] = case.wrench
+    if case.offset is UseOffset.FITTED:
+        x[:, :6] += posterior.load_centre
+        x[:, _offset_place(posterior)] = 1.0
+    moment = x.T @ x / len(x)
+    # variables go either way, whatever the load
+    for name, change in case.changes.items():
+        place = 6 + posterior.variables.index(name)
+        moment[place, place] += change**2
+    return moment
+
+
+def _error(unknowns: FloatArray, posterior: Posterior, to_wrench: FloatArray, moment: FloatArray) -> PredictedError:
+    """Errors by the unknowns as what they do to every component; shape of those (m, 6, p)."""
+    noise = to_wrench**2 @ np.array([row.white**2 for row in posterior.noise])
+    square = np.einsum("mij,jk,mik->mi", unknowns, moment, unknowns, optimize=True) + noise
+    v = len(posterior.variables)
+    shares = [
+        np.einsum("mij,jk,mik->i", unknowns[..., at], moment[at, at], unknowns[..., at], optimize=True) / len(unknowns)
+        for at in (slice(6), slice(6 + v, None), slice(6, 6 + v))
+    ]
+    sizes = [_size(square[:, part], [share[part].sum() for share in (*shares, noise)]) for part in FORCE_AND_MOMENT]
+    return PredictedError(force=sizes[0], moment=sizes[1])
+
+
+def _size(square: FloatArray, shares: list[float]) -> ErrorSize:
+    draws = np.sqrt(square.sum(axis=1))
+    matrix, offset, variables, noise = np.sqrt(shares).tolist()
+    low, middle, high = np.quantile(draws, [_TAIL, 0.5, 1.0 - _TAIL]).tolist()
+    return ErrorSize(
+        typical=middle,
+        at_least=low,
+        at_most=high,
+        axes=np.sqrt(square.mean(axis=0)),
+        sources=ErrorSources(matrix=matrix, offset=offset, variables=variables, noise=noise),
+        draws=draws,
+    )

@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sphere analysis of one sensor over some intervals, with its prior and with other calibrations."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, FitError, known_names
+from forcetorque.evaluation.sphere.analysis import SphereAnalysis, analyse_sphere
+from forcetorque.experiment.applicability import overlapping
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.candidates import PRIOR
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.sensor_reading import Correction, Readings
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Interval, Use
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.root_motion import joints_to_support
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.tree import build_tree
+
+_ROUNDING = 1e-9
+"""Relative difference of masses that are sums of the same ones in another order."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SensorSphere:
+    """Sphere analysis of one sensor read in one way."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    candidate: str
+    """`prior`, or the name of a calibration."""
+    intervals: tuple[str, ...]
+    """Labels of the intervals whose samples were taken together."""
+    fitted_on: tuple[str, ...]
+    """Those of them that the calibration was fitted on: it is then judged too kindly."""
+    no_reference: str | None
+    """Why the model gives no reference; None where it does."""
+    force: FloatArray
+    """What the sensor read; shape (n, 3); N."""
+    reference: FloatArray | None
+    """What it should have read; shape (n, 3); N."""
+    analysis: SphereAnalysis
+    """The analysis."""
+
+    @property
+    def no_fit_with_model(self) -> str | None:
+        """Why there is no fit with the model; None where there is one."""
+        if self.analysis.mapped is not None:
+            return None
+        return self.no_reference or "the reference forces lie in a plane"
+
+
+def sphere_intervals(experiment: Experiment, names: Sequence[str] | None) -> tuple[Interval, ...]:
+    """Choose the intervals whose motion draws a sphere.
+
+    Args:
+        experiment: The experiment.
+        names: Labels or kinds of intervals; None for those that the file names as sphere intervals, else for all
+            that are not to be ignored.
+
+    Returns:
+        Intervals in the order of the file.
+
+    Raises:
+        ExperimentError: If nothing is called so, or there is no interval.
+    """
+    usable = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
+    if names is None:
+        labels = experiment.sphere_intervals or tuple(interval.label for interval in usable)
+    else:
+        labels = tuple(dict.fromkeys(label for name in names for label in _labelled(experiment, usable, name)))
+    chosen = tuple(interval for interval in usable if interval.label in labels)
+    if not chosen:
+        raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")
+    return chosen
+
+
+def sensor_spheres(
+    run: SensorRun, calibrations: Mapping[str, Calibration], intervals: Sequence[Interval]
+) -> tuple[SensorSphere, ...]:
+    """Analyse a sensor with its prior and with calibrations, on the same samples.
+
+    Where the log lacks joints that the reference needs, there is none; the mass beyond the sensor is
+    known from the model in any case.
+
+    Args:
+        run: The sensor.
+        calibrations: Its calibrations by name.
+        intervals: Intervals whose samples are taken together, but for those in which something touches the robot beyond
+            the sensor.
+
+    Returns:
+        An analysis for each way to read the sensor, the prior first.
+
+    Raises:
+        ForceTorqueError: If a fit fails.
+        ExperimentError: If there is no way to read the sensor, a calibration may not be applied, something touches
+            beyond the sensor in every interval, or the supports of the intervals are on both sides of the sensor, so
+            that not the same mass hangs on it.
+        SerialNumberError: If a calibration is of another sensor.
+    """
+    where = f"sensor {run.sensor.name!r}"
+    with stated_in(where):
+        for name in calibrations:
+            run.require_fit(name, calibrations[name])
+        intervals = run.known(intervals)
+        corrections = _corrections(run, calibrations)
+        reason = _no_reference(run, intervals)
+        needed = {variable for _, correction, _ in corrections for variable in correction.variables}
+        spans, reference = _collected(run, intervals, needed, with_reference=reason is None)
+        mass = _one_mass(run, intervals)
+    spheres = []
+    for name, correction, calibration in corrections:
+        with stated_in(f"{where}, {name}"):
+            wrench = run.read(spans, correction)
+            analysis = _analysed(wrench, reference, gravity=run.experiment.processing.gravity, mass=mass)
+        spheres.append(
+            SensorSphere(
+                sensor=run.sensor.name,
+                serial=run.sensor.serial,
+                candidate=name,
+                intervals=tuple(interval.label for interval in intervals),
+                fitted_on=_fitted_on(run, calibration, intervals),
+                no_reference=reason,
+                force=wrench[:, :3],
+                reference=None if reference is None else reference[:, :3],
+                analysis=analysis,
+            )
+        )
+    return tuple(spheres)
+
+
+def _labelled(experiment: Experiment, usable: Sequence[Interval], name: str) -> list[str]:
+    """Labels of the intervals that have this label, or are of this kind."""
+    labels = [interval.label for interval in usable]
+    if name in labels:
+        return [name]
+    of_kind = [label for label in labels if experiment.roles[label].kind == name]
+    if not of_kind:
+        known = {*labels, *(experiment.roles[label].kind for label in labels)}
+        raise ExperimentError(
+            f"experiment {experiment.name!r}: no interval to use has the label or kind {name!r}; "
+            f"{known_names(name, known)}"
+        )
+    return of_kind
+
+
+def _corrections(
+    run: SensorRun, calibrations: Mapping[str, Calibration]
+) -> list[tuple[str, Correction, Calibration | None]]:
+    """Ways to read a sensor by name, the prior first and with no offset removed: the centre is what is looked for."""
+    if run.sensor.prior is None and not calibrations:
+        raise ExperimentError("raw counts become forces by a calibration or a prior matrix")
+    prior = [] if run.sensor.prior is None else [(PRIOR, Correction.without_offset(run.sensor), None)]
+    return [
+        *prior,
+        *((name, Correction.of(name, calibration), calibration) for name, calibration in calibrations.items()),
+    ]
+
+
+def _no_reference(run: SensorRun, intervals: Sequence[Interval]) -> str | None:
+    """Say which joints the reference lacks; None if it lacks none."""
+    recording, model = run.experiment.recording, run.experiment.model
+    logged = recording.joint_signals("position")
+    missing: dict[str, None] = {}
+    for interval in intervals:
+        needed = required_joints_of(_question(run, interval))
+        if interval.support is not None:
+            needed += joints_to_support(model, recording, interval.support)
+        missing.update(dict.fromkeys(joint for joint in needed if joint not in logged))
+    return f"no stream holds the position of {', '.join(missing)}" if missing else None
+
+
+def _question(run: SensorRun, interval: Interval) -> Question:
+    if interval.support is None:
+        raise ExperimentError(f"interval {interval.label!r}: expected a support frame, got none")
+    tree = build_tree(run.experiment.model_on(interval.support), interval.support.frame)
+    return Question(tree=tree, expected=(run.sensor.name,), equations=())
+
+
+def _collected(
+    run: SensorRun, intervals: Sequence[Interval], variables: Collection[str], *, with_reference: bool
+) -> tuple[list[tuple[Interval, Readings]], FloatArray | None]:
+    """Readings of every interval, and references one after the other."""
+    if not with_reference:
+        return [(interval, run.interval_readings(interval, variables=variables)) for interval in intervals], None
+    samples = [run.interval_samples(interval, variables=variables) for interval in intervals]
+    reference = np.concatenate([one.samples.reference for one in samples])
+    return [(one.interval, one.readings) for one in samples], reference
+
+
+def _analysed(
+    wrench: FloatArray, reference: FloatArray | None, *, gravity: float, mass: float | None
+) -> SphereAnalysis:
+    try:
+        return analyse_sphere(wrench, reference, gravity=gravity, mass=mass)
+    except np.linalg.LinAlgError as error:
+        raise FitError(str(error)) from error
+
+
+def _one_mass(run: SensorRun, intervals: Sequence[Interval]) -> float | None:
+    """Mass that hangs on the sensor in all intervals; kg."""
+    masses = [_mass(run, interval) for interval in intervals]
+    first = masses[0] or 0.0
+    for interval, mass in zip(intervals, masses, strict=True):
+        if abs((mass or 0.0) - first) > _ROUNDING * first:
+            raise ExperimentError(
+                f"expected the same mass on it in all intervals, got {first:.4g} kg in "
+                f"{intervals[0].label!r} and {mass or 0.0:.4g} kg in {interval.label!r}, whose supports are on the two "
+                "sides of the sensor; choose intervals of one side by --interval, from Python intervals"
+            )
+    return masses[0]
+
+
+def _mass(run: SensorRun, interval: Interval) -> float | None:
+    """Mass that hangs on the sensor, from the force that it reads at rest, in whatever posture; kg."""
+    question = _question(run, interval)
+    joints = required_joints_of(question)
+    rest = JointMotion.at_rest(joints, np.zeros((1, len(joints))))
+    root = RootMotion.fixed([0.0, 0.0, -1.0], gravity=1.0)
+    force = estimate(question, rest, root).expected_of(run.sensor.name)[0, :3]
+    mass = float(np.linalg.norm(force))
+    return mass if mass > 0.0 else None
+
+
+def _fitted_on(run: SensorRun, calibration: Calibration | None, intervals: Sequence[Interval]) -> tuple[str, ...]:
+    if calibration is None:
+        return ()
+    pairs = overlapping(run.experiment, intervals, calibration, calibration.provenance.intervals)
+    return tuple(dict.fromkeys(label for label, _ in pairs))

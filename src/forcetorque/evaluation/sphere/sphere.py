@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether the three axes of a sensor measure the same weight of a limb that is carried around."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Literal
+
+from pydantic import Field
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.evaluation.sphere.findings import RULE, TOLERANCE
+from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow, SphereRow
+from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
+from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.applicability import by_sensor
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.candidates import Calibrations, named
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.results.number_text import interval, number
+from forcetorque.results.result import Result
+from forcetorque.results.table import Table, short_names
+
+MEANING = (
+    "mass: where an axis leaves the ellipsoid, over gravity; error: that force minus the weight by the model; "
+    "index: standard deviation of the three masses; known: whether they are worth comparing"
+)
+"""What the columns of the masses are."""
+
+
+def mass_table(rows: Sequence[SphereRow], caption: str) -> Table:
+    """Show masses, errors and index in the form of thesis Table 4.1, with and without the model.
+
+    Args:
+        rows: Spheres of one sensor.
+        caption: What the table shows.
+
+    Returns:
+        A line per candidate and fit.
+    """
+    return Table(
+        caption=caption,
+        headings=("candidate", "fit", "x, kg", "y, kg", "z, kg", "error x, N", "y, N", "z, N", "index, kg", "known"),
+        rows=tuple(
+            (candidate, words, *_three(fit.mass_kg, 3), *_three(fit.error_N, 2), number(fit.index_kg, 3),
+             _known(fit.identifiable))
+            for candidate, words, _, fit in _fits(rows)
+        ),
+    )  # fmt: skip
+
+
+def interval_table(rows: Sequence[SphereRow]) -> Table:
+    """Show what the recording allows masses and index to be.
+
+    Args:
+        rows: Spheres of one sensor.
+
+    Returns:
+        A line per candidate and fit.
+    """
+    return Table(
+        caption="what the recording allows: intervals of 95 %, which with the model take its masses and the joint "
+        "angles as exact",
+        headings=("candidate", "fit", "x, kg", "y, kg", "z, kg", "index, kg", "fitted on"),
+        rows=tuple(
+            (candidate, words,
+             *(interval(low, high, digits=3) for low, high in zip(fit.mass_low_kg, fit.mass_high_kg, strict=True)),
+             interval(fit.index_low_kg, fit.index_high_kg, digits=3), ", ".join(row.fitted_on) or "nothing of these")
+            for candidate, words, row, fit in _fits(rows)
+        ),
+    )  # fmt: skip
+
+
+def moment_table(rows: Sequence[SphereRow]) -> Table | None:
+    """Show how far moments reach while the force goes over its sphere.
+
+    Args:
+        rows: Spheres of one sensor.
+
+    Returns:
+        Three lines per candidate; None where nothing was compared with the model.
+    """
+    names = short_names([row.candidate for row in rows])
+    lines: list[tuple[str, ...]] = []
+    for row in rows:
+        fit, name = row.moment_with_reference, names[row.candidate]
+        if fit is not None:
+            ends = (interval(low, high, digits=3) for low, high in zip(fit.low_Nm, fit.high_Nm, strict=True))
+            measured = (*_three(fit.half_width_Nm, 3), number(fit.index_Nm, 3), _known(fit.identifiable))
+            lines.append((name, "measured", *measured))
+            lines.append((name, "interval", *ends, "", ""))
+            lines.append((name, "by the model", *_three(fit.expected_half_width_Nm, 3), "", ""))
+    if not lines:
+        return None
+    return Table(
+        caption="largest moment about each axis while the force goes over its sphere",
+        headings=("candidate", "moment", "x, N m", "y, N m", "z, N m", "index, N m", "known"),
+        rows=tuple(lines),
+    )
+
+
+def remarks(rows: Sequence[SphereRow], gravity: float) -> Iterator[str]:
+    """Say what the masses rest on, and why something is not known.
+
+    Args:
+        rows: Spheres of one sensor, at least one.
+        gravity: Magnitude of gravity; m/s2.
+
+    Yields:
+        Sentences.
+    """
+    first, names = rows[0], short_names([row.candidate for row in rows])
+    if first.model_mass_kg is not None:
+        yield f"the model has {first.model_mass_kg:.3f} kg on the sensor; gravity {gravity:g} m/s2"
+    if first.no_reference is not None:
+        yield f"no fit with the model: {first.no_reference}"
+    for row in rows:
+        name, one = names[row.candidate], row.one_radius
+        mass = "none" if one.geometric_mass_kg is None else f"{one.geometric_mass_kg:.3f} kg"
+        verdict = "" if one.identifiable else f", not identifiable: {'; '.join(one.why)}"
+        yield f"{name}, one radius: {mass}, {interval(one.mass_low_kg, one.mass_high_kg, digits=2)} kg{verdict}"
+        if row.with_reference is not None and row.with_reference.why:
+            yield f"{name}, with the model: not identifiable: {'; '.join(row.with_reference.why)}"
+        if row.without_reference.why:
+            share = row.directions_covered
+            covered = "" if share is None else f", {100.0 * share:.0f} % of all directions"
+            yield f"{name}, without: a {row.form}{covered}; not identifiable: {'; '.join(row.without_reference.why)}"
+        if row.moment_with_reference is not None and row.moment_with_reference.why:
+            yield f"{name}, moments: not identifiable: {'; '.join(row.moment_with_reference.why)}"
+        for words, fit in (("with the model", row.with_reference), ("without", row.without_reference)):
+            if fit is not None and fit.identifiable and not fit.tilt_identifiable:
+                yield f"{name}, {words}: half-widths and principal radii, which lie between the axes, are not known"
+
+
+def _fits(rows: Sequence[SphereRow]) -> Iterator[tuple[str, str, SphereRow, EllipsoidRow]]:
+    names = short_names([row.candidate for row in rows])
+    for row in rows:
+        for words, fit in (("with model", row.with_reference), ("without", row.without_reference)):
+            if fit is not None:
+                yield names[row.candidate], words, row, fit
+
+
+def _three(values: FloatArray | None, digits: int) -> tuple[str, ...]:
+    return ("-",) * 3 if values is None else tuple(number(value, digits) for value in values)
+
+
+def _known(identifiable: bool) -> str:
+    return "yes" if identifiable else "no"
+
+
+__all__ = ["SensorSphere", "SphereRow", "Spheres", "spheres", "spheres_of_sensors"]
+
+
+class Spheres(Result):
+    """Apparent masses of the axes of sensors, with and without the model, and what they are worth."""
+
+    interval_uses = ()
+
+    schema_name: Literal["forcetorque/sphere/1"] = Field(default="forcetorque/sphere/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    gravity_m_s2: float
+    """Magnitude of gravity."""
+    tolerance: float
+    """Half width of an interval, relative to the mean radius, up to which a number is identifiable."""
+    rule: str = Field(repr=False)
+    """How it is decided what is identifiable."""
+    figure: str | None
+    """File of the figure."""
+    rows: tuple[SphereRow, ...]
+    """One per sensor and way to read it."""
+    failures: tuple[FailureRow, ...]
+    """Sensors that could not be analysed; the exit code is 1 if there is any, and 2 if there are no others."""
+    analyses: tuple[SensorSphere, ...] = Field(default=(), exclude=True, repr=False)
+    """The forces and fits behind every row, for figures."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give masses, intervals and moments of every sensor.
+
+        Yields:
+            Tables and sentences.
+        """
+        for sensor in dict.fromkeys(row.sensor for row in self.rows):
+            rows = [row for row in self.rows if row.sensor == sensor]
+            samples = f"{rows[0].samples} samples of {', '.join(rows[0].intervals)}"
+            yield mass_table(rows, f"{self.experiment}: {sensor} ({rows[0].serial}), {samples}")
+            yield interval_table(rows)
+            yield from remarks(rows, self.gravity_m_s2)
+            moments = moment_table(rows)
+            if moments is not None:
+                yield moments
+        yield MEANING
+        yield from (f"FAILED: {failure.message}" for failure in self.failures)
+        if self.figure is not None:
+            yield f"drawn to {self.figure}"
+
+
+@with_recording_notes
+def spheres(run: SensorRun, calibrations: Calibrations, intervals: Sequence[str] | None = None) -> Spheres:
+    """Compare how the three axes of a sensor weigh the limb that is carried around.
+
+    Args:
+        run: The sensor.
+        calibrations: Its calibrations by name, or one, to compare with its prior.
+        intervals: Labels or kinds of the intervals whose motion draws the sphere; None for the sphere intervals of the
+            experiment file, else all.
+
+    Returns:
+        A row for the prior and for every calibration, on the same samples.
+
+    Raises:
+        ForceTorqueError: If a fit fails.
+        ExperimentError: If an interval is not there, there is no way to read the sensor, a calibration may not be
+            applied, or the supports of the intervals are on both sides of the sensor.
+    """
+    analyses = sensor_spheres(run, named(calibrations), sphere_intervals(run.experiment, intervals))
+    return Spheres(
+        experiment=run.experiment.name,
+        gravity_m_s2=run.experiment.processing.gravity,
+        tolerance=TOLERANCE,
+        rule=RULE,
+        figure=None,
+        rows=tuple(SphereRow.of(analysis) for analysis in analyses),
+        failures=(),
+        analyses=analyses,
+        warnings=tuple(
+            f"{analysis.candidate} was fitted on {', '.join(map(repr, analysis.fitted_on))}, so the verdict on it "
+            "flatters"
+            for analysis in analyses
+            if analysis.fitted_on
+        ),
+    )
+
+
+@with_recording_notes
+def spheres_of_sensors(
+    experiment: Experiment,
+    sensors: Sequence[ExperimentSensor],
+    calibrations: Mapping[str, Calibration],
+    intervals: Sequence[str] | None = None,
+    *,
+    file: str,
+    progress: Callable[[str], None] | None = None,
+) -> Spheres:
+    """Analyse one sensor after the other; what fails does not stop the others.
+
+    Args:
+        experiment: The experiment.
+        sensors: Those of its sensors that are asked for.
+        calibrations: Calibrations by name, of any of its sensors.
+        intervals: As `spheres` takes them.
+        file: The experiment file, for messages.
+        progress: Called with a line for people at every sensor.
+
+    Returns:
+        Rows of the sensors that could be analysed; failures, each with a warning, of the others.
+
+    Raises:
+        ExperimentError: If an interval is not there, a calibration is of no sensor of the experiment, or no sensor can
+            be analysed.
+    """
+    groups = by_sensor(experiment, calibrations)
+    with stated_in(file):
+        sphere_intervals(experiment, intervals)  # a wrong name is no failure of a sensor
+    results: list[Spheres] = []
+    failures: list[FailureRow] = []
+    for sensor in sensors:
+        if progress is not None:
+            progress(f"analysing {sensor.name}")
+        try:
+            results.append(spheres(SensorRun(experiment, sensor), groups.get(sensor.name, {}), intervals))
+        except ForceTorqueError as error:
+            failures.append(FailureRow.of(file, sensor.name, error))
+    if not results:
+        raise ExperimentError("; ".join(failure.message for failure in failures))
+    together = Spheres.together(results)
+    failed = (f"failed: {failure.message}" for failure in failures)
+    return together.model_copy(update={"failures": tuple(failures), "warnings": (*failed, *together.warnings)})

@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rows of the comparison of trials: every trial, and every group of them with its mean, pooled fit, rank and drift."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Self
+
+from forcetorque.base.arrays import BoolArray
+from forcetorque.evaluation.sphere.findings import CloudForm, EllipsoidFit
+from forcetorque.evaluation.sphere.result import EllipsoidRow, bounded
+from forcetorque.evaluation.sphere.trials import Drift
+from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere
+from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.row import AxisValues, Row
+
+
+class TrialRow(Row):
+    """One sensor in one trial, read in one way: a row of thesis Table 4.1."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    condition: str | None
+    """What was done to the sensor, in the user's words."""
+    trial: int
+    """Place among the trials of its condition, from 1."""
+    candidate: str
+    """`prior`, or the calibration file."""
+    file: str
+    """Experiment file."""
+    experiment: str
+    """Name of the experiment."""
+    intervals: tuple[str, ...]
+    """Intervals whose samples were taken together."""
+    fitted_on: tuple[str, ...]
+    """Those of them that the calibration was fitted on, which flatters it."""
+    samples: int
+    """Number of samples."""
+    gravity_m_s2: float
+    """Magnitude of gravity."""
+    model_mass_kg: float | None
+    """Mass that hangs on the sensor by the model."""
+    form: CloudForm
+    """What part of a sphere the forces can be told to be."""
+    no_reference: str | None
+    """Why there is no fit with the model; none where there is one."""
+    with_reference: EllipsoidRow | None
+    """An ellipsoid with the model."""
+    without_reference: EllipsoidRow
+    """An ellipsoid without the model."""
+
+    @classmethod
+    def of(cls, trial: TrialSphere, number: int) -> Self:
+        """Take the numbers of a trial.
+
+        Args:
+            trial: The trial.
+            number: Its place in its group, from 1.
+
+        Returns:
+            Its row.
+        """
+        sphere, analysis = trial.sphere, trial.sphere.analysis
+        mapped = analysis.mapped
+        return cls(
+            sensor=sphere.sensor,
+            serial=sphere.serial,
+            condition=trial.condition,
+            trial=number,
+            candidate=sphere.candidate,
+            file=trial.file,
+            experiment=trial.experiment,
+            intervals=sphere.intervals,
+            fitted_on=sphere.fitted_on,
+            samples=analysis.samples,
+            gravity_m_s2=analysis.gravity,
+            model_mass_kg=analysis.mass,
+            form=analysis.form,
+            no_reference=sphere.no_fit_with_model,
+            with_reference=None if mapped is None else EllipsoidRow.of(mapped.fit, analysis),
+            without_reference=EllipsoidRow.of(analysis.free, analysis),
+        )
+
+
+class DriftRow(Row):
+    """What changed from the first trial to the last; margins are for all seven numbers at once, from both intervals."""
+
+    identifiable: bool
+    """Whether both trials are; else nothing is said to have changed."""
+    index_kg: float
+    """Change of the index."""
+    index_margin_kg: float | None
+    """Its margin; none where it has no end."""
+    mass_kg: AxisValues
+    """Change of the apparent mass of each axis."""
+    mass_margin_kg: tuple[float | None, ...]
+    """Their margins."""
+    centre_N: AxisValues
+    """Change of what the sensor reads without force."""
+    centre_margin_N: tuple[float | None, ...]
+    """Its margins."""
+    exceeds: tuple[str, ...] | None
+    """What changed by more than its margin; none where it is not identifiable."""
+
+
+class GroupFitRow(Row):
+    """The trials of a group by one of the two fits."""
+
+    known: int
+    """Trials that are identifiable: those that are averaged."""
+    mean_index_kg: float | None
+    """Plain mean of their indices: the `Average Std` of thesis Tables 4.3 and 4.4; none where none is identifiable."""
+    mean_low_kg: float | None
+    """Lower end of its 95 % interval from the scatter between trials."""
+    mean_high_kg: float | None
+    """Upper end; none with one trial."""
+    pooled: EllipsoidRow | None
+    """One ellipsoid through the samples of all trials, each about its own centre; none with one trial."""
+    pooled_centre_N: tuple[AxisValues, ...] | None
+    """Centre of each trial by it."""
+    rank: int | None
+    """One more than the number of groups whose index, of the pooled fit or the only trial, has its whole interval below
+    that of this one; groups whose intervals overlap are in no order; none where the index is not identifiable."""
+    drift: DriftRow | None
+    """What changed from the first trial to the last; none with one trial."""
+
+
+class GroupRow(Row):
+    """All trials of one sensor under one condition, read in one way."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    condition: str | None
+    """What was done to the sensor."""
+    candidate: str
+    """`prior`, or the calibration file."""
+    trials: int
+    """Number of trials."""
+    not_pooled: str | None
+    """Why several trials have no pooled fit."""
+    with_reference: GroupFitRow | None
+    """By the fits with the model; none where no trial has one."""
+    without_reference: GroupFitRow
+    """By the fits without the model."""
+
+
+def group_rows(groups: Sequence[TrialGroup]) -> tuple[GroupRow, ...]:
+    """Put groups into the form of the result, and rank those that are identifiable by what their intervals tell apart.
+
+    Args:
+        groups: The groups.
+
+    Returns:
+        Their rows, in the same order.
+    """
+    ranks = {with_reference: _ranks(groups, with_reference=with_reference) for with_reference in (True, False)}
+    rows = []
+    for k, group in enumerate(groups):
+        sphere = group.first.sphere
+        mapped = any(trial.fit(with_reference=True) is not None for trial in group.trials)
+        rows.append(
+            GroupRow(
+                sensor=sphere.sensor,
+                serial=sphere.serial,
+                condition=group.first.condition,
+                candidate=sphere.candidate,
+                trials=len(group.trials),
+                not_pooled=group.not_pooled,
+                with_reference=_group_fit(group, ranks[True][k], with_reference=True) if mapped else None,
+                without_reference=_group_fit(group, ranks[False][k], with_reference=False),
+            )
+        )
+    return tuple(rows)
+
+
+def _ranks(groups: Sequence[TrialGroup], *, with_reference: bool) -> list[int | None]:
+    ends = [group.index_interval(with_reference=with_reference) for group in groups]
+    tops = [end[1] for end in ends if end is not None]
+    return [None if end is None else 1 + sum(top < end[0] for top in tops) for end in ends]
+
+
+def _group_fit(group: TrialGroup, rank: int | None, *, with_reference: bool) -> GroupFitRow:
+    mean, drift = group.mean(with_reference=with_reference), group.drift(with_reference=with_reference)
+    fit, analysis, centres = group.pooled_fit(with_reference=with_reference), group.first.sphere.analysis, None
+    if group.pooled is not None:
+        centres = group.pooled.mapped_centres if with_reference else group.pooled.free_centres
+    return GroupFitRow(
+        known=0 if mean is None else mean.count,
+        mean_index_kg=None if mean is None else mean.mean,
+        mean_low_kg=None if mean is None else mean.low,
+        mean_high_kg=None if mean is None else finite_or_none(mean.high),
+        pooled=None if fit is None else _pooled_row(fit, group),
+        pooled_centre_N=None if centres is None else tuple(centres),
+        rank=rank,
+        drift=None if drift is None else _drift_row(drift, analysis.gravity),
+    )
+
+
+def _pooled_row(fit: EllipsoidFit, group: TrialGroup) -> EllipsoidRow:
+    # it has no centre of its own: each trial has one
+    return EllipsoidRow.of(fit, group.first.sphere.analysis).model_copy(update={"centre_N": None})
+
+
+def _drift_row(drift: Drift, gravity: float) -> DriftRow:
+    exceeds = ["index"] if drift.index_exceeds else []
+    exceeds += _named("mass", drift.intersections_exceed) + _named("centre", drift.centre_exceeds)
+    return DriftRow(
+        identifiable=drift.identifiable,
+        index_kg=drift.index / gravity,
+        index_margin_kg=finite_or_none(drift.index_margin / gravity),
+        mass_kg=drift.intersections / gravity,
+        mass_margin_kg=bounded(drift.intersection_margin / gravity),
+        centre_N=drift.centre,
+        centre_margin_N=bounded(drift.centre_margin),
+        exceeds=tuple(exceeds) if drift.identifiable else None,
+    )
+
+
+def _named(what: str, exceed: BoolArray) -> list[str]:
+    return [f"{what} {axis}" for axis, beyond in zip("xyz", exceed, strict=True) if beyond]

@@ -1,0 +1,362 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Trials of sensors read from experiment files, and the trials of one sensor under one condition as a group."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, MissingFileError, known_names
+from forcetorque.evaluation.sphere.findings import EllipsoidFit
+from forcetorque.evaluation.sphere.pooled import PooledSphere, pool_trials
+from forcetorque.evaluation.sphere.result import FailureRow
+from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
+from forcetorque.evaluation.sphere.trials import Drift, TrialMean, drift_between, mean_of_trials
+from forcetorque.experiment.additions import added_to
+from forcetorque.experiment.applicability import calibrations_of
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.candidates import PRIOR
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Interval
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TrialSphere:
+    """Sphere analysis of one trial: a sensor in one recording, read in one way."""
+
+    file: str
+    """Experiment file."""
+    experiment: str
+    """Name of the experiment."""
+    condition: str | None
+    """What was done to the sensor; None if the file does not say."""
+    number: int | None
+    """Which trial of its condition the file says it is."""
+    prior: FloatArray | None
+    """Matrix that the prior's forces are read with; shape (6, c); N/count, N m/count."""
+    sphere: SensorSphere
+    """The analysis."""
+    added: tuple[str, ...] = ()
+    """What the file adds to its log, in sentences."""
+
+    @property
+    def gravity(self) -> float:
+        """Magnitude of gravity that the file states; m/s2."""
+        return self.sphere.analysis.gravity
+
+    def fit(self, *, with_reference: bool) -> EllipsoidFit | None:
+        """Give one of the two ellipsoids of forces.
+
+        Args:
+            with_reference: Whether it is that with the model.
+
+        Returns:
+            The fit; None where there is none with the model.
+        """
+        if not with_reference:
+            return self.sphere.analysis.free
+        mapped = self.sphere.analysis.mapped
+        return None if mapped is None else mapped.fit
+
+
+@dataclass(slots=True, kw_only=True)
+class _Reading:
+    """What has been read so far."""
+
+    sensors: Sequence[str] | None
+    calibrations: Mapping[str, Calibration]
+    intervals: Sequence[str] | None
+    by_interval: bool
+    trials: list[TrialSphere] = field(default_factory=list)
+    failures: list[FailureRow] = field(default_factory=list)
+    used: set[str] = field(default_factory=set)
+    """Names of sensors and calibrations that were found in a file."""
+    known: dict[str, None] = field(default_factory=dict)
+    """All sensors of all files."""
+
+
+def read_trials(
+    paths: Sequence[Path | str],
+    *,
+    sensors: Sequence[str] | None = None,
+    calibrations: Mapping[str, Calibration] | None = None,
+    intervals: Sequence[str] | None = None,
+    by_interval: bool = False,
+    progress: Callable[[str], None] | None = None,
+) -> tuple[list[TrialSphere], list[FailureRow]]:
+    """Read experiment files one after the other and analyse their spheres; what fails does not stop the others.
+
+    Args:
+        paths: Experiment files.
+        sensors: Names of sensors, each in one file at least; None for all.
+        calibrations: Calibrations by name, each for the sensor of its name and serial number in whatever file.
+        intervals: Labels or kinds of the intervals whose motion draws the sphere; None for what each file says.
+        by_interval: Whether each interval is a trial of its own; else all of a file are taken together.
+        progress: Called with a line for people at every file.
+
+    Returns:
+        Trials in the order of the files, and what failed.
+
+    Raises:
+        MissingFileError: If a file is not there; nothing has been read then.
+        ExperimentError: If a file is named twice.
+    """
+    files = [Path(path) for path in paths]
+    _refuse_wrong_names(files)
+    reading = _Reading(sensors=sensors, calibrations=calibrations or {}, intervals=intervals, by_interval=by_interval)
+    for count, path in enumerate(files, 1):
+        if progress is not None:
+            progress(f"reading {path} ({count} of {len(files)})")
+        try:
+            experiment = load_experiment(path)
+            spans = sphere_intervals(experiment, intervals)
+        except (ForceTorqueError, OSError, np.linalg.LinAlgError) as error:
+            reading.failures.append(FailureRow.of(str(path), None, error))
+            continue
+        # only forces are kept: the recording goes before the next one comes
+        _read_sensors(reading, path, experiment, spans)
+    _require_all_used(reading)
+    return reading.trials, reading.failures
+
+
+def _refuse_wrong_names(paths: Sequence[Path]) -> None:
+    """What is wrong with the names is said before hours are spent on the files."""
+    seen: set[Path] = set()
+    for path in paths:
+        if not path.is_file():
+            raise MissingFileError(f"{path}: expected an experiment file, there is none")
+        if path.resolve() in seen:
+            raise ExperimentError(f"{path}: is named twice, and a trial does not count twice; name it once")
+        seen.add(path.resolve())
+
+
+def _read_sensors(reading: _Reading, path: Path, experiment: Experiment, spans: Sequence[Interval]) -> None:
+    reading.known.update(dict.fromkeys(sensor.name for sensor in experiment.sensors))
+    for sensor in _chosen(reading, experiment):
+        run, own = SensorRun(experiment, sensor), calibrations_of(experiment, sensor, reading.calibrations)
+        reading.used.update(own)
+        for together in ([span] for span in spans) if reading.by_interval else [list(spans)]:
+            try:
+                spheres = sensor_spheres(run, own, together)
+            except (ForceTorqueError, OSError) as error:
+                reading.failures.append(FailureRow.of(str(path), sensor.name, error))
+                continue
+            reading.trials += [
+                TrialSphere(
+                    file=str(path),
+                    experiment=experiment.name,
+                    condition=experiment.condition,
+                    # a file with several trials numbers none of them
+                    number=None if reading.by_interval and len(spans) > 1 else experiment.trial,
+                    prior=sensor.prior,
+                    sphere=sphere,
+                    added=added_to(experiment.recording),
+                )
+                for sphere in spheres
+            ]
+
+
+def _chosen(reading: _Reading, experiment: Experiment) -> Iterator[ExperimentSensor]:
+    """Sensors of a file that were asked for, each once."""
+    if reading.sensors is None:
+        yield from experiment.sensors
+        return
+    for sensor in experiment.sensors:
+        names = {sensor.name, *experiment.model.sensor(sensor.name).aliases}
+        asked = names & set(reading.sensors)
+        if asked:
+            reading.used |= asked
+            yield sensor
+
+
+def _require_all_used(reading: _Reading) -> None:
+    """What the user named and no file has is a failure too."""
+    for name in dict.fromkeys(reading.sensors or ()):
+        if name not in reading.used:
+            error = ExperimentError(f"no file has a sensor {name!r}; {known_names(name, reading.known)}")
+            reading.failures.append(FailureRow.of("--sensor", name, error))
+    for name, calibration in reading.calibrations.items():
+        if name not in reading.used:
+            sensor = calibration.sensor
+            words = f"is of {sensor.name!r} with the serial number {sensor.serial!r}, which was read from no file"
+            reading.failures.append(FailureRow.of(name, sensor.name, ExperimentError(words)))
+
+
+_SAME_WEIGHT = 0.01
+"""Difference of the weights of trials, relative to their mean, up to which they are of one limb."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TrialGroup:
+    """All trials of one sensor under one condition, read in one way."""
+
+    trials: tuple[TrialSphere, ...]
+    """In their order, at least one."""
+    pooled: PooledSphere | None
+    """One analysis over all; None with one trial, or where there is none."""
+    not_pooled: str | None
+    """Why several trials were not pooled."""
+
+    @property
+    def first(self) -> TrialSphere:
+        """The first trial, which says what all have in common."""
+        return self.trials[0]
+
+    def pooled_fit(self, *, with_reference: bool) -> EllipsoidFit | None:
+        """Give one of the two pooled ellipsoids.
+
+        Args:
+            with_reference: Whether it is that with the model.
+
+        Returns:
+            The fit; None where there is none.
+        """
+        if self.pooled is None:
+            return None
+        return self.pooled.mapped if with_reference else self.pooled.free
+
+    def mean(self, *, with_reference: bool) -> TrialMean | None:
+        """Average the indices of the trials that are identifiable.
+
+        Args:
+            with_reference: Whether they are those with the model.
+
+        Returns:
+            Plain mean; kg; None where no trial is identifiable.
+        """
+        fits = [(trial.gravity, trial.fit(with_reference=with_reference)) for trial in self.trials]
+        known = [fit.index / gravity for gravity, fit in fits if fit is not None and fit.identifiable]
+        return mean_of_trials(known) if known else None
+
+    def drift(self, *, with_reference: bool) -> Drift | None:
+        """Compare the first trial with the last.
+
+        Args:
+            with_reference: Whether by the fits with the model.
+
+        Returns:
+            Last minus first; None with one trial, where one has no ellipsoid, or where the files state different
+            gravity, which no sensor is to blame for.
+        """
+        if self.trials[0].gravity != self.trials[-1].gravity:
+            return None
+        ends = [trial.fit(with_reference=with_reference) for trial in (self.trials[0], self.trials[-1])]
+        if len(self.trials) < 2 or ends[0] is None or ends[1] is None:
+            return None
+        return drift_between(ends[0], ends[1])
+
+    def index(self, *, with_reference: bool) -> float | None:
+        """Give the index by which the group may be compared with others.
+
+        Args:
+            with_reference: Whether it is that with the model.
+
+        Returns:
+            That of the pooled fit, or of the only trial; kg; None where it is not identifiable.
+        """
+        fit = self._known_fit(with_reference=with_reference)
+        return None if fit is None else fit.index / self.first.gravity
+
+    def index_interval(self, *, with_reference: bool) -> tuple[float, float] | None:
+        """Give the 95 % interval of that index.
+
+        Args:
+            with_reference: Whether it is that with the model.
+
+        Returns:
+            Its ends; kg; None where the index is not identifiable.
+        """
+        fit, gravity = self._known_fit(with_reference=with_reference), self.first.gravity
+        return None if fit is None else (fit.index_low / gravity, fit.index_high / gravity)
+
+    def _known_fit(self, *, with_reference: bool) -> EllipsoidFit | None:
+        """The pooled fit, all of whose trials have one gravity, or that of the only trial, if it is identifiable."""
+        fit = self.pooled_fit(with_reference=with_reference)
+        if len(self.trials) == 1:
+            fit = self.first.fit(with_reference=with_reference)
+        return fit if fit is not None and fit.identifiable else None
+
+
+def group_trials(
+    trials: Sequence[TrialSphere], *, progress: Callable[[str], None] | None = None
+) -> tuple[list[TrialGroup], list[str]]:
+    """Sort trials by sensor, serial number, condition and way of reading, and pool those of each group.
+
+    Args:
+        trials: Trials in the order of their files.
+        progress: Called with a line for people at every group that is pooled.
+
+    Returns:
+        Groups in the order of their first trials, and warnings.
+    """
+    by_condition: dict[tuple[str, str, str | None, str], list[TrialSphere]] = {}
+    for trial in trials:
+        sphere = trial.sphere
+        by_condition.setdefault((sphere.sensor, sphere.serial, trial.condition, sphere.candidate), []).append(trial)
+    groups, warnings = [], []
+    for (sensor, serial, condition, candidate), members in by_condition.items():
+        where = f"{sensor} ({serial}), {condition or 'no condition'}, {candidate}"
+        ordered, warning = _ordered(members)
+        if warning is not None:
+            warnings.append(f"{where}: {warning}")
+        if progress is not None and len(ordered) > 1:
+            progress(f"pooling {len(ordered)} trials of {where}")
+        pooled, reason = _pooled(ordered)
+        groups.append(TrialGroup(trials=tuple(ordered), pooled=pooled, not_pooled=reason))
+    return groups, warnings
+
+
+def _ordered(trials: list[TrialSphere]) -> tuple[list[TrialSphere], str | None]:
+    """Trials by their numbers, where all have one; else as they came."""
+    numbers = [trial.number for trial in trials]
+    stated = [number for number in numbers if number is not None]
+    if len(stated) == len(trials) == len(set(stated)):
+        return sorted(trials, key=lambda trial: trial.number or 0), None
+    if not stated:
+        return trials, None
+    return trials, "[trial] number is missing or double in some files; the order is that of the files"
+
+
+def _pooled(trials: Sequence[TrialSphere]) -> tuple[PooledSphere | None, str | None]:
+    """One analysis over trials, or why there is none; neither for one trial."""
+    if len(trials) < 2:
+        return None, None
+    spheres = [trial.sphere for trial in trials]
+    priors = [trial.prior for trial in trials]
+    if spheres[0].candidate == PRIOR and not all(_same(priors[0], prior) for prior in priors[1:]):
+        return None, "the trials are read with different prior matrices"
+    gravities = list(dict.fromkeys(trial.gravity for trial in trials))
+    if len(gravities) > 1:
+        return None, f"the files state different gravity ({', '.join(f'{gravity:g}' for gravity in gravities)} m/s2)"
+    weights = np.array([_weight(sphere) for sphere in spheres])
+    known = weights[np.isfinite(weights)]
+    if len(known) and float(np.ptp(known)) > _SAME_WEIGHT * float(known.mean()):
+        masses = ", ".join(f"{weight / spheres[0].analysis.gravity:.3g}" for weight in known)
+        return None, f"by the models the trials carry different weights ({masses} kg)"
+    references = [sphere.reference for sphere in spheres]
+    whole = [reference for reference in references if reference is not None]
+    complete = len(whole) == len(spheres)
+    forces, weight = [sphere.force for sphere in spheres], float(known.mean()) if complete else None
+    try:
+        return pool_trials(forces, whole if complete else None, weight=weight), None
+    except (FitError, np.linalg.LinAlgError) as error:
+        return None, str(error)
+
+
+def _same(first: FloatArray | None, other: FloatArray | None) -> bool:
+    return first is other or (first is not None and other is not None and np.array_equal(first, other))
+
+
+def _weight(sphere: SensorSphere) -> float:
+    """Weight on the sensor by the model, N; NaN if it is not known."""
+    if sphere.analysis.mass is not None:
+        return sphere.analysis.mass * sphere.analysis.gravity
+    if sphere.reference is None:
+        return np.nan
+    return float(np.linalg.norm(sphere.reference, axis=1).mean())

@@ -1,0 +1,295 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact wrenches that calibrations under test report where nothing touches."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.errors import EstimationError, ShapeError, known_names
+from forcetorque.base.noise.means import one_after_another
+from forcetorque.base.pose import invert_pose
+from forcetorque.base.wrench import WRENCH_COMPONENTS, transform_wrench
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.candidates import JudgedCandidate
+from forcetorque.experiment.first_second import gap_words, nothing_left
+from forcetorque.experiment.free_sub_model import FreeSubModel
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.offset_policy import Offset
+from forcetorque.experiment.sub_model_choice import ContactForceValidation
+from forcetorque.recording.alignment import seconds_since
+from forcetorque.recording.recording import Interval, Use
+from forcetorque.robot.contacts import Wrenches
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.motion import JointMotion, RootMotion
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ContactForces:
+    """Contact wrenches of a sub-model that nothing touches, by each of k candidates over n samples."""
+
+    validation: ContactForceValidation
+    """What was validated."""
+    candidates: tuple[str, ...]
+    """Names of the candidates."""
+    at_sensor: FloatArray
+    """Contact wrenches in the frame of the judged sensor and in its direction (4.1); shape (k, n, 6); N, N m; NaN in
+    a sample with a gap."""
+    free_reading: FloatArray
+    """Reading of the judged sensor with which there would be no contact; shape (n, 6); N, N m."""
+    sensor_H_contact: FloatArray
+    """Pose of the contact frame in the frame of the reading; shape (n, 4, 4) or (1, 4, 4); m."""
+
+    def __post_init__(self) -> None:
+        free = read_only(self.free_reading, name="free_reading", shape=(None, 6))
+        object.__setattr__(self, "free_reading", free)
+        wrenches = read_only(self.at_sensor, name="at_sensor", shape=(len(self.candidates), len(free), 6))
+        object.__setattr__(self, "at_sensor", wrenches)
+        pose = read_only(self.sensor_H_contact, name="sensor_H_contact", shape=(None, 4, 4))
+        object.__setattr__(self, "sensor_H_contact", pose)
+
+    def of(self, candidate: str) -> FloatArray:
+        """Give the wrenches of one candidate.
+
+        Args:
+            candidate: Its name.
+
+        Returns:
+            Wrenches in the frame and direction of the judged sensor; shape (n, 6); N, N m.
+
+        Raises:
+            EstimationError: If there is no such candidate.
+        """
+        if candidate not in self.candidates:
+            raise EstimationError(f"no candidate {candidate!r}; {known_names(candidate, self.candidates)}")
+        wrench: FloatArray = self.at_sensor[self.candidates.index(candidate)]
+        return wrench
+
+    def at_contact(self, candidate: str) -> FloatArray:
+        """Give the wrenches of one candidate as the estimator has them.
+
+        Args:
+            candidate: Its name.
+
+        Returns:
+            What the environment does to the robot, in and about the contact frame; shape (n, 6); N, N m.
+        """
+        in_direction = transform_wrench(invert_pose(self.sensor_H_contact), self.of(candidate))
+        wrench: FloatArray = self.validation.direction * in_direction
+        return wrench
+
+
+def contact_forces(
+    validation: ContactForceValidation,
+    joints: JointMotion,
+    root: RootMotion,
+    readings: Mapping[str, Any] | FloatArray,
+    *,
+    measured: Wrenches | None = None,
+) -> ContactForces:
+    """Estimate the contact wrench of a sub-model that nothing touches, with candidates for one of its sensors.
+
+    NaN in a sample is a gap: it makes NaN of that sample and of no other.
+
+    Args:
+        validation: What is validated.
+        joints: Motion of at least its required joints; n samples.
+        root: Motion of the root link's frame; one sample or n.
+        readings: What the judged sensor reads with each candidate, in its frame and direction; shape (n, 6) by name,
+            or (k, n, 6), and the candidates are then named by their index; N, N m.
+        measured: Readings of at least the other sensors of the sub-model; looked at only in the mode `measured`.
+
+    Returns:
+        The wrenches of every candidate.
+
+    Raises:
+        EstimationError: If readings of other sensors are missing, or a number is infinite.
+        RobotError: If a joint that is needed is not in `joints`.
+        ShapeError: If numbers of samples differ, or there is no candidate.
+    """
+    candidates = _named(readings, len(joints))
+    unread = _contact_if_it_read_zero(validation, joints, root, measured)
+    pose = validation.sensor_H_contact(joints)
+    free = -validation.sign * validation.direction * transform_wrench(pose, unread)
+    wrenches = np.empty((len(candidates), len(joints), 6))
+    for wrench, (name, reading) in zip(wrenches, candidates.items(), strict=True):
+        np.subtract(reading, free, out=wrench)
+        wrench *= validation.sign
+        whole = np.isfinite(wrench).all(axis=1)
+        if not whole.all():
+            _refuse_infinite(name, reading)
+            wrench[~whole] = np.nan  # a wrench at another point mixes all components
+    wrenches.setflags(write=False)  # held as it is, not copied
+    return ContactForces(
+        validation=validation,
+        candidates=tuple(candidates),
+        at_sensor=wrenches,
+        free_reading=free,
+        sensor_H_contact=pose,
+    )
+
+
+def _named(readings: Mapping[str, Any] | FloatArray, n: int) -> dict[str, FloatArray]:
+    if isinstance(readings, Mapping):
+        named = {name: np.asarray(values, dtype=np.float64) for name, values in readings.items()}
+    else:
+        stacked = np.asarray(readings, dtype=np.float64)
+        require_shape(stacked, name="readings", shape=(None, n, 6))
+        named = {str(index): values for index, values in enumerate(stacked)}
+    if not named:
+        raise ShapeError("readings: expected at least one candidate, got none")
+    for name, values in named.items():
+        require_shape(values, name=f"readings of {name!r}", shape=(n, 6))
+    return named
+
+
+def _refuse_infinite(candidate: str, reading: FloatArray) -> None:
+    places = np.argwhere(np.isinf(reading))
+    if len(places):
+        sample, component = places[0].tolist()
+        raise EstimationError(
+            f"readings of {candidate!r}: expected finite numbers, or NaN for a gap; {WRENCH_COMPONENTS[component]} is "
+            f"{reading[sample, component]} in sample {sample}"
+        )
+
+
+def _contact_if_it_read_zero(
+    validation: ContactForceValidation, joints: JointMotion, root: RootMotion, measured: Wrenches | None
+) -> FloatArray:
+    """What the estimator finds at the contact if the judged sensor reads zero; shape (n, 6)."""
+    readings = {validation.sensor: np.zeros((len(joints), 6)), **_others(validation, joints, root, measured)}
+    estimates = estimate(validation.contact_question, joints, root, measured=Wrenches.of(readings))
+    return estimates.contact(validation.point.name)
+
+
+def _others(
+    validation: ContactForceValidation, joints: JointMotion, root: RootMotion, measured: Wrenches | None
+) -> dict[str, FloatArray]:
+    question = validation.expected_question
+    if question is not None:
+        estimates = estimate(question, joints, root)
+        return {name: estimates.expected_of(name) for name in validation.others}
+    wrenches = Wrenches(names=(), values=np.empty((len(joints), 0, 6))) if measured is None else measured
+    for name in validation.others:
+        if name not in wrenches.names:
+            raise EstimationError(
+                f"measured: reading of sensor {name!r}, which bounds sub-model {validation.part.name!r}, is missing; "
+                f"{known_names(name, wrenches.names)}; if it has none, leave it out of cut_at, or take the mode model"
+            )
+    return {name: wrenches.of_name(name) for name in validation.others}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ContactWrenches:
+    """Wrenches at the sensor over all judged intervals, in the order of time."""
+
+    sub_model: str
+    """Sub-model that nothing touches, by the sensor at its base or the root link."""
+    candidates: tuple[JudgedCandidate, ...]
+    """The candidates."""
+    wrenches: Mapping[tuple[int, Offset], FloatArray]
+    """Wrenches by the place of the candidate, because a calibration may be called `prior` too, and by the offset that
+    is asked for; shape (n, 6) each; N, N m; NaN in gaps."""
+    time_s: Mapping[tuple[int, Offset], FloatArray]
+    """Instants of these, since the start of the recording; shape (n,) each; s."""
+    expected: FloatArray
+    """Readings with which there would be no contact, at the judged instants; shape (n, 6); N, N m; NaN in gaps."""
+    left_out: tuple[str, ...]
+    """What could not be judged of the intervals, in words."""
+
+
+def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]) -> ContactWrenches:
+    """Read a sensor by every candidate, and carry the contact wrench of the free sub-model to the sensor.
+
+    Args:
+        free: The sub-model; the validation intervals are judged.
+        calibrations: Calibrations of the sensor by name.
+
+    Returns:
+        The wrenches with the candidate's own offset and with that of each interval's first second.
+
+    Raises:
+        ExperimentError: If there is no interval to judge, or one has no support.
+    """
+    run = free.run
+    candidates = run.candidates(calibrations)
+    wrenches: dict[tuple[int, Offset], list[FloatArray]] = {}
+    times: dict[tuple[int, Offset], list[FloatArray]] = {}
+    expected: list[FloatArray] = []
+    left_out: dict[str, None] = {}
+    name = ""
+    for interval in run.intervals(Use.VALIDATION):
+        with stated_in(f"interval {interval.label!r}"):
+            sub_model = free.seen_from_support(interval)
+            name = sub_model.part.name
+            instants = run.instants(interval)
+            short = nothing_left(instants, interval)
+            if short is not None:
+                left_out[short] = None
+                continue
+            over, without = _over(free, interval, sub_model, candidates)
+        expected.append(instants.judged(without))
+        for index, wrench in enumerate(over):
+            judged = instants.judged_with_both(wrench)
+            words = gap_words(f"contact force by {candidates[index].name}", interval, judged)
+            left_out |= {} if words is None else {words: None}
+            for offset, errors in judged.items():
+                times.setdefault((index, offset), []).append(
+                    seconds_since(instants.judged_ns, run.experiment.recording.start_ns)
+                )
+                wrenches.setdefault((index, offset), []).append(errors)
+    return ContactWrenches(
+        sub_model=name,
+        candidates=candidates,
+        wrenches={key: np.concatenate(pieces) for key, pieces in wrenches.items()},
+        time_s={key: np.concatenate(pieces) for key, pieces in times.items()},
+        expected=np.concatenate(expected) if expected else np.empty((0, 6)),
+        left_out=tuple(left_out),
+    )
+
+
+def pooled_contacts(recordings: Mapping[str, ContactWrenches]) -> ContactWrenches:
+    """Put together what several recordings say.
+
+    Args:
+        recordings: Wrenches by name of the recording, candidates in the same order.
+
+    Returns:
+        All of them, one recording after the other; the same where there is one.
+    """
+    first = next(iter(recordings.values()))
+    if len(recordings) == 1:
+        return first
+    pieces: dict[tuple[int, Offset], list[FloatArray]] = {}
+    times: dict[tuple[int, Offset], list[FloatArray]] = {}
+    for contacts in recordings.values():
+        for key, wrenches in contacts.wrenches.items():
+            pieces.setdefault(key, []).append(wrenches)
+            times.setdefault(key, []).append(contacts.time_s[key])
+    return ContactWrenches(
+        sub_model=first.sub_model,
+        candidates=first.candidates,
+        wrenches={key: np.concatenate(several) for key, several in pieces.items()},
+        time_s={key: one_after_another(several) for key, several in times.items()},
+        expected=np.concatenate([contacts.expected for contacts in recordings.values()]),
+        left_out=tuple(f"{name}: {words}" for name, contacts in recordings.items() for words in contacts.left_out),
+    )
+
+
+def _over(
+    free: FreeSubModel,
+    interval: Interval,
+    sub_model: ContactForceValidation,
+    candidates: tuple[JudgedCandidate, ...],
+) -> tuple[list[FloatArray], FloatArray]:
+    """Contact wrench at the sensor by every candidate and its own offset, and the reading without any; not filtered."""
+    joints, root = free.run.motion(interval, sub_model.required_joints)
+    measured = free.measured(sub_model.others if free.corrections else (), interval)
+    # by their places, because a calibration may be called `prior` too
+    readings = {str(k): free.run.measured(interval, candidate.correction) for k, candidate in enumerate(candidates)}
+    forces = contact_forces(sub_model, joints, root, readings, measured=Wrenches.of(measured) if measured else None)
+    return [forces.of(place) for place in readings], forces.free_reading

@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Joint torques that a sensor's candidates lead to, against those of the rigid-body model (thesis 2.4.3, 5.6)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Annotated, Literal
+
+import numpy as np
+
+from forcetorque.evaluation.validation.joint_torque_errors import torque_errors
+from forcetorque.evaluation.validation.torque_samples import JudgedTorques, judged_torques, pooled_torques
+from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.candidates import JudgedRow
+from forcetorque.experiment.free_sub_model import SubModelChoice
+from forcetorque.experiment.sub_model_choice import OtherSensors
+from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.result import Result
+from forcetorque.results.row import Shown
+from forcetorque.results.table import Table, table_of
+from forcetorque.robot.model import JointType
+
+
+class JointTorqueErrors(JudgedRow):
+    """Error of the torque that is estimated for one joint, where one candidate reads the sensor."""
+
+    joint: Annotated[str, Shown("joint")]
+    """A joint whose torque depends on the sensor."""
+    unit: Annotated[Literal["N m", "N"], Shown("unit")]
+    """Unit of its torque: N for a prismatic joint."""
+    samples: Annotated[int, Shown("samples")]
+    """Number of judged samples."""
+    rmse: Annotated[float, Shown("RMSE", digits=3, error="rmse_half_width_95")]
+    """Root mean square of estimated torque less that of the rigid-body model."""
+    rmse_error: float | None
+    """Standard error of that root; none for one sample."""
+    rmse_half_width_95: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
+    mean: Annotated[float, Shown("mean", digits=3, error="mean_half_width_95")]
+    """Mean of estimated torque less that of the model."""
+    mean_error: float | None
+    """Standard error of that mean; none for one sample."""
+    mean_half_width_95: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
+    largest: Annotated[float, Shown("largest", digits=3)]
+    """Largest magnitude of estimated torque less that of the model."""
+    logged_samples: int | None
+    """Number of samples with a logged torque; null where none can be compared."""
+    logged_rmse: Annotated[float | None, Shown("RMSE from logged", digits=3, error="logged_rmse_half_width_95")]
+    """Root mean square of estimated torque less the logged one."""
+    logged_rmse_error: float | None
+    """Standard error of that root; none for one sample."""
+    logged_rmse_half_width_95: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
+
+
+class RecordingJointTorques(JointTorqueErrors):
+    """The same on one of several recordings."""
+
+    recording: str
+    """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
+
+
+class JointTorques(Result):
+    """Joint torques that depend on one sensor, by all its candidates."""
+
+    verdicts: tuple[JointTorqueErrors, ...]
+    """One per candidate, offset and joint, joints from the support outwards."""
+    left_out: tuple[str, ...]
+    """Torques that the log does not allow to estimate, or to judge in an interval, in words."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give a table per sensor.
+
+        Yields:
+            Tables, or a sentence where there is nothing to show.
+        """
+        for sensor in dict.fromkeys(row.sensor for row in self.verdicts):
+            yield joint_torque_table([row for row in self.verdicts if row.sensor == sensor])
+        if not self.verdicts:
+            yield "no joint torque is estimated from the sensor"
+
+
+@with_recording_notes
+def joint_torques(
+    runs: Runs,
+    calibrations: Mapping[str, Calibration],
+    *,
+    others: Mapping[str, Calibration] | None = None,
+    other_sensors: OtherSensors = OtherSensors.MODEL,
+    sub_model: str | None = None,
+    contact: str | None = None,
+) -> JointTorques:
+    """Judge candidates of a sensor by the joint torques that are estimated from it.
+
+    The contacts are those of `estimate_experiment`: the support, and a full wrench at the sensor at the base of every
+    other sub-model; `contact` moves that of the free one. The model's torques are those of the support as the only
+    contact.
+
+    Args:
+        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are judged.
+        calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
+            there is none.
+        others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
+        other_sensors: Whether the other sensors read what the model expects or what they measured.
+        sub_model: The free sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
+        contact: Link of the free sub-model that takes up its contact wrench; None for that at its base.
+
+    Returns:
+        For every candidate, with its own offset and with one from each interval's first second, the errors per joint.
+
+    Raises:
+        ExperimentError: If an interval has no support.
+    """
+    campaign = Campaign.of(runs)
+    choice = SubModelChoice(others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
+    recordings = choice.in_campaign(campaign, lambda free: judged_torques(free, calibrations))
+    return joint_torques_of(campaign, pooled_torques(recordings))
+
+
+def joint_torques_of(campaign: Campaign, torques: JudgedTorques) -> JointTorques:
+    """Judge candidates of a sensor by given errors of joint torques.
+
+    Args:
+        campaign: The sensor.
+        torques: Errors by every candidate.
+
+    Returns:
+        The same as `joint_torques`.
+    """
+    return JointTorques(
+        verdicts=tuple(_rows(campaign, torques)),
+        left_out=torques.left_out,
+        warnings=tuple(f"left out: {words}" for words in torques.left_out),
+    )
+
+
+def joint_torque_table(rows: Sequence[JointTorqueErrors]) -> Table:
+    """Show the joint torques of one sensor, candidates of a joint with one offset under each other.
+
+    Args:
+        rows: The rows, at least one.
+
+    Returns:
+        The table.
+    """
+    ordered = sorted(rows, key=_place(rows))
+    return table_of(
+        ordered,
+        f"{rows[0].sensor} ({rows[0].serial}): joint torques estimated from it, less those of the model; "
+        "± half a 95 % interval",
+        leave_out={"logged_rmse"} if all(row.logged_rmse is None for row in rows) else (),
+    )
+
+
+def _place(rows: Sequence[JointTorqueErrors]) -> Callable[[JointTorqueErrors], tuple[int, int]]:
+    joints = list(dict.fromkeys(row.joint for row in rows))
+    offsets = list(dict.fromkeys(row.offset for row in rows))
+    return lambda row: (joints.index(row.joint), offsets.index(row.offset))
+
+
+def _rows(campaign: Campaign, torques: JudgedTorques) -> Iterator[JointTorqueErrors]:
+    joints = {name: joint for run in campaign.runs for name, joint in run.experiment.model.joints.items()}
+    for key, samples in torques.samples.items():
+        if np.isnan(samples.from_model).all():
+            continue
+        candidate, errors = torques.candidates[key.candidate], torque_errors(samples.from_model, samples.time_s)
+        none_logged = np.isnan(samples.from_logged).all()
+        logged = None if none_logged else torque_errors(samples.from_logged, samples.logged_time_s)
+        prismatic = joints[key.joint].type is JointType.PRISMATIC
+        yield JointTorqueErrors(
+            sensor=campaign.sensor.name,
+            serial=campaign.sensor.serial,
+            candidate=candidate.name,
+            offset=candidate.offset(key.offset),
+            offset_source=candidate.offset_source(key.offset),
+            prior=candidate.prior,
+            joint=key.joint,
+            unit="N" if prismatic else "N m",
+            samples=errors.count,
+            rmse=errors.rmse,
+            rmse_error=finite_or_none(errors.rmse_error),
+            rmse_half_width_95=finite_or_none(errors.rmse_half_width),
+            mean=errors.mean,
+            mean_error=finite_or_none(errors.mean_error),
+            mean_half_width_95=finite_or_none(errors.mean_half_width),
+            largest=errors.largest,
+            logged_samples=None if logged is None else logged.count,
+            logged_rmse=None if logged is None else logged.rmse,
+            logged_rmse_error=None if logged is None else finite_or_none(logged.rmse_error),
+            logged_rmse_half_width_95=None if logged is None else finite_or_none(logged.rmse_half_width),
+        )

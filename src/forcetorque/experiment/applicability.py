@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether a calibration may be applied to a sensor of an experiment, and matrices of other sensors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
+from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.calibration.provenance import FittedInterval
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.sensor_samples import LoggedReadings
+from forcetorque.formats.icub_matrix import read_matrix_file, serial_number_in_name
+from forcetorque.recording.recording import Interval
+
+_DAY_NS = 86_400_000_000_000
+"""Stamps below count from the start of a recording: nobody records on the first of January 1970 (heuristic)."""
+
+
+def require_fit(name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor) -> None:
+    """Refuse a calibration of another sensor, or of one that is read in another way.
+
+    Args:
+        name: Name of the calibration, for messages.
+        calibration: The calibration.
+        experiment: The experiment.
+        sensor: One of its sensors.
+
+    Raises:
+        SerialNumberError: If it is of another sensor.
+        ExperimentError: If the robot now reads the sensor in another frame or sign, or counts were recovered
+            through another matrix.
+    """
+    with stated_in(name):
+        calibration.require_serial(sensor.serial)
+    _refuse_other_reading(name, calibration, experiment, sensor)
+    _refuse_other_counts(name, calibration, sensor)
+    for variable in calibration.variables:
+        stated = sensor.variable(variable.name).linear
+        if stated.unit != variable.unit:
+            raise ExperimentError(
+                f"calibration {name!r} has the variable {variable.name!r} in {variable.unit}, "
+                f"the experiment in {stated.unit}; convert when reading"
+            )
+
+
+def by_sensor(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, dict[str, Calibration]]:
+    """Sort calibrations by the sensor that they are of, any number of each.
+
+    Args:
+        experiment: The experiment.
+        calibrations: Calibrations by name of their file.
+
+    Returns:
+        Calibrations by name of their file, by sensor.
+
+    Raises:
+        ExperimentError: If one is of none of the experiment's sensors.
+    """
+    groups: dict[str, dict[str, Calibration]] = {}
+    for name, calibration in calibrations.items():
+        with stated_in(name):
+            groups.setdefault(experiment.sensor(calibration.sensor.name).name, {})[name] = calibration
+    return groups
+
+
+def calibrations_of(
+    experiment: Experiment, sensor: ExperimentSensor, calibrations: Mapping[str, Calibration]
+) -> dict[str, Calibration]:
+    """Pick the calibrations of one sensor by name and serial number, since robots share names.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        calibrations: Calibrations by name of their file, of any sensors.
+
+    Returns:
+        Those of this one.
+    """
+    names = (sensor.name, *experiment.model.sensor(sensor.name).aliases)
+    return {
+        name: calibration
+        for name, calibration in calibrations.items()
+        if calibration.sensor.serial == sensor.serial and calibration.sensor.name in names
+    }
+
+
+def one_per_sensor(
+    experiment: Experiment, calibrations: Mapping[str, Calibration]
+) -> dict[str, tuple[str, Calibration]]:
+    """Sort calibrations by the sensor that they are of.
+
+    Args:
+        experiment: The experiment.
+        calibrations: Calibrations by name of their file.
+
+    Returns:
+        Name and calibration by sensor.
+
+    Raises:
+        ExperimentError: If two calibrations are of one sensor, or of none of the experiment's.
+    """
+    groups = by_sensor(experiment, calibrations)
+    for sensor, group in groups.items():
+        if len(group) > 1:
+            first, second = list(group)[:2]
+            raise ExperimentError(f"{second}: {first} calibrates {sensor!r} too; give one")
+    return {sensor: next(iter(group.items())) for sensor, group in groups.items()}
+
+
+def overlapping(
+    experiment: Experiment, intervals: Iterable[Interval], calibration: Calibration, used: Iterable[FittedInterval]
+) -> Iterator[tuple[str, str]]:
+    """Find what a calibration was made on among intervals.
+
+    Readings that were seen are known again, whatever their stamps. Else stamps say it: where the files of this
+    recording went into the calibration, or in an experiment of the same name; and only where both are so of stamps that
+    count from the start of a recording, as those of many do, if the readings are others.
+
+    Args:
+        experiment: The experiment.
+        intervals: Intervals of its recording.
+        calibration: The calibration.
+        used: Intervals that it was fitted or chosen on.
+
+    Yields:
+        Label of an interval, and of one that was used and overlaps it.
+    """
+    log_went_in = bool(experiment.log_sha256) and experiment.log_sha256 <= set(
+        calibration.provenance.inputs_sha256.values()
+    )
+    sensor = experiment.sensor(calibration.sensor.name)
+    earlier_ones = tuple(used)
+    for interval in intervals if earlier_ones else ():
+        readings = LoggedReadings(experiment, sensor, interval)
+        for earlier in earlier_ones:
+            seen = readings.were_in(earlier.content)
+            own = earlier.experiment in (None, experiment.name)
+            others = seen is False and earlier.start_ns < _DAY_NS
+            one_log = log_went_in and own if others else log_went_in or own
+            at_once = interval.start_ns < earlier.end_ns and earlier.start_ns < interval.end_ns
+            if seen or (at_once and one_log):
+                yield interval.label, earlier.label
+
+
+def _refuse_other_reading(
+    name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor
+) -> None:
+    """Refuse to compare wrenches in one frame and sign with references in another."""
+    tag = experiment.model.sensor(sensor.name)
+    fitted = (calibration.sensor.frame, calibration.sensor.measure_direction.value)
+    if fitted != (tag.frame.value, tag.direction.value):
+        raise ExperimentError(
+            f"calibration {name!r}: expected readings in the frame {tag.frame}, {tag.direction}, as the robot "
+            f"{experiment.model.name!r} has them, got {', '.join(fitted)}; fit again with this robot"
+        )
+
+
+def _refuse_other_counts(name: str, calibration: Calibration, sensor: ExperimentSensor) -> None:
+    """Refuse counts that were recovered through another matrix than those of the fit."""
+    if sensor.quantity != "wrench" or sensor.prior is None:
+        return
+    if calibration.prior is None or not np.array_equal(calibration.prior.matrix, sensor.prior):
+        source = "none" if calibration.prior is None else calibration.prior.source
+        raise ExperimentError(
+            f"calibration {name!r}: expected counts recovered through the prior that it was fitted with ({source}), "
+            f"the experiment recovers them through {sensor.prior_source}; name the same matrix file"
+        )
+
+
+def read_population(paths: Iterable[Path]) -> dict[str, FloatArray]:
+    """Read the matrices of a population of sensors.
+
+    Args:
+        paths: Calibration files (.json), matrix files named after the serial number, such as `matrix_SN026.txt`, and
+            folders, in which every .json is a calibration and every text file of such a name, SN and digits, a matrix.
+
+    Returns:
+        Matrices by serial number.
+
+    Raises:
+        MissingFileError: If there is no such file or folder, or nothing in the folder.
+        FormatError: If a matrix file does not tell whose it is, or two files are of one sensor.
+    """
+    matrices: dict[str, FloatArray] = {}
+    source: dict[str, Path] = {}
+    for path in paths:
+        for file in _files(path):
+            serial, matrix = _read(file)
+            if serial in matrices:
+                raise FormatError(
+                    f"{file}: expected one matrix per sensor, {source[serial]} is of {serial!r} too; give one of them"
+                )
+            matrices[serial], source[serial] = matrix, file
+    return matrices
+
+
+def _files(path: Path) -> list[Path]:
+    if not path.is_dir():
+        if not path.is_file():
+            raise MissingFileError(f"{path}: expected a matrix file, a calibration or a folder of them, there is none")
+        return [path]
+    files = sorted(
+        file for file in path.iterdir() if file.suffix == ".json" or serial_number_in_name(file.name) is not None
+    )
+    if not files:
+        raise MissingFileError(f"{path}: expected matrix files such as matrix_SN026.txt or calibrations, there is none")
+    return files
+
+
+def _read(file: Path) -> tuple[str, FloatArray]:
+    if file.suffix == ".json":
+        calibration = read_calibration(file)
+        return calibration.sensor.serial, calibration.matrix
+    serial = file.stem.removeprefix("matrix_")
+    if file.suffix != ".txt" or serial in ("", file.stem):
+        # without a serial number nobody could tell the judged sensor from the others
+        raise FormatError(f"{file}: expected a calibration (.json), or a name with the serial number, matrix_SN026.txt")
+    return serial, read_matrix_file(file).matrix

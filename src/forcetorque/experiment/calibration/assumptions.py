@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the generative model assumes before data: how far sensors deviate from their prior matrix, row by row."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Final, Literal
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.errors import FitError
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+
+ACCURACY_SHARE: Final = 1e-3
+"""Accuracy of the reference where nobody states it, as a share of the full scale."""
+REPEATABILITY: Final = 0.003
+"""Share of its response by which a sensor differs from one motion to the next (creep, hysteresis), unless stated."""
+
+FRAME_M: Final = 0.1
+"""Lever by which the frame of the reference may be displaced: as far as the origins of links and sensors lie apart."""
+
+
+FRAME_ROOTS: Final = np.stack([np.diag([1.0] * 3 + [0.0] * 3)] * 3 + [np.diag([FRAME_M] * 3 + [1.0] * 3)] * 3)
+"""L of every row, with L L^T the covariance of what gain, rotation and displacement of a frame do; shape (6, 6, 6)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scale:
+    """Size that a kind of deviation is expected to have, and how many coefficients' worth of data that counts for."""
+
+    expected: float
+    """Root mean square deviation."""
+    weight: float
+    """Pseudo coefficients: data overrule the expectation when they tell more coefficients than that."""
+
+
+SENSOR: Final = Scale(expected=0.06, weight=6.0)
+"""Every coefficient of the matrix, relative to the root mean square of its row."""
+FRAME: Final = Scale(expected=0.02, weight=6.0)
+"""Gain, rotation and displacement of the reference."""
+QUADRATIC: Final = Scale(expected=0.05, weight=6.0)
+"""Quadratic terms, over full scale."""
+FLATTENED: Final = 1.0 / 3.0
+"""What the derivative window took from the reference, over what one of twice the length would take besides.
+
+The error of a window grows with the square of its length where the motion is smooth.
+"""
+FLATTENING: Final = Scale(expected=0.03, weight=np.inf)
+"""By how much that may be otherwise, as where a motion has corners."""
+
+_DEGREES: Final = ("degC", "K", "degF")
+DRIFT_SHARE_PER_DEGREE: Final = 0.005
+"""What a temperature coefficient may be: a share of full scale per degree."""
+VARIABLE_SHARE: Final = 1.0
+"""What any other variable may do over the range in which it was seen: a share of full scale."""
+
+
+def variable_size(variable: LinearVariable, from_load: FloatArray) -> float | None:
+    """Say what a unit of a variable may add to a row of the model before it was seen.
+
+    Args:
+        variable: The variable.
+        from_load: What a load does to the row; shape (6,).
+
+    Returns:
+        Standard deviation by what is stated, or of a temperature; None for another variable, of which only the range
+        that was seen tells.
+    """
+    if variable.prior_deviation is not None:
+        return float(np.linalg.norm(from_load * variable.prior_deviation))
+    return DRIFT_SHARE_PER_DEGREE if variable.unit in _DEGREES else None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Assumptions:
+    """What is known of a sensor and of its reference beside data and prior matrix."""
+
+    full_scale: FloatArray
+    """Full scale of every channel of the reading; shape (c,); counts, or N and N m where a wrench stands for counts."""
+    accuracy: FloatArray | None = None
+    """Standard deviation of a slow error of the reference that no averaging takes away; shape (6,); N, N m.
+
+    None for `ACCURACY_SHARE` of the full scale of every channel.
+    """
+    repeatability: float = REPEATABILITY
+    """Share of its response by which the sensor differs from one motion to the next; only widens the covariance."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "full_scale", read_only(self.full_scale, name="full_scale", shape=(None,)))
+        if not (np.isfinite(self.full_scale).all() and (self.full_scale > 0.0).all()):
+            raise FitError(f"full_scale: expected numbers above 0, got {self.full_scale.tolist()}")
+        if self.accuracy is not None:
+            accuracy = read_only(self.accuracy, name="accuracy", shape=(6,))
+            if not (np.isfinite(accuracy).all() and (accuracy >= 0.0).all()):
+                raise FitError(f"accuracy: expected numbers of at least 0 (N, N m), got {accuracy.tolist()}")
+            object.__setattr__(self, "accuracy", accuracy)
+        if not 0.0 <= self.repeatability < 1.0:
+            raise FitError(f"repeatability: expected a share from 0 to 1, got {self.repeatability:g}")
+
+    @classmethod
+    def of_counts(
+        cls, channels: int, limit_counts: float, *, accuracy: Any = None, repeatability: float = REPEATABILITY
+    ) -> Assumptions:
+        """Assume channels of one range.
+
+        Args:
+            channels: Number c of channels.
+            limit_counts: Largest magnitude of a reading; counts.
+            accuracy: As of the class.
+            repeatability: As of the class.
+
+        Returns:
+            The assumptions.
+        """
+        return cls(full_scale=np.full(channels, limit_counts), accuracy=accuracy, repeatability=repeatability)
+
+    @property
+    def states_accuracy(self) -> bool:
+        """Whether an accuracy of the reference is given, other than 0."""
+        return self.accuracy is not None and bool(self.accuracy.any())
+
+    def reference_accuracy(self, matrix: FloatArray) -> FloatArray:
+        """Give the accuracy of the reference.
+
+        Args:
+            matrix: Matrix of the sensor, for the full scale of each component; shape (6, c).
+
+        Returns:
+            Standard deviations; shape (6,); N, N m.
+        """
+        require_shape(matrix, name="matrix", shape=(6, len(self.full_scale)))
+        if self.accuracy is not None:
+            return self.accuracy
+        accuracy: FloatArray = ACCURACY_SHARE * np.linalg.norm(matrix * self.full_scale, axis=1)
+        return accuracy
+
+
+LOADS = 6
+"""Coefficients of a row of the matrix, one for each component of a load; and components of a wrench."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Rows:
+    """The rows of the model, each in units of its own size."""
+
+    space: Literal["wrench", "channel"]
+    """What the rows are."""
+    unit: FloatArray
+    """Size of each row; shape (rows,); N, N m in wrench space, counts in channel space."""
+    group: IntArray
+    """Rows of one number share the sizes of their deviations: forces and moments, or all channels; shape (rows,)."""
+    from_raw: FloatArray
+    """What reads the rows off the raw readings, in these units; shape (rows, c)."""
+    from_load: FloatArray
+    """What a load is expected to do to the rows, in these units; shape (rows, 6)."""
+    load_to_full_scale: FloatArray
+    """Share of full scale that a load makes of six independent readings; shape (6, 6)."""
+    sensor_root: FloatArray
+    """L of every row, with L L^T the covariance of its six coefficients where the sensor differs by 1; (rows, 6, 6)."""
+    frame_root: FloatArray
+    """The same for gain, rotation and displacement of the reference; shape (rows, 6, 6)."""
+    accuracy: FloatArray
+    """Standard deviation of the slow error of the reference, in these units; shape (rows,)."""
+
+
+def rows_of(matrix: FloatArray, assumptions: Assumptions, *, in_wrench: bool) -> Rows:
+    """Choose the rows.
+
+    Args:
+        matrix: Prior matrix; without a prior one that reads the data roughly, for the sizes; shape (6, c).
+        assumptions: What is known beside it.
+        in_wrench: Whether the rows of six channels are components of the wrench.
+
+    Returns:
+        The rows.
+    """
+    scaled = matrix * assumptions.full_scale  # N, N m per full scale of a channel
+    response = np.asarray(np.linalg.pinv(scaled), dtype=np.float64)
+    channels = len(response)
+    size = np.sqrt((scaled**2).mean(axis=1))
+    accuracy = assumptions.reference_accuracy(matrix)
+    spread = _root(response.T @ response)
+    if channels == LOADS and in_wrench:
+        return Rows(
+            space="wrench",
+            unit=size,
+            group=np.repeat([0, 1], 3),
+            from_raw=matrix / size[:, None],
+            from_load=np.diag(1.0 / size),
+            load_to_full_scale=response,
+            sensor_root=np.stack([spread] * LOADS),
+            frame_root=FRAME_ROOTS / size[:, None, None],
+            accuracy=accuracy / size,
+        )
+    _, strengths, directions = np.linalg.svd(response, full_matrices=False)
+    readings: FloatArray = np.sqrt(LOADS / channels) * strengths[:, None] * directions
+    squares = np.einsum("ji,iab->jab", response**2, FRAME_ROOTS @ FRAME_ROOTS)
+    return Rows(
+        space="channel",
+        unit=np.array(assumptions.full_scale),
+        group=np.zeros(channels, dtype=np.int64),
+        from_raw=np.diag(1.0 / assumptions.full_scale),
+        from_load=response,
+        load_to_full_scale=readings,
+        sensor_root=np.stack([spread / np.sqrt(channels)] * channels),
+        frame_root=np.sqrt(squares),
+        accuracy=_channel_accuracy(response, accuracy, assumptions),
+    )
+
+
+def _channel_accuracy(response: FloatArray, accuracy: FloatArray, assumptions: Assumptions) -> FloatArray:
+    if assumptions.accuracy is None:
+        return np.full(len(response), ACCURACY_SHARE)
+    share: FloatArray = np.sqrt(response**2 @ accuracy**2)
+    return share
+
+
+def _root(square: FloatArray) -> FloatArray:
+    """L with L L^T the given matrix."""
+    vectors, values, _ = np.linalg.svd(square)
+    root: FloatArray = vectors * np.sqrt(values)
+    return root

@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a fit knows of a sensor: mean and covariance, with errors of loads that the sensor itself identified."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.arrays import ArrayField, FloatArray, require_shape
+from forcetorque.base.errors import ShapeError, known_names
+from forcetorque.base.stored_model import Part
+from forcetorque.experiment.calibration.assumptions import LOADS
+
+
+class RowNoise(Part):
+    """Noise of one row of the model, of means over a second: white, and a slow offset."""
+
+    white: float = Field(ge=0.0)
+    """Standard deviation of the white part; N, N m in wrench space, counts in channel space."""
+    time_constant_s: float = Field(ge=0.0)
+    """How long the slow offset takes to forget itself; 0 where there is none."""
+    ratio: float = Field(ge=0.0)
+    """Variance of the slow offset over that of the white part."""
+
+
+class Posterior(Part):
+    """Mean and covariance of all unknowns."""
+
+    space: Literal["wrench", "channel"]
+    """Whether rows are components of the wrench, by the prior matrix or a rough one, or channels."""
+    variables: tuple[str, ...]
+    """Names of the variables."""
+    sessions: tuple[str, ...]
+    """Names of the sessions."""
+    drift: bool
+    """Whether every session has a drift too."""
+    mean: Annotated[FloatArray, ArrayField((None, None))]
+    """Unknowns of every row; shape (rows, p); per N, per N m, per unit, offset, offset per second."""
+    covariance: Annotated[FloatArray, ArrayField((None, None, None))]
+    """Their covariance, repeatability included; shape (rows, p, p)."""
+    learnt_covariance: Annotated[FloatArray, ArrayField((None, 6, 6))]
+    """Covariance of the six coefficients without the repeatability; shape (rows, 6, 6)."""
+    prior_covariance: Annotated[FloatArray, ArrayField((None, 6, 6))] | None
+    """Covariance of the six coefficients before any data; shape (rows, 6, 6); None without a prior."""
+    to_wrench: Annotated[FloatArray, ArrayField((6, None))]
+    """Error of a wrench per error of a row; shape (6, rows)."""
+    noise: tuple[RowNoise, ...]
+    """Noise of every row."""
+    accuracy: Annotated[FloatArray, ArrayField((6,), minimum=0.0)]
+    """Accuracy of the reference that was taken for granted; N, N m."""
+    repeatability: float = Field(ge=0.0)
+    """Share of its response by which the sensor differs from one motion to the next."""
+    load_centre: Annotated[FloatArray, ArrayField((6,))]
+    """Mean fitted wrench; N, N m."""
+
+    def error_covariance(self, wrench: Any, *, variables: Any = None, session: str | None = None) -> FloatArray:
+        """Predict the covariance of the error of readings under given loads.
+
+        Args:
+            wrench: Loads; shape (..., 6); N, N m.
+            variables: Variables less their reference values; shape (..., v); None for reference values.
+            session: Session whose offset the readings are taken with; None for an offset that is known, so that
+                wrenches are changes of load.
+
+        Returns:
+            Covariance of measured minus true wrench; shape (..., 6, 6).
+
+        Raises:
+            ShapeError: If the shapes are not these, or there is no such session.
+        """
+        load = np.asarray(wrench, dtype=np.float64)
+        if load.ndim == 0 or load.shape[-1] != 6:
+            raise ShapeError(f"wrench: expected shape (..., 6), got {load.shape}")
+        design = np.zeros((*load.shape[:-1], self.mean.shape[1]))
+        design[..., :6] = load
+        v = len(self.variables)
+        if variables is not None:
+            values = np.asarray(variables, dtype=np.float64)
+            require_shape(values, name="variables", shape=(*load.shape[:-1], v))
+            design[..., 6 : 6 + v] = values
+        if session is not None:
+            if session not in self.sessions:
+                raise ShapeError(f"no session is called {session!r}; {known_names(session, self.sessions)}")
+            design[..., 6 + v + self.sessions.index(session)] = 1.0
+        return self._in_wrench(np.einsum("...j,ijk,...k->...i", design, self.covariance, design))
+
+    def prior_error_covariance(self, wrench: Any) -> FloatArray | None:
+        """Predict the covariance of the error that the prior matrix makes of changes of load, before any data.
+
+        Args:
+            wrench: Changes of load; shape (..., 6); N, N m.
+
+        Returns:
+            Covariance; shape (..., 6, 6); None without a prior.
+        """
+        if self.prior_covariance is None:
+            return None
+        load = np.asarray(wrench, dtype=np.float64)
+        return self._in_wrench(np.einsum("...j,ijk,...k->...i", load, self.prior_covariance, load))
+
+    def learnt_error_covariance(self, wrench: Any) -> FloatArray:
+        """Predict the covariance of the error of changes of load, as if the sensor repeated itself exactly.
+
+        Args:
+            wrench: Changes of load; shape (..., 6); N, N m.
+
+        Returns:
+            Covariance; shape (..., 6, 6).
+        """
+        load = np.asarray(wrench, dtype=np.float64)
+        return self._in_wrench(np.einsum("...j,ijk,...k->...i", load, self.learnt_covariance, load))
+
+    def learnt_shares(self) -> FloatArray | None:
+        """Tell how much less than before is left of the uncertainty of each load direction.
+
+        Returns:
+            One less the standard deviation after over that before, of the error that a load along each component makes,
+            root mean square over the components of the error; shape (6,); None without a prior.
+        """
+        before = self.prior_error_covariance(np.eye(6))
+        if before is None:
+            return None
+        after = self.learnt_error_covariance(np.eye(6))
+        ratios = np.einsum("kii->ki", after) / np.einsum("kii->ki", before)
+        shares: FloatArray = 1.0 - np.sqrt(ratios.mean(axis=1))
+        return shares
+
+    def matrix_error(self, matrix: FloatArray) -> FloatArray:
+        """Give the standard errors of the calibration matrix.
+
+        Args:
+            matrix: The matrix; shape (6, c).
+
+        Returns:
+            Standard errors, to first order; shape (6, c); N/count, N m/count.
+        """
+        variance = np.einsum("jb,ijk,kb->ib", matrix, self.covariance[:, :6, :6], matrix)
+        error: FloatArray = np.sqrt(np.maximum(self.to_wrench**2 @ variance, 0.0))
+        return error
+
+    def coefficient_error(self, coefficients: FloatArray) -> FloatArray:
+        """Give the standard errors of the coefficients of the variables.
+
+        Args:
+            coefficients: The coefficients; shape (6, v).
+
+        Returns:
+            Standard errors, to first order; shape (6, v); N, N m per unit.
+        """
+        errors = np.zeros_like(coefficients)
+        for k in range(coefficients.shape[1]):
+            # the coefficient is read through the matrix, whose own error moves it too
+            errors[:, k] = self._spread(coefficients[:, k], 6 + k)
+        return errors
+
+    def offset_error(self, offset: FloatArray, session: str) -> FloatArray:
+        """Give the standard errors of the offset of a session.
+
+        Args:
+            offset: The offset in wrench space; shape (6,); N, N m.
+            session: The session.
+
+        Returns:
+            Standard errors, to first order; shape (6,); N, N m.
+        """
+        return self._spread(offset, 6 + len(self.variables) + self.sessions.index(session))
+
+    def _spread(self, wrench: FloatArray, place: int) -> FloatArray:
+        design = np.zeros(self.mean.shape[1])
+        design[:6], design[place] = wrench, 1.0
+        variance = np.einsum("j,ijk,k->i", design, self.covariance, design)
+        spread: FloatArray = np.sqrt(np.maximum(self.to_wrench**2 @ variance, 0.0))
+        return spread
+
+    def _in_wrench(self, variance: FloatArray) -> FloatArray:
+        covariance: FloatArray = np.einsum("ai,...i,bi->...ab", self.to_wrench, variance, self.to_wrench)
+        return covariance
+
+
+class LoadError(Part):
+    """Errors of response and offsets that come of the loads.
+
+    Loads phi and response E were estimated together, with covariance S of phi and T of E and phi. A fit of E under the
+    estimated loads has the covariance of E given phi; what the loads add is `T S^-1 T^T`, here as `factor factor^T`.
+    """
+
+    sessions: tuple[str, ...]
+    """Power-ups whose offsets it moves."""
+    factor: Annotated[FloatArray, ArrayField((LOADS, None, None))]
+    """Of every component of the reading, what each of q independent errors of size 1 does to the six coefficients of
+    its response and to its offsets; shape (6, 6 + sessions, q); per N, per N m; N, N m."""
+
+    @classmethod
+    def largest(cls, errors: Iterable[LoadError | None]) -> LoadError | None:
+        """Choose among what several recordings carry.
+
+        Args:
+            errors: Of each recording; the same of those that were weighed together.
+
+        Returns:
+            The one that moves the response most: moments that were stored apart do not say what their loads have in
+            common. None if none carries any.
+        """
+        known = [error for error in errors if error is not None]
+        return max(known, key=lambda error: float((error.factor[:, :LOADS] ** 2).sum()), default=None)
+
+    def widened(self, posterior: Posterior, prior: FloatArray) -> Posterior:
+        """Add what the loads leave open to what a fit knows under them.
+
+        Args:
+            posterior: What the fit knows.
+            prior: Prior matrix, by which the loads were weighed; shape (6, c).
+
+        Returns:
+            The posterior with wider covariances.
+        """
+        placed = self._placed(posterior)
+        if posterior.space == "channel":
+            response = np.linalg.pinv(prior)
+            placed = np.einsum("ji,ipq->jpq", response, placed)
+        added = placed @ placed.transpose(0, 2, 1)
+        return posterior.model_copy(
+            update={
+                "covariance": posterior.covariance + added,
+                "learnt_covariance": posterior.learnt_covariance + added[:, :LOADS, :LOADS],
+            }
+        )
+
+    def _placed(self, posterior: Posterior) -> FloatArray:
+        """The factor at the places of the posterior's unknowns; shape (6, p, q)."""
+        placed = np.zeros((LOADS, posterior.mean.shape[1], self.factor.shape[2]))
+        placed[:, :LOADS] = self.factor[:, :LOADS]
+        first = LOADS + len(posterior.variables)
+        for place, session in enumerate(posterior.sessions, start=first):
+            number = next((k for k, name in enumerate(self.sessions) if _same(name, session)), None)
+            if number is not None:
+                placed[:, place] = self.factor[:, LOADS + number]
+        return placed
+
+
+def _same(name: str, session: str) -> bool:
+    """Whether a power-up is a session, with or without its recording in front."""
+    return name == session or name.endswith(f": {session}")

@@ -1,0 +1,333 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a calibration needs of a recording: kept in a file, it can be fitted with others without being read again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any, Final, Literal
+
+import numpy as np
+from pydantic import ConfigDict, Field
+
+from forcetorque.base.arrays import ArrayField, FloatArray, IntArray
+from forcetorque.base.errors import FitError
+from forcetorque.base.files import write_bytes_atomically
+from forcetorque.base.output_file import refuse_output
+from forcetorque.base.stored_model import Part, read_part
+from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.moments import DataSet, Moments
+from forcetorque.experiment.calibration.posterior import LoadError
+from forcetorque.experiment.calibration.provenance import FittedInterval, SensorIdentity
+from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.recording.sample_quality import UnusableCounts
+
+SCHEMA: Final = "forcetorque/moments/1"
+"""Name and version of the file's form."""
+
+_Vector = Annotated[FloatArray, ArrayField((None,))]
+_Table = Annotated[FloatArray, ArrayField((None, None))]
+_Wrench = Annotated[FloatArray, ArrayField((6,))]
+
+
+class IntervalMoments(Part):
+    """One interval: its means over windows of a second, and moments and ranges of its samples."""
+
+    interval: FittedInterval
+    """Which interval it is."""
+    recording: str
+    """Recording that it is of, by a name that tells it from others."""
+    samples: int = Field(ge=1)
+    """Number of samples."""
+    dropped: int = Field(ge=0)
+    """Samples of the interval that were left out."""
+    unusable: UnusableCounts = UnusableCounts()
+    """Those among them that say nothing of the load: frozen, saturated, repeated; zeros in earlier files."""
+    raw_minimum_counts: _Vector
+    """Smallest reading per channel; counts."""
+    raw_maximum_counts: _Vector
+    """Largest reading per channel; counts."""
+    variable_minimum: _Vector
+    """Smallest value of every variable."""
+    variable_maximum: _Vector
+    """Largest value of every variable."""
+    mean: _Vector
+    """Mean of the samples: channels, variables, reference."""
+    second_moment: _Table
+    """Mean product of the same, centred."""
+    time_s: _Vector
+    """Mean instants of the windows on the clock of the recording; s."""
+    count: _Vector
+    """Samples in each window."""
+    raw: _Table
+    """Mean readings; counts."""
+    reference: _Table
+    """Mean expected wrenches; N, N m."""
+    flattening: _Table
+    """What a derivative window of twice the length takes from them; N, N m."""
+    variables: _Table
+    """Mean variables."""
+    extreme_raw: _Table | None = None
+    """Readings that lie at an end of the interval's range; counts; None in files of earlier versions."""
+    extreme_variables: _Table | None = None
+    """Variables at the same samples."""
+
+    @classmethod
+    def of(
+        cls,
+        data: DataSet,
+        interval: FittedInterval,
+        *,
+        dropped: int,
+        unusable: UnusableCounts = UnusableCounts(),  # noqa: B008
+    ) -> IntervalMoments:
+        """Reduce the samples of an interval.
+
+        Args:
+            data: Samples with their instants.
+            interval: Which interval they are.
+            dropped: Samples of the interval that were left out.
+            unusable: Those among them that say nothing of the load.
+
+        Returns:
+            What is kept of them.
+        """
+        means, moments = WindowMeans.of(data), Moments.of(data.raw, data.reference, data.variables)
+        ends = _ends(data, moments)
+        return cls(
+            interval=interval,
+            recording=data.recording,
+            samples=moments.count,
+            dropped=dropped,
+            unusable=unusable,
+            raw_minimum_counts=data.raw.min(axis=0),
+            raw_maximum_counts=data.raw.max(axis=0),
+            variable_minimum=data.variables.min(axis=0),
+            variable_maximum=data.variables.max(axis=0),
+            mean=moments.mean,
+            second_moment=moments.second,
+            time_s=means.time_s,
+            count=means.count,
+            raw=means.raw,
+            reference=means.reference,
+            flattening=means.flattening,
+            # without a variable JSON would keep no rows
+            variables=means.variables if means.variables.shape[1] else np.zeros((0, 0)),
+            extreme_raw=data.raw[ends],
+            extreme_variables=data.variables[ends] if data.variables.shape[1] else np.zeros((0, 0)),
+        )
+
+    @property
+    def readings(self) -> tuple[FloatArray, FloatArray]:
+        """Readings that tell the range of the interval, shape (n, c), and the variables beside them, shape (n, v)."""
+        means = self.means
+        if self.extreme_raw is None or self.extreme_variables is None:
+            return means.raw, means.variables
+        raw = np.concatenate([means.raw, self.extreme_raw])
+        variables = self.extreme_variables.reshape(len(self.extreme_raw), means.variables.shape[1])
+        return raw, np.concatenate([means.variables, variables])
+
+    @property
+    def session(self) -> str:
+        """Session that it belongs to; the recording where its file names none."""
+        return self.interval.session or self.recording
+
+    @property
+    def means(self) -> WindowMeans:
+        """The means, for a fit."""
+        n = len(self.time_s)
+        return WindowMeans(
+            label=self.interval.label,
+            session=self.session,
+            recording=self.recording,
+            time_s=self.time_s,
+            count=self.count,
+            raw=self.raw,
+            reference=self.reference,
+            flattening=self.flattening,
+            variables=self.variables if self.variables.size else np.zeros((n, 0)),
+        )
+
+    @property
+    def moments(self) -> Moments:
+        """The moments of the samples."""
+        return Moments(
+            count=self.samples,
+            channels=len(self.raw_minimum_counts),
+            variables=len(self.variable_minimum),
+            origin=self.mean,
+            step=np.zeros_like(self.mean),
+            second=self.second_moment,
+        )
+
+
+def _ends(data: DataSet, moments: Moments) -> IntArray:
+    """Samples at the ends of the range along channels, components of the load, and principal directions of both."""
+    # which directions the recordings have together is known only when they are fitted, and means over a second miss
+    # what fast movements reach
+    _, of_raw = np.linalg.eigh(moments.raw_raw)
+    scale = np.sqrt(np.maximum(np.diag(moments.reference_reference), np.finfo(float).tiny))
+    _, of_loads = np.linalg.eigh(moments.reference_reference / np.outer(scale, scale))
+    along = np.hstack([data.raw, data.raw @ of_raw, data.reference, data.reference / scale @ of_loads])
+    ends: IntArray = np.unique([along.argmin(axis=0), along.argmax(axis=0)])
+    return ends
+
+
+class VariableDescription(Part):
+    """A linear variable of the sensor, as its experiment file describes it."""
+
+    name: str
+    """Name."""
+    unit: str
+    """Unit."""
+    reference_value: float | None
+    """Value at which it contributes nothing."""
+    prior: _Wrench | None
+    """Expected coefficients; N, N m per unit."""
+    prior_deviation: _Wrench | None
+    """How far they may be from these; N, N m per unit."""
+
+    @classmethod
+    def of(cls, variable: LinearVariable) -> VariableDescription:
+        """Describe a variable.
+
+        Args:
+            variable: The variable.
+
+        Returns:
+            The same for a file.
+        """
+        names = ("name", "unit", "reference_value", "prior", "prior_deviation")
+        return cls(**{name: getattr(variable, name) for name in names})
+
+    @property
+    def linear(self) -> LinearVariable:
+        """The variable."""
+        return LinearVariable(
+            name=self.name,
+            unit=self.unit,
+            reference_value=self.reference_value,
+            prior=self.prior,
+            prior_deviation=self.prior_deviation,
+        )
+
+
+class RecordingMoments(Part):
+    """All that a calibration needs of the calibration intervals of one recording."""
+
+    model_config = ConfigDict(
+        defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
+    )
+
+    schema_name: Literal["forcetorque/moments/1"] = Field(default=SCHEMA, alias="schema")
+    """Form of the file."""
+    sensor: SensorIdentity
+    """The sensor."""
+    experiment: str
+    """Name of the experiment."""
+    prior: Annotated[FloatArray, ArrayField((6, None))] | None
+    """Prior matrix; N/count, N m/count."""
+    prior_source: str | None
+    """File that it came from."""
+    full_scale: _Vector
+    """Full scale of every channel; counts, or N and N m where a wrench stands for counts."""
+    accuracy: _Wrench | None
+    """Accuracy of the reference; N, N m; None for 1e-3 of full scale."""
+    repeatability: float
+    """Share of its response by which the sensor differs from one motion to the next."""
+    drift: bool
+    """Whether the offset of a session may move evenly in time."""
+    nonlinear: bool = False
+    """Whether quadratic terms may correct readings."""
+    variables: tuple[VariableDescription, ...]
+    """Linear variables that are fitted."""
+    intervals: tuple[IntervalMoments, ...] = Field(min_length=1)
+    """The intervals."""
+    doubts: tuple[str, ...] = ()
+    """What makes any fit of them doubtful."""
+    added: tuple[str, ...] = ()
+    """What the experiment file adds to its log, in sentences."""
+    load_error: LoadError | None = None
+    """What is not known of loads that the sensor weighed itself; None where all were stated."""
+    inputs_sha256: dict[str, str]
+    """SHA-256 of every input file, by its path."""
+
+    @property
+    def assumptions(self) -> Assumptions:
+        """What is known beside data and prior."""
+        return Assumptions(full_scale=self.full_scale, accuracy=self.accuracy, repeatability=self.repeatability)
+
+    def save(self, path: Path | str, *, force: bool = False) -> None:
+        """Write it as JSON; on any error the file keeps what it held before.
+
+        Args:
+            path: File to write or to replace, in an existing folder.
+            force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+
+        Raises:
+            OutputError: If the file is an input of it, or a file that `force` is needed for.
+        """
+        refuse_output(path, inputs_sha256=self.inputs_sha256.values(), force=force)
+        text = json.dumps(self.model_dump(mode="json", by_alias=True), allow_nan=False)
+        write_bytes_atomically(Path(path), (text + "\n").encode())
+
+
+def read_moments(path: Path | str) -> RecordingMoments:
+    """Read what `RecordingMoments.save` wrote.
+
+    Args:
+        path: JSON file.
+
+    Returns:
+        The moments.
+    """
+    return read_part(
+        path, RecordingMoments, expected="a file of moments, there is none; `calibrate --moments` makes one"
+    )
+
+
+def require_same_sensor(recordings: Sequence[RecordingMoments]) -> None:
+    """Refuse to fit recordings of different sensors, or with different assumptions.
+
+    Args:
+        recordings: Moments of every recording, at least one.
+
+    Raises:
+        FitError: If they are not of one sensor that was mounted, described and read in one way, or a recording comes
+            twice.
+    """
+    if not recordings:
+        raise FitError("expected at least one recording, got none")
+    first = _compared(recordings[0])
+    for other in recordings[1:]:
+        for what, there in _compared(other).items():
+            if first[what] != there:
+                raise FitError(
+                    f"{other.experiment!r}: expected the {what} of {recordings[0].experiment!r}, {first[what]}, got "
+                    f"{there}; recordings are fitted together for one sensor, mounted, described and read in one way"
+                )
+    stretches = [(i.recording, i.interval.label) for recording in recordings for i in recording.intervals]
+    for recording, label in stretches:
+        if stretches.count((recording, label)) > 1:
+            raise FitError(
+                f"interval {label!r} of {recording!r} comes twice; its samples would too. Name another experiment, or "
+                "leave one of the two out"
+            )
+
+
+def _compared(recording: RecordingMoments) -> dict[str, Any]:
+    sensor = recording.sensor
+    return {
+        "serial number": sensor.serial,
+        "sensor": sensor.name,
+        "mounting (frame, direction)": f"{sensor.frame}, {sensor.measure_direction.value}",
+        "prior matrix": None if recording.prior is None else recording.prior.tolist(),
+        "full scale": recording.full_scale.tolist(),
+        "accuracy": None if recording.accuracy is None else recording.accuracy.tolist(),
+        "repeatability": recording.repeatability,
+        "drift": recording.drift,
+        "nonlinear": recording.nonlinear,
+        "variables": [variable.model_dump(mode="json") for variable in recording.variables],
+    }

@@ -1,0 +1,312 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What an experiment file points to, read and checked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.estimation.section import FusionTable, MotorTable
+from forcetorque.evaluation.load_cases.section import LoadCaseTable
+from forcetorque.experiment.calibration.assumptions import REPEATABILITY
+from forcetorque.experiment.calibration.estimation_type import EstimationType, OffsetStrategy
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.recording_names import path_endings, recording_name
+from forcetorque.locomotion.soles import ExperimentSole
+from forcetorque.planning.section import PlanTable
+from forcetorque.recording.column import ScalarSource
+from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
+from forcetorque.recording.sample_quality import SampleQuality
+from forcetorque.recording.stream import Stream
+from forcetorque.robot.contacts import Contact
+from forcetorque.robot.mechanics.samples import Processing
+from forcetorque.robot.model import RobotModel
+from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
+
+if TYPE_CHECKING:
+    from forcetorque.payload.link_loads import LinkLoads
+    from forcetorque.payload.wrist_load import WristLoads
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SensorVariable:
+    """A linear variable of a sensor and where its values come from."""
+
+    linear: LinearVariable
+    """Name, unit, reference value and prior coefficients."""
+    source: ScalarSource
+    """Its column in the recording."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class FitOptions:
+    """Estimator as the file states it; what it leaves open depends on the sensor."""
+
+    generative: bool = True
+    """Whether the generative model is fitted, and not a type of the thesis."""
+    accuracy: FloatArray | None = None
+    """Accuracy of the reference; shape (6,); N, N m; None for 1e-3 of full scale."""
+    repeatability: float = REPEATABILITY
+    """Share of its response by which a sensor differs from one motion to the next."""
+    drift: bool = False
+    """Whether the offset of a session may move evenly in time."""
+    nonlinear: bool = False
+    """Whether quadratic terms may correct readings, where they win on recordings that were not fitted."""
+
+    offset: OffsetStrategy = OffsetStrategy.ONE_SHOT
+    """How the offset is found."""
+    with_variables: bool | None = None
+    """Whether variables are fitted; None for where the sensor has any."""
+    from_reference: bool | None = None
+    """Whether they count from their reference value; None for yes."""
+
+    def kind(self, *, has_variables: bool) -> EstimationType:
+        """Settle the estimation type for a sensor.
+
+        Args:
+            has_variables: Whether the sensor has linear variables.
+
+        Returns:
+            The type.
+        """
+        used = has_variables if self.with_variables is None else self.with_variables
+        counted = used if self.from_reference is None else self.from_reference and used
+        return EstimationType(offset=self.offset, with_variables=used, from_reference=counted)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Role:
+    """What an interval is to a study."""
+
+    kind: str
+    """Kind of motion."""
+    session: str | None
+    """Stretch of time in which nothing was switched off; None where the file names none: the recording is one."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ExperimentSensor:
+    """A sensor of the experiment, matched to the robot and to a stream."""
+
+    name: str
+    """Name in the robot model."""
+    serial: str
+    """Serial number."""
+    stream: str
+    """Stream that holds its reading."""
+    quantity: str
+    """`raw` or `wrench`."""
+    prior: FloatArray | None
+    """Prior matrix; shape (6, c); N/count, N m/count."""
+    prior_source: str | None
+    """Its file, as the experiment names it; `identity` where the reading itself takes the place of counts."""
+    limit_counts: float
+    """Largest magnitude of a raw reading; counts."""
+    full_scale: FloatArray | None = None
+    """Full scale per component, as the file states it; shape (6,); N, N m."""
+    reading_noise: FloatArray | None = None
+    """Standard deviation of a reading from sample to sample, as the file states it; shape (6,); N, N m."""
+    reading_deviation: FloatArray | None = None
+    """Standard deviation of what a reading is off all along, as the file states it; shape (6,); N, N m."""
+    amplifier_gain: tuple[float, ...] | None = None
+    """Gain of each channel's amplifier while it was recorded; None if it is not known."""
+    allowed_gains: tuple[float, ...] | None = None
+    """Gains that its amplifiers can be set to; None if they are not known."""
+    variables: tuple[SensorVariable, ...] = ()
+    """Linear variables that may be fitted with the matrix."""
+
+    def variable(self, name: str) -> SensorVariable:
+        """Find a linear variable of the sensor.
+
+        Args:
+            name: Its name.
+
+        Returns:
+            The variable.
+
+        Raises:
+            ExperimentError: If the experiment states none of that name for the sensor.
+        """
+        for variable in self.variables:
+            if variable.linear.name == name:
+                return variable
+        known = ", ".join(variable.linear.name for variable in self.variables) or "none"
+        raise ExperimentError(
+            f"sensor {self.name!r}: expected the variable {name!r}, the experiment states {known}; "
+            "add it as [[sensor.variable]]"
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ExperimentContact:
+    """A place where the world may touch the robot beside the support."""
+
+    contact: Contact
+    """The contact."""
+    stream: str | None = None
+    """Stream with the wrench of a known contact."""
+    intervals: tuple[str, ...] | None = None
+    """Labels of the intervals in which it may touch; None for all."""
+    noise: FloatArray | None = None
+    """Standard deviation of a known wrench from sample to sample, as the file states it; shape (6,); N, N m."""
+    deviation: FloatArray | None = None
+    """Standard deviation of what a known wrench is off all along, as the file states it; shape (6,); N, N m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class Experiment:
+    """Everything that an experiment file points to."""
+
+    name: str
+    """Name of the experiment."""
+    file: Path
+    """Its file."""
+    model: RobotModel
+    """The robot."""
+    recording: Recording
+    """What was measured, with the file's intervals."""
+    sensors: tuple[ExperimentSensor, ...]
+    """Sensors in the order of the file."""
+    contacts: tuple[ExperimentContact, ...]
+    """Contacts beside the support."""
+    length_scale: float | None
+    """Moment that weighs as much as one newton, where contacts leave something undetermined; m."""
+    processing: Processing
+    """Filters and gravity."""
+    regularisation: float | None
+    """Lambda; counts2; None to choose it on held-out blocks."""
+    fit_options: FitOptions
+    """Estimation type."""
+    sphere_intervals: tuple[str, ...] | None
+    """Labels of the intervals that give the offset of the sphere types."""
+    roles: Mapping[str, Role]
+    """What each interval is to a study, by label."""
+    inputs_sha256: dict[str, str]
+    """SHA-256 of every input file, by its path as the experiment names it."""
+    log_sha256: frozenset[str] = frozenset()
+    """SHA-256 of the files of the recording, by which it is known under another experiment's name."""
+    condition: str | None = None
+    """What was done to the sensors, in the user's words; None if the file does not say."""
+    trial: int | None = None
+    """Which trial of its condition it is; None for the order of the files."""
+    motors: tuple[MotorTable, ...] = ()
+    """Motors whose current or PWM tells joint torques, as the file states them."""
+    fusion: FusionTable | None = None
+    """How joint torques of several sources are made one, as the file states it."""
+    load_cases: tuple[LoadCaseTable, ...] = ()
+    """What the sensors are to be used for, as the file states it."""
+    supports: tuple[Support, ...] = ()
+    """Supports at rest that the file states, used or not."""
+    plan: PlanTable | None = None
+    """What can be recorded next, as the file states it."""
+    soles: tuple[ExperimentSole, ...] = ()
+    """Soles that the robot stands on."""
+    skin: PatchExperiment | None = None
+    """Its patches of skin; None without any."""
+    wrist: WristLoads | None = None
+    """What hangs on a wrist sensor; None for a robot."""
+    link_loads: LinkLoads | None = None
+    """What hangs on links of a robot beside what its URDF says; None for nothing."""
+    qualities: dict[str, SampleQuality] = field(default_factory=dict, init=False)
+    """What is wrong with the samples of every sensor that was read, by its name; filled by `sample_quality`."""
+
+    def __repr__(self) -> str:
+        sensors = ", ".join(f"{sensor.name} ({sensor.serial})" for sensor in self.sensors)
+        intervals = ", ".join(f"{one.label!r} {one.use}" for one in self.recording.intervals)
+        what = f"{self.model.name}; sensors {sensors}; {intervals or 'no intervals'}"
+        return f"<Experiment {self.name!r}: {what}>"
+
+    @property
+    def force_patches(self) -> tuple[ExperimentPatch, ...]:
+        """Patches of skin whose contacts are sources of force: those with a calibration of their taxels."""
+        return () if self.skin is None else tuple(patch for patch in self.skin.patches if patch.table is not None)
+
+    @property
+    def clock_stream(self) -> Stream:
+        """The stream at whose instants is estimated: of the first sensor, or of the first patch where there is none."""
+        if self.sensors:
+            return self.recording.stream(self.sensors[0].stream)
+        if not self.force_patches:
+            raise ExperimentError(
+                f"experiment {self.name!r}: expected [[sensor]], or a [[patch]] with a table, got neither; "
+                "`forcetorque skin calibrate` makes a table"
+            )
+        return self.recording.stream(self.force_patches[0].counts)
+
+    @property
+    def stands(self) -> bool:
+        """Whether a robot stands on a support at rest, so that its joints can be moved as planned."""
+        return self.wrist is None and bool(self.supports)
+
+    def model_on(self, support: Support | MovingSupport) -> RobotModel:
+        """Give the robot as it stands on a support, with what hangs on a wrist sensor or on its links then.
+
+        A load that nobody stated is estimated when it is first asked for, and once.
+
+        Args:
+            support: Support of an interval.
+
+        Returns:
+            The robot.
+
+        Raises:
+            ExperimentError: If the recording does not determine a load that is to be estimated.
+        """
+        if self.link_loads is not None:
+            return self.link_loads.model_on(support, self)
+        return self.model if self.wrist is None else self.wrist.model_on(support, self)
+
+    def sensor(self, name: str) -> ExperimentSensor:
+        """Find a sensor of the experiment.
+
+        Args:
+            name: Its name, or another one that the robot model has for it.
+
+        Returns:
+            The sensor.
+
+        Raises:
+            ExperimentError: If the experiment has none of that name.
+        """
+        for sensor in self.sensors:
+            if name in (sensor.name, *self.model.sensor(sensor.name).aliases):
+                return sensor
+        raise ExperimentError(
+            f"experiment {self.name!r} has no sensor {name!r}; {known_names(name, (s.name for s in self.sensors))}"
+        )
+
+    def session_names(self, label: str | None) -> tuple[str, ...]:
+        """Give the names under which a calibration may know the session of an interval.
+
+        Args:
+            label: Label of the interval; None for what lies in none.
+
+        Returns:
+            The session that the file states; else the name of the recording, with as much of the path of its file as
+            told several recordings of that name apart, longest first, and by itself.
+        """
+        role = None if label is None else self.roles.get(label)
+        if role is not None and role.session is not None:
+            return (role.session,)
+        return (*(recording_name(self.name, path) for path in reversed(path_endings(self.file))), self.name)
+
+    def intervals(self, use: Use) -> tuple[Interval, ...]:
+        """Give the intervals of one use.
+
+        Args:
+            use: The use.
+
+        Returns:
+            Intervals in the order of the file.
+
+        Raises:
+            ExperimentError: If there is none.
+        """
+        chosen = tuple(interval for interval in self.recording.intervals if interval.use is use)
+        if not chosen:
+            raise ExperimentError(f'experiment {self.name!r}: expected an interval with use = "{use}", it has none')
+        return chosen

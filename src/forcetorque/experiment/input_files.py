@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files that an experiment names: resolved from its folder and hashed, and what the reader of a log may know."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from forcetorque.base.errors import ForceTorqueError, MissingFileError
+from forcetorque.base.input_file import accept_input
+
+
+class Inputs:
+    """Resolves the paths of an experiment file and remembers what was read."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self._read: dict[str, Path] = {}
+
+    def file(self, relative: Path) -> Path:
+        """Resolve a file.
+
+        Args:
+            relative: Path as the experiment file has it.
+
+        Returns:
+            Path to open.
+
+        Raises:
+            FormatError: If a pipe or a device is there.
+        """
+        path = self.folder / relative
+        accept_input(path)
+        self._read[relative.as_posix()] = path
+        return path
+
+    def below(self, relative: Path, *patterns: str) -> Path:
+        """Resolve a folder of which some files are read.
+
+        Args:
+            relative: Path as the experiment file has it.
+            patterns: Names of the files, with wildcards.
+
+        Returns:
+            Path of the folder.
+
+        Raises:
+            FormatError: If one of the files is a pipe or a device.
+        """
+        path = self.folder / relative
+        for pattern in patterns:
+            for file in sorted(path.glob(pattern)):
+                accept_input(file)
+                self._read[(relative / file.name).as_posix()] = file
+        return path
+
+    def names(self) -> frozenset[str]:
+        """Tell what was resolved so far.
+
+        Returns:
+            Paths as the experiment file has them.
+        """
+        return frozenset(self._read)
+
+    def sha256(self) -> dict[str, str]:
+        """Hash everything that was resolved.
+
+        Returns:
+            SHA-256 in hex by the path as the experiment file has it.
+        """
+        hashes = {}
+        for name, path in sorted(self._read.items()):
+            with path.open("rb") as stream:
+                hashes[name] = hashlib.file_digest(stream, "sha256").hexdigest()
+        return hashes
+
+
+@contextmanager
+def stated_in(where: str) -> Iterator[None]:
+    """Say in which table of the experiment file the path or name stands that leads to an error.
+
+    Args:
+        where: File and table.
+
+    Yields:
+        Nothing.
+
+    Raises:
+        ForceTorqueError: The error of the body, of the same type, with `where` in front.
+    """
+    try:
+        yield
+    except ForceTorqueError as error:
+        # who read the file may have said so already
+        words = str(error) if str(error).startswith(f"{where}: ") else f"{where}: {error}"
+        raise type(error)(words) from error
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExperimentContext:
+    """Names, units and files of an experiment, for `LogFormat.read`."""
+
+    experiment: Path
+    """The experiment file, for messages."""
+    inputs: Inputs
+    """Resolves and remembers the files."""
+    sensors: Mapping[str, str]
+    """Name of the sensor that reads a stream, by the stream."""
+    joint_units: Mapping[str, str]
+    """Unit of the position of every joint of the robot, rad or m; empty for a wrist sensor."""
+
+    def file(self, relative: Path) -> Path:
+        """Resolve a file, which becomes an input.
+
+        Args:
+            relative: Path as the experiment file has it.
+
+        Returns:
+            Path to open.
+        """
+        return self.inputs.file(relative)
+
+    def below(self, relative: Path, *patterns: str) -> Path:
+        """Resolve a folder of which some files become inputs.
+
+        Args:
+            relative: Path as the experiment file has it.
+            patterns: Names of the files, with wildcards.
+
+        Returns:
+            Path of the folder.
+        """
+        return self.inputs.below(relative, *patterns)
+
+    def folder(self, relative: Path) -> Path:
+        """Resolve a folder that must be there.
+
+        Args:
+            relative: Path as the experiment file has it.
+
+        Returns:
+            Path of the folder.
+
+        Raises:
+            MissingFileError: If it is not there.
+        """
+        path = self.inputs.folder / relative
+        if not path.is_dir():
+            raise MissingFileError(f"{path}: expected the folder of a log, there is none")
+        return path
+
+    def stated_in(self, table: str) -> AbstractContextManager[None]:
+        """Put the file and the table of `[recording]` that is being read in front of errors.
+
+        Args:
+            table: The table, such as `stream[2]`.
+
+        Returns:
+            The context of its reading.
+        """
+        return stated_in(f"{self.experiment}: recording.{table}")

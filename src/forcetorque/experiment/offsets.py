@@ -1,0 +1,296 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Offsets of sensors by every policy: what mechanics demands over a stretch, less what is read there."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.errors import ExperimentError, FitError, known_names
+from forcetorque.experiment.contacts import contacts_in
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.offset_policy import Offset, OffsetEstimate, OffsetPolicy
+from forcetorque.experiment.sensor_reading import Correction
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.sensor_samples import IntervalSamples
+from forcetorque.experiment.static_seconds import still_seconds
+from forcetorque.experiment.validation_set import OFFSET_S
+from forcetorque.recording.alignment import seconds_since
+from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.root_motion import imu_frame, imu_streams
+from forcetorque.robot.tree import build_tree
+
+FEWEST = 10
+"""Samples; fewer hardly tell how much they scatter."""
+
+_AT_REST = "joints at rest"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SensorOffset:
+    """Offset of one sensor from one stretch."""
+
+    sensor: str
+    """The sensor."""
+    policy: OffsetPolicy
+    """Where the offset is from."""
+    interval: Interval
+    """The interval, with the support by which mechanics was asked."""
+    estimate: OffsetEstimate
+    """The offset."""
+    load: FloatArray
+    """What mechanics demands of the reading in the mean; shape (6,); N, N m."""
+    load_moves_N: float
+    """How far the force that it demands is from its mean at most."""
+    weight_N: float
+    """Mean norm of that force."""
+    not_logged: tuple[str, ...] = ()
+    """Joints that no stream holds and that the demanded moments depend on: they are taken to be at rest anywhere, so
+    that forces are known and moments are not."""
+
+    @property
+    def wrench(self) -> FloatArray:
+        """What is to be added, moments that are not known left out; shape (6,); N, N m."""
+        known = np.repeat([1.0, 0.0 if self.not_logged else 1.0], 3)
+        offset: FloatArray = known * self.estimate.value
+        return offset
+
+
+def offset_policies(words: Collection[OffsetPolicy | str]) -> tuple[OffsetPolicy, ...]:
+    """Understand policies, each once.
+
+    Args:
+        words: Policies, or as the command line has them.
+
+    Returns:
+        The policies in this order.
+    """
+    return tuple(dict.fromkeys(OffsetPolicy.of(one) if isinstance(one, str) else one for one in words))
+
+
+def sensor_offset(run: SensorRun, correction: Correction, policy: OffsetPolicy) -> SensorOffset:
+    """Find the offset of a sensor from the interval that a policy names.
+
+    Args:
+        run: The sensor.
+        correction: How it is read; its own offset does not count.
+        policy: The policy, one that names an interval.
+
+    Returns:
+        The offset with its interval.
+
+    Raises:
+        ExperimentError: If there is no such interval; if it is not known there what the sensor must read: something
+            else touches, no IMU tells gravity, nobody states it, or nothing is still.
+        FitError: If there are too few samples to tell an error.
+    """
+    interval = labelled(run.experiment, policy.interval)
+    if policy.offset is Offset.TARE:
+        refuse_touched(run, interval)
+        samples = run.interval_samples(interval, variables=correction.variables)
+        return _offset(run, correction, policy, interval, samples, np.ones(len(samples.samples), dtype=bool))
+    interval = one_link_interval(run.experiment, policy)
+    not_logged = _not_logged(run, interval)
+    there = _with_joints_at_rest(run, interval, not_logged)
+    samples = SensorRun(replace(run.experiment, recording=there), run.sensor).interval_samples(
+        interval, variables=correction.variables
+    )
+    still = still_seconds(run.experiment.recording, interval).hold(samples.samples.stamp_ns)
+    return _offset(run, correction, policy, interval, samples, still, not_logged)
+
+
+def with_policy(
+    run: SensorRun, correction: Correction, policy: OffsetPolicy
+) -> tuple[Correction, tuple[SensorOffset, ...]]:
+    """Read a sensor with the offset of a policy.
+
+    Args:
+        run: The sensor.
+        correction: How it is read, with the offset of the data that were fitted.
+        policy: The policy.
+
+    Returns:
+        The correction with its offset, and where the recording gave that: once, or once per interval.
+
+    Raises:
+        ExperimentError: As of `sensor_offset`.
+        FitError: If there are too few samples to tell an error.
+    """
+    if policy.offset is Offset.FITTED:
+        return correction, ()
+    if policy.offset is Offset.NONE:
+        return correction.bare, ()
+    if policy.interval is not None:
+        offset = sensor_offset(run, correction, policy)
+        return correction.with_offset(offset.wrench, f"{policy}"), (offset,)
+    offsets = tuple(_of_every_interval(run, correction, policy))
+    by_label = {offset.interval.label: offset.wrench for offset in offsets}
+    bare = correction.with_offset(np.zeros(6), f"{policy} of every interval", intervals=by_label)
+    return bare, offsets
+
+
+def labelled(experiment: Experiment, label: str | None) -> Interval:
+    """Find an interval by its label.
+
+    Args:
+        experiment: The experiment.
+        label: The label.
+
+    Returns:
+        The interval.
+
+    Raises:
+        ExperimentError: If there is none.
+    """
+    intervals = {interval.label: interval for interval in experiment.recording.intervals}
+    if label not in intervals:
+        raise ExperimentError(f"no interval is labelled {label!r}; {known_names(str(label), intervals)}")
+    return intervals[label]
+
+
+def refuse_touched(run: SensorRun, interval: Interval) -> None:
+    """Refuse an interval in which nobody knows what a sensor must read.
+
+    Args:
+        run: The sensor.
+        interval: The interval.
+
+    Raises:
+        ExperimentError: If something touches beyond the sensor.
+    """
+    if touching := run.touched_beyond(interval):
+        raise ExperimentError(
+            f"interval {interval.label!r}: expected one in which nothing touches beyond {run.sensor.name!r}, but "
+            f"{', '.join(touching)} may, so that nobody knows what the sensor must read"
+        )
+
+
+def one_link_interval(experiment: Experiment, policy: OffsetPolicy) -> Interval:
+    """Give the interval of a policy for which one link alone is touched, with gravity from where the policy has it.
+
+    Args:
+        experiment: The experiment.
+        policy: One of `OF_ONE_LINK`.
+
+    Returns:
+        The interval with its support, which an IMU moves or which is at rest.
+
+    Raises:
+        ExperimentError: If there is no such interval, other links are touched in it, or gravity is not known.
+    """
+    interval = labelled(experiment, policy.interval)
+    others = [entry.contact.link for entry in contacts_in(interval, experiment.contacts)]
+    support = interval.support
+    if support is None or others:
+        touched = "no link" if support is None else ", ".join([support.frame, *others])
+        raise ExperimentError(
+            f"offset {policy}: expected an interval in which one link alone touches the world, but {touched} may; of "
+            "[[contact]] say with intervals where it does"
+        )
+    return replace(interval, support=_support(experiment, policy, support))
+
+
+def _support(experiment: Experiment, policy: OffsetPolicy, support: Support | MovingSupport) -> Support | MovingSupport:
+    if policy.offset is Offset.ONE_LINK_FIXED_FRAME:
+        stated = [support] if isinstance(support, Support) else experiment.supports
+        fixed = next((one for one in stated if one.frame == support.frame), None)
+        if fixed is None:
+            raise ExperimentError(
+                f"offset {policy}: expected [[support]] {support.frame!r} with gravity_direction, in its axes; it has "
+                f"an IMU: take {Offset.ONE_LINK_IMU}:{policy.interval}, or state the direction"
+            )
+        return fixed
+    if isinstance(support, MovingSupport):
+        return support
+    streams = imu_streams(experiment.recording)
+    if not streams:
+        raise ExperimentError(
+            f"offset {policy}: expected an IMU in the recording, which tells gravity, there is none; take "
+            f"{Offset.ONE_LINK_FIXED_FRAME}:{policy.interval}"
+        )
+    moving = MovingSupport(frame=support.frame, motion_streams=streams)
+    imu_frame(experiment.model, experiment.recording, moving)  # of several IMUs the file must name one
+    return moving
+
+
+def _not_logged(run: SensorRun, interval: Interval) -> tuple[str, ...]:
+    """Joints that the expected reading depends on and no stream holds."""
+    experiment, support = run.experiment, interval.support
+    if support is None:
+        return ()
+    tree = build_tree(experiment.model_on(support), support.frame)
+    question = Question(tree=tree, expected=(run.sensor.name,), equations=())
+    logged = experiment.recording.joint_signals("position")
+    return tuple(joint for joint in required_joints_of(question) if joint not in logged)
+
+
+def _with_joints_at_rest(run: SensorRun, interval: Interval, joints: Collection[str]) -> Recording:
+    # at rest a sensor bears the same force wherever a joint is, and another moment
+    recording, stream = run.experiment.recording, run.stream
+    streams = dict(recording.streams)
+    if joints:
+        zero = Signal(
+            quantity="position",
+            values=np.zeros((len(stream), len(joints))),
+            columns=tuple(joints),
+            units=tuple(run.experiment.model.joints[joint].type.unit for joint in joints),
+        )
+        streams[_AT_REST] = Stream(
+            name=_AT_REST, clock=stream.clock, stamp_ns=stream.stamp_ns, signals={"position": zero}
+        )
+    intervals = tuple(interval if one.label == interval.label else one for one in recording.intervals)
+    return replace(recording, streams=streams, intervals=intervals)
+
+
+def _of_every_interval(run: SensorRun, correction: Correction, policy: OffsetPolicy) -> Iterator[SensorOffset]:
+    for interval in run.experiment.recording.intervals:
+        if interval.use is Use.IGNORE:
+            continue
+        refuse_touched(run, interval)
+        if others := [one for one in contacts_in(interval, run.experiment.contacts) if one.intervals is not None]:
+            raise ExperimentError(
+                f"offset {policy}: expected intervals in which one link alone touches the world, but "
+                f"{others[0].contact.name} does in {interval.label!r} too; take one from an interval, such as "
+                f"{Offset.ONE_LINK_FIXED_FRAME}:LABEL"
+            )
+        samples = run.interval_samples(interval, variables=correction.variables)
+        stamps = samples.samples.stamp_ns
+        chosen = np.ones(len(stamps), dtype=bool)
+        if policy.offset is Offset.FIRST_SECOND:
+            chosen = stamps < stamps[0] + round(OFFSET_S * 1e9)
+        yield _offset(run, correction, policy, interval, samples, chosen)
+
+
+def _offset(
+    run: SensorRun,
+    correction: Correction,
+    policy: OffsetPolicy,
+    interval: Interval,
+    samples: IntervalSamples,
+    chosen: BoolArray,
+    not_logged: tuple[str, ...] = (),
+) -> SensorOffset:
+    count = int(chosen.sum())
+    if count < FEWEST:
+        raise FitError(
+            f"interval {interval.label!r}: expected at least {FEWEST} samples to tell an offset, got {count}"
+        )
+    expected = samples.samples.reference[chosen]
+    lacking = expected - samples.readings.at(chosen).wrench(correction.bare)
+    time_s = seconds_since(samples.samples.stamp_ns[chosen], run.experiment.recording.start_ns)
+    force = expected[:, :3]
+    return SensorOffset(
+        sensor=run.sensor.name,
+        policy=policy,
+        interval=interval,
+        estimate=OffsetEstimate.of(lacking, time_s),
+        load=expected.mean(axis=0),
+        load_moves_N=float(np.linalg.norm(force - force.mean(axis=0), axis=1).max()),
+        weight_N=float(np.linalg.norm(force, axis=1).mean()),
+        not_logged=not_logged,
+    )

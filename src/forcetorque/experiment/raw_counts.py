@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Raw counts of a sensor over the chosen intervals of an experiment."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.experiment.calibration.sensor_model import recover_raw
+from forcetorque.experiment.experiment import ExperimentSensor
+from forcetorque.experiment.sample_quality import sample_quality
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Interval, Use
+from forcetorque.recording.stream import Stream
+from forcetorque.robot.mechanics.samples import pick_samples
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RawCounts:
+    """Raw readings of a sensor."""
+
+    stream: Stream
+    """The samples that have a reading."""
+    channels: tuple[str, ...]
+    """Names of the c channels."""
+    values: FloatArray
+    """Readings; shape (n, c); counts."""
+    recovered: bool
+    """Whether they came through the inverse of the prior; an offset of the electronics is not in them."""
+    missing: int
+    """Samples without a reading."""
+    frozen: int
+    """Samples that a saturated board held, by its status, or that repeat one reading while the log is noisy."""
+
+    def __post_init__(self) -> None:
+        shape = (len(self.stream), len(self.channels))
+        object.__setattr__(self, "values", read_only(self.values, name="values", shape=shape))
+
+
+def raw_counts(run: SensorRun) -> RawCounts:
+    """Collect the raw readings of a sensor over all intervals that are not ignored.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        Its readings.
+
+    Raises:
+        ExperimentError: If all intervals are ignored, the counts are not known, or no sample has a reading.
+    """
+    experiment, sensor, stream = run.experiment, run.sensor, run.stream
+    used = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
+    if not used:
+        raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not ignored, it has none")
+    rows = np.unique(np.concatenate([pick_samples(experiment.recording, stream, interval)[0] for interval in used]))
+    signal = stream.signal(sensor.quantity)
+    kept = rows[np.isfinite(signal.values[rows]).all(axis=1)]
+    if not len(kept):
+        raise ExperimentError(f"sensor {sensor.name!r}: none of {len(rows)} samples of {stream.name!r} has a reading")
+    picked = replace(
+        stream,
+        stamp_ns=stream.stamp_ns[kept],
+        sequence=None,
+        signals={signal.quantity: replace(signal, values=signal.values[kept])},
+    )
+    recovered = sensor.quantity == "wrench"
+    values = _counts(sensor, signal.values[kept])
+    return RawCounts(
+        stream=picked,
+        channels=tuple(f"ch{k}" for k in range(values.shape[1])) if recovered else signal.columns,
+        values=values,
+        recovered=recovered,
+        missing=len(rows) - len(kept),
+        frozen=int(np.count_nonzero((stream.held | sample_quality(experiment, sensor).frozen)[rows])),
+    )
+
+
+def _counts(sensor: ExperimentSensor, values: FloatArray) -> FloatArray:
+    if sensor.quantity == "raw":
+        return values
+    if sensor.prior is None or sensor.prior_source == "identity":
+        raise ExperimentError(
+            f"sensor {sensor.name!r}: expected raw counts, or the matrix file with which its wrench was made; without "
+            "them nobody knows how far its channels are from their limits"
+        )
+    return recover_raw(values, sensor.prior)
+
+
+def chosen_intervals(runs: Sequence[SensorRun], labels: Collection[str]) -> list[tuple[SensorRun, Interval]]:
+    """Find the intervals of some labels.
+
+    Args:
+        runs: The sensor in one or several recordings, of which only some may have a label.
+        labels: Their labels; all that are not to be ignored if none is named.
+
+    Returns:
+        Intervals with their recordings, in the order of time within each.
+
+    Raises:
+        ExperimentError: If no recording has an interval of a label.
+    """
+    known = {interval.label for run in runs for interval in run.experiment.recording.intervals}
+    for label in labels:
+        if label not in known:
+            raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, known)}")
+    return [
+        (run, interval)
+        for run in runs
+        for interval in sorted(run.experiment.recording.intervals, key=lambda interval: interval.start_ns)
+        if (interval.label in labels if labels else interval.use is not Use.IGNORE)
+    ]

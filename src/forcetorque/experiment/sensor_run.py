@@ -1,0 +1,385 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One sensor of one experiment: what every question to it needs, computed when it is first asked for, and once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
+from typing import TypeVar, cast
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError
+from forcetorque.experiment.applicability import require_fit
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.provenance import SensorIdentity
+from forcetorque.experiment.candidates import (
+    JudgedCandidate,
+    JudgedWrenches,
+    judged_candidates,
+    judged_wrenches,
+    uncalibrated,
+)
+from forcetorque.experiment.contacts import contacts_in, touched_otherwise
+from forcetorque.experiment.experiment import Experiment, ExperimentContact, ExperimentSensor
+from forcetorque.experiment.first_second import JudgedInstants
+from forcetorque.experiment.sensor_reading import Correction, Readings, wrench_at
+from forcetorque.experiment.sensor_samples import IntervalSamples, readings_over, samples_over
+from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
+from forcetorque.recording.stream import Stream
+from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.sub_model import path_to_root
+from forcetorque.robot.tree import build_tree
+
+_Answer = TypeVar("_Answer")
+
+
+class SensorRun:
+    """One sensor of one experiment. Questions take it, and share what they have in common."""
+
+    def __init__(self, experiment: Experiment, sensor: ExperimentSensor | str) -> None:
+        """Choose a sensor.
+
+        Args:
+            experiment: The experiment.
+            sensor: One of its sensors, or its name.
+        """
+        self.experiment = experiment
+        self.sensor = experiment.sensor(sensor) if isinstance(sensor, str) else sensor
+        self._known: dict[Hashable, object] = {}
+        self._motions: dict[Hashable, list[tuple[JointMotion, RootMotion]]] = {}
+
+    def __repr__(self) -> str:
+        return f"SensorRun({self.experiment.name!r}, {self.sensor.name!r}, serial={self.sensor.serial!r})"
+
+    @property
+    def stream(self) -> Stream:
+        """The stream that holds its reading."""
+        return self.experiment.recording.stream(self.sensor.stream)
+
+    @property
+    def identity(self) -> SensorIdentity:
+        """Which sensor it is, where it is mounted and how it reads."""
+        tag = self.experiment.model.sensor(self.sensor.name)
+        return SensorIdentity(
+            name=self.sensor.name,
+            serial=self.sensor.serial,
+            robot=self.experiment.model.name,
+            frame=tag.frame.value,
+            measure_direction=tag.direction,
+        )
+
+    @property
+    def channels(self) -> int:
+        """Number of channels of a raw reading, logged or recovered through the prior."""
+        prior, logged = self.sensor.prior, self.stream.signal(self.sensor.quantity).values
+        return int(logged.shape[1] if self.sensor.quantity == "raw" or prior is None else prior.shape[1])
+
+    def has(self, use: Use) -> bool:
+        """Tell whether the recording has an interval of a use in which it is known what the sensor must read.
+
+        Args:
+            use: The use.
+
+        Returns:
+            Whether it has.
+        """
+        return any(
+            interval.use is use and not self.touched_beyond(interval)
+            for interval in self.experiment.recording.intervals
+        )
+
+    def intervals(self, use: Use) -> tuple[Interval, ...]:
+        """Give the intervals of one use in which it is known what the sensor must read.
+
+        Args:
+            use: The use.
+
+        Returns:
+            Intervals in the order of time.
+        """
+        return tuple(sorted(self._known_intervals(use), key=lambda interval: interval.start_ns))
+
+    def touched_beyond(self, interval: Interval) -> tuple[str, ...]:
+        """Name what touches a robot on the move beyond the sensor, seen from the support, and nobody knows how.
+
+        Where the support stands still a contact is one that may come, such as a hand; where it moves, with an IMU, the
+        robot stands on what the file names.
+
+        Args:
+            interval: An interval.
+
+        Returns:
+            Names of contacts; none where mechanics says what the sensor must read.
+        """
+        present = contacts_in(interval, self.experiment.contacts)
+        support = interval.support
+        if not present or not isinstance(support, MovingSupport):
+            return ()
+        return self.once(("touched", _key(interval)), lambda: self._beyond(support, present))
+
+    def possibly_touched(self, interval: Interval) -> tuple[str, ...]:
+        """Name the contacts beyond the sensor that may come while the support stands still.
+
+        Args:
+            interval: An interval.
+
+        Returns:
+            Names of contacts; none where the support moves, since there they are `touched_beyond`.
+        """
+        present = contacts_in(interval, self.experiment.contacts)
+        support = interval.support
+        return self._beyond(support, present) if present and isinstance(support, Support) else ()
+
+    def known(self, intervals: Sequence[Interval], which: str = "an interval") -> tuple[Interval, ...]:
+        """Leave out intervals in which nobody knows what the sensor must read.
+
+        Args:
+            intervals: At least one interval.
+            which: What they are, for messages.
+
+        Returns:
+            Those in which nothing touches the robot beyond the sensor.
+
+        Raises:
+            ExperimentError: If something does in every one.
+        """
+        known = tuple(interval for interval in intervals if not self.touched_beyond(interval))
+        if not known:
+            names = dict.fromkeys(name for interval in intervals for name in self.touched_beyond(interval))
+            raise ExperimentError(
+                f"expected {which} in which nothing touches the robot beyond {self.sensor.name!r}, but by [[contact]] "
+                f"or touched {', '.join(names)} does in every one, so that nobody knows what the sensor must read; "
+                "record it with that in the air, or calibrate all at once, --jointly, from Python calibrate_jointly"
+            )
+        return known
+
+    def interval_samples(
+        self, interval: Interval, *, variables: Collection[str] = (), smoothed: bool = True
+    ) -> IntervalSamples:
+        """Pair reading and reference over an interval.
+
+        Args:
+            interval: The interval.
+            variables: Names of the linear variables that are wanted; samples that lack one are left out.
+            smoothed: Whether the filter of the experiment is applied.
+
+        Returns:
+            The samples.
+        """
+        names = self._in_order(variables)
+        return self.once(
+            ("samples", _key(interval), names, smoothed),
+            lambda: samples_over(self.experiment, self.sensor, interval, variables=names, smoothed=smoothed),
+        )
+
+    def interval_readings(self, interval: Interval, *, variables: Collection[str] = ()) -> Readings:
+        """Take the readings over an interval, for which no reference is wanted.
+
+        Args:
+            interval: The interval.
+            variables: Names of the linear variables that are wanted; samples that lack one are left out.
+
+        Returns:
+            The readings, through the filter of the experiment.
+        """
+        names = self._in_order(variables)
+        return self.once(
+            ("readings", _key(interval), names),
+            lambda: readings_over(self.experiment, self.sensor, interval, variables=names),
+        )
+
+    def samples(self, use: Use, *, variables: Collection[str] = ()) -> list[IntervalSamples]:
+        """Pair reading and reference over the intervals of one use.
+
+        Args:
+            use: The use.
+            variables: Names of the linear variables that are wanted.
+
+        Returns:
+            Samples per interval, in the order of the file.
+        """
+        return [self.interval_samples(interval, variables=variables) for interval in self._known_intervals(use)]
+
+    def instants(self, interval: Interval) -> JudgedInstants:
+        """Give the instants at which the sensor is judged in an interval.
+
+        Args:
+            interval: The interval.
+
+        Returns:
+            Instants of all its samples, and those around it that the filter of the experiment takes.
+        """
+
+        def padded_instants() -> JudgedInstants:
+            recording, smoothing = self.experiment.recording, self.experiment.processing.smoothing
+            apart = touched_otherwise(interval, recording, self.experiment.contacts)
+            return JudgedInstants(samples=padded_samples(recording, self.stream, interval, smoothing, apart=apart))
+
+        return self.once(("instants", _key(interval)), padded_instants)
+
+    def motion(self, interval: Interval, joints: Sequence[str]) -> tuple[JointMotion, RootMotion]:
+        """Give the motion of joints and support at the instants of an interval.
+
+        Args:
+            interval: The interval.
+            joints: Joints whose motion is wanted.
+
+        Returns:
+            Motion of these joints, among others where a question before this one wanted more, and of the support frame.
+
+        Raises:
+            ExperimentError: If the interval has no support.
+        """
+        support = interval.support
+        if support is None:
+            raise ExperimentError(f"interval {interval.label!r}: expected a support frame, got none")
+        motions = self._motions.setdefault(_key(interval), [])
+        for motion in motions:
+            if set(joints) <= set(motion[0].names):
+                return motion
+        motions.append(
+            robot_motion_at(
+                self.experiment.recording,
+                self.experiment.model,
+                support,
+                joints,
+                self.stream,
+                self.instants(interval).at_ns,
+                processing=self.experiment.processing,
+            )
+        )
+        return motions[-1]
+
+    def measured(self, interval: Interval, correction: Correction) -> FloatArray:
+        """Give what the sensor measured at the instants of an interval.
+
+        Args:
+            interval: The interval.
+            correction: How it is read.
+
+        Returns:
+            Wrenches; shape (n, 6); N, N m; NaN in gaps.
+        """
+        at_ns = self.instants(interval).at_ns
+        return wrench_at(self.experiment, self.sensor, correction, at_ns, interval=interval)
+
+    def read(self, spans: Sequence[tuple[Interval, Readings]], correction: Correction) -> FloatArray:
+        """Read the sensor over intervals, each with the offset of its session.
+
+        Args:
+            spans: Intervals with the readings in them, at least one.
+            correction: How it is read.
+
+        Returns:
+            Wrenches, one interval after the other; shape (n, 6); N, N m.
+        """
+        return np.concatenate(
+            [readings.wrench(correction.over(self.experiment, interval.label)) for interval, readings in spans]
+        )
+
+    def uncalibrated(self) -> Correction:
+        """Read the sensor by the prior of the experiment, or take the logged wrench.
+
+        Returns:
+            The correction, with the offset that the calibration intervals give.
+        """
+        return self.once("uncalibrated", lambda: uncalibrated(self))
+
+    def read_by(self, name: str | None, calibration: Calibration | None) -> Correction:
+        """Read the sensor by one calibration, or, with whatever offset it has, by its prior or as logged.
+
+        Args:
+            name: Name of the calibration, for messages; None for none.
+            calibration: The calibration; None for none.
+
+        Returns:
+            The correction.
+        """
+        if calibration is None:
+            return Correction.without_offset(self.sensor)
+        self.require_fit(name or "calibration", calibration)
+        return Correction.of(name or "calibration", calibration)
+
+    def candidates(self, calibrations: Mapping[str, Calibration]) -> tuple[JudgedCandidate, ...]:
+        """Decide by what the sensor is read in turn.
+
+        Args:
+            calibrations: Calibrations of the sensor by name; without any it is read by the prior of the experiment.
+
+        Returns:
+            The candidates, priors first; a prior that several calibrations share comes once.
+        """
+        return self.once(("candidates", _names(calibrations)), lambda: judged_candidates(self, calibrations))
+
+    def judged(self, calibrations: Mapping[str, Calibration]) -> JudgedWrenches:
+        """Read the sensor by every candidate on the validation intervals.
+
+        Args:
+            calibrations: Calibrations of the sensor by name.
+
+        Returns:
+            Wrenches of all candidates at the same instants, and the reference.
+        """
+        return self.once(("judged", _names(calibrations)), lambda: judged_wrenches(self, calibrations))
+
+    def require_fit(self, name: str, calibration: Calibration) -> None:
+        """Refuse a calibration of another sensor, or of one that is read in another way.
+
+        Args:
+            name: Name of the calibration, for messages.
+            calibration: The calibration.
+        """
+        require_fit(name, calibration, self.experiment, self.sensor)
+
+    def _known_intervals(self, use: Use) -> tuple[Interval, ...]:
+        return self.known(self.experiment.intervals(use), f'an interval with use = "{use}"')
+
+    def _beyond(self, support: Support | MovingSupport, contacts: Sequence[ExperimentContact]) -> tuple[str, ...]:
+        tree = build_tree(self.experiment.model, support.frame)
+        cut = tree.cuts[self.sensor.name].body
+        return tuple(
+            entry.contact.name
+            for entry in contacts
+            if entry.stream is None and cut in path_to_root(tree, tree.frames[entry.contact.link][0])
+        )
+
+    def _in_order(self, variables: Collection[str]) -> tuple[str, ...]:
+        return tuple(v.linear.name for v in self.sensor.variables if v.linear.name in variables)
+
+    def once(self, key: Hashable, compute: Callable[[], _Answer]) -> _Answer:
+        """Compute what several analyses need of the sensor, when it is first needed.
+
+        Args:
+            key: What it is, other than all else that is kept.
+            compute: Computes it.
+
+        Returns:
+            What was computed.
+        """
+        if key not in self._known:
+            self._known[key] = compute()
+        return cast("_Answer", self._known[key])
+
+
+def _key(interval: Interval) -> Hashable:
+    # intervals of one label differ where somebody asks for the whole log
+    return interval.label, interval.start_ns, interval.end_ns
+
+
+def _names(calibrations: Mapping[str, Calibration]) -> Hashable:
+    return tuple((name, _Same(calibration)) for name, calibration in calibrations.items())
+
+
+class _Same:
+    """A calibration as a key, by identity: another one may come under the same name."""
+
+    def __init__(self, calibration: Calibration) -> None:
+        self.calibration = calibration
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and self.calibration is other.calibration
+
+    def __hash__(self) -> int:
+        return id(self.calibration)

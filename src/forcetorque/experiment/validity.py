@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How far the readings to which a calibration is applied lie outside what it was fitted on, and what error is there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration
+from forcetorque.experiment.calibration.excitation import Extrapolation, extrapolation, predicted_error
+from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.sensor_reading import Correction, Readings
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.sensor_samples import IntervalSamples
+from forcetorque.recording.recording import Use
+from forcetorque.results.row import Row
+
+
+class VariableOutside(Row):
+    """A variable that leaves the range in which it was fitted, where the line is drawn on."""
+
+    name: str
+    """Name."""
+    unit: str
+    """Unit."""
+    minimum: float
+    """Smallest value now."""
+    maximum: float
+    """Largest value now."""
+    fitted_minimum: float
+    """Smallest fitted value."""
+    fitted_maximum: float
+    """Largest fitted value."""
+
+    @property
+    def sentence(self) -> str:
+        """The two ranges."""
+        return (
+            f"{self.name} is {self.minimum:.4g} to {self.maximum:.4g} {self.unit}, "
+            f"fitted were {self.fitted_minimum:.4g} to {self.fitted_maximum:.4g}"
+        )
+
+
+class ReadingsOutside(Row):
+    """How far readings lie outside what a calibration was fitted on."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    candidate: str
+    """The calibration file."""
+    readings: int
+    """Number of readings without a gap."""
+    outside: int
+    """How many of them lie outside, by load or by variable, by more than a tenth of what was fitted."""
+    force_N: float
+    """Largest force by which one lies outside; 0 where none does."""
+    force_component: str | None
+    """Component in which that force is largest; None where no load lies outside."""
+    moment_Nm: float
+    """Largest moment by which one lies outside."""
+    moment_component: str | None
+    """Component in which that moment is largest."""
+    predicted_force_error_N: float | None
+    """Root mean square of the force error that is predicted for those outside, with the offset known; None where none
+    lies outside, and without a posterior."""
+    predicted_moment_error_Nm: float | None
+    """The same of the moment error."""
+    variables: tuple[VariableOutside, ...]
+    """Variables outside their fitted range."""
+    at_limit: int
+    """Readings whose quadratic terms are those of the limit of the loads that were fitted."""
+    offset_known: bool
+    """Whether the sessions of all readings were fitted, or a reference gave the offset of those that were not."""
+
+    @property
+    def share(self) -> float:
+        """Part of the readings that lie outside."""
+        return self.outside / self.readings if self.readings else 0.0
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """What makes it doubtful, in words; none where all readings lie within what was fitted."""
+        sentences = (*self._loads(), *(variable.sentence for variable in self.variables), *self._limits())
+        return tuple(f"{self.candidate}: {sentence}" for sentence in sentences)
+
+    def _loads(self) -> Iterator[str]:
+        if not self.outside:
+            return
+        start = f"{100 * self.share:.3g} % of {self.readings} readings lie outside what was fitted"
+        if self.force_component is not None:
+            start += (
+                f", by up to {self.force_N:.3g} N (most in {self.force_component}) and {self.moment_Nm:.3g} N m "
+                f"(most in {self.moment_component})"
+            )
+        if not self.offset_known:
+            start += ", an offset that changed since counts as load: their session was not fitted"
+        force, moment = self.predicted_force_error_N, self.predicted_moment_error_Nm
+        if force is not None and moment is not None:
+            start += f"; predicted error there {force:.2g} N and {moment:.2g} N m"
+        yield start
+
+    def _limits(self) -> Iterator[str]:
+        if self.at_limit:
+            yield (
+                f"{100 * self.at_limit / self.readings:.3g} % of the readings are of loads beyond those that its "
+                "quadratic terms were fitted to; they are corrected as at the limit"
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class AppliedReadings:
+    """Readings of one session to which a calibration is applied."""
+
+    extrapolation: Extrapolation
+    """How far they lie outside."""
+    offset_known: bool
+    """Whether their offset is that of their session."""
+
+    @property
+    def outside(self) -> BoolArray:
+        """Whether each lies outside what was fitted; shape (n,)."""
+        return self.extrapolation.outside
+
+    @property
+    def known(self) -> BoolArray:
+        """Whether each has no gap; shape (n,)."""
+        return self.extrapolation.known
+
+
+def applied_readings(
+    calibration: Calibration, readings: Readings, sessions: Sequence[str], *, reference: FloatArray | None = None
+) -> AppliedReadings:
+    """Tell how far readings of one session lie outside what a calibration was fitted on.
+
+    Where the session was not fitted, its offset is the one that makes the readings' mean that of the reference: it is
+    the same for all of them, so that loads still show. Without a reference nothing tells offset from load.
+
+    Args:
+        calibration: The calibration.
+        readings: The readings.
+        sessions: Names of their session, the most special first.
+        reference: Expected wrenches; shape (n, 6); N, N m; None where there are none.
+
+    Returns:
+        The readings with what of them lies outside.
+    """
+    correction = Correction.of("", calibration)
+    known = any(name in correction.sessions for name in sessions)
+    offset = correction.in_session(sessions).model.offset
+    if not known and reference is not None:
+        offset = offset + (reference - readings.wrench(correction)).mean(axis=0)
+    columns = [readings.variables[name] for name in correction.variables]
+    values = np.stack(columns, axis=-1) if columns else None
+    return AppliedReadings(
+        extrapolation=extrapolation(calibration, readings.raw, values, offset=offset),
+        offset_known=known or reference is not None,
+    )
+
+
+def readings_outside(runs: Runs, calibrations: Mapping[str, Calibration]) -> tuple[ReadingsOutside, ...]:
+    """Tell how far the judged readings of a sensor lie outside what its calibrations were fitted on.
+
+    Args:
+        runs: The sensor in one recording, or in several, whose readings are pooled.
+        calibrations: Its calibrations by name.
+
+    Returns:
+        A row per calibration.
+    """
+    if not calibrations:
+        return ()
+    campaign = Campaign.of(runs)
+    needed = {variable.name for calibration in calibrations.values() for variable in calibration.variables}
+    applied: dict[str, list[AppliedReadings]] = {name: [] for name in calibrations}
+    for run in campaign.runs_with(Use.VALIDATION):
+        with campaign.stated(run):
+            for sessions, parts in _by_session(run, needed).items():
+                readings, reference = _joined([part.readings for part in parts]), _references(parts)
+                for name, calibration in calibrations.items():
+                    applied[name].append(applied_readings(calibration, readings, sessions, reference=reference))
+    return tuple(outside_row(name, calibrations[name], pieces) for name, pieces in applied.items())
+
+
+def outside_row(name: str, calibration: Calibration, applied: Sequence[AppliedReadings]) -> ReadingsOutside:
+    """Sum up how far readings lie outside what a calibration was fitted on.
+
+    Args:
+        name: Name of the calibration.
+        calibration: The calibration.
+        applied: Its readings.
+
+    Returns:
+        The row.
+    """
+    pieces = [piece.extrapolation for piece in applied]
+    known, outside, at_limit = (
+        np.concatenate([getattr(piece, field) for piece in pieces]) for field in ("known", "outside", "at_limit")
+    )
+    beyond, load, variables = (
+        np.concatenate([getattr(piece, field) for piece in pieces])[known] for field in ("beyond", "load", "variables")
+    )
+    chosen = outside[known]
+    error = predicted_error(calibration, load[chosen], variables[chosen]) if chosen.any() else None
+    force, force_component = _largest(beyond, 0)
+    moment, moment_component = _largest(beyond, 3)
+    return ReadingsOutside(
+        sensor=calibration.sensor.name,
+        serial=calibration.sensor.serial,
+        candidate=name,
+        readings=len(chosen),
+        outside=int(chosen.sum()),
+        force_N=force,
+        force_component=force_component,
+        moment_Nm=moment,
+        moment_component=moment_component,
+        predicted_force_error_N=None if error is None else error[0],
+        predicted_moment_error_Nm=None if error is None else error[1],
+        variables=tuple(_variables(calibration.variables, pieces, known)),
+        at_limit=int(at_limit[known].sum()),
+        offset_known=all(piece.offset_known for piece in applied),
+    )
+
+
+def sentences(rows: Iterable[ReadingsOutside]) -> tuple[str, ...]:
+    """Say which readings lie outside what was fitted.
+
+    Args:
+        rows: The rows.
+
+    Returns:
+        The sentences of all rows.
+    """
+    return tuple(sentence for row in rows for sentence in row.sentences)
+
+
+def _largest(beyond: FloatArray, first: int) -> tuple[float, str | None]:
+    part = beyond[:, first : first + 3]
+    if not part.any():
+        return 0.0, None
+    norms = np.linalg.norm(part, axis=1)
+    worst = int(norms.argmax())
+    return float(norms[worst]), WRENCH_COMPONENTS[first + int(np.abs(part[worst]).argmax())]
+
+
+def _variables(
+    variables: Sequence[CalibratedVariable], pieces: Sequence[Extrapolation], known: BoolArray
+) -> Iterator[VariableOutside]:
+    outside = np.concatenate([piece.variables_outside for piece in pieces])[known]
+    values = np.concatenate([piece.variables for piece in pieces])[known]
+    for k, variable in enumerate(variables):
+        if outside[:, k].any():
+            yield VariableOutside(
+                name=variable.name,
+                unit=variable.unit,
+                minimum=float(values[:, k].min()),
+                maximum=float(values[:, k].max()),
+                fitted_minimum=variable.minimum,
+                fitted_maximum=variable.maximum,
+            )
+
+
+def _by_session(run: SensorRun, variables: set[str]) -> dict[tuple[str, ...], list[IntervalSamples]]:
+    groups: dict[tuple[str, ...], list[IntervalSamples]] = {}
+    for interval in run.intervals(Use.VALIDATION):
+        names = run.experiment.session_names(interval.label)
+        groups.setdefault(names, []).append(run.interval_samples(interval, variables=variables))
+    return groups
+
+
+def _joined(readings: Sequence[Readings]) -> Readings:
+    first = readings[0]
+    return replace(
+        first,
+        logged=np.concatenate([one.logged for one in readings]),
+        raw=np.concatenate([one.raw for one in readings]),
+        variables={name: np.concatenate([one.variables[name] for one in readings]) for name in first.variables},
+    )
+
+
+def _references(parts: Sequence[IntervalSamples]) -> FloatArray:
+    return np.concatenate([part.samples.reference for part in parts])

@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a format of logs has to have to be read, inspected and named in an experiment file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol, TypeVar, runtime_checkable
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.toml_file import Table
+from forcetorque.recording.recording import Finding
+from forcetorque.recording.stream import Stream
+
+
+class LogTable(Table):
+    """What the `[recording]` table of every format has; each adds its own keys."""
+
+    format: str
+    """Format of the recording; every table narrows it to its own name."""
+    path: Path
+    """Where the log is."""
+    continued_in: tuple[Path, ...] = ()
+    """Files or folders of the same form in which it goes on, in the order of time."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LogReading:
+    """What every format gives: streams, each with the name of its clock, and what is wrong with them."""
+
+    streams: tuple[Stream, ...]
+    """Streams, in the order in which they were asked for."""
+    findings: tuple[Finding, ...] = ()
+    """What was found while reading them."""
+    origin: Mapping[str, str] | None = None
+    """What the log itself says of where it comes from; None if nothing."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LogDescription:
+    """A log that nobody has said anything about, under names that are made up from its files."""
+
+    table: LogTable
+    """What the `[recording]` table of an experiment file would state of it."""
+    reading: LogReading
+    """What is in it, and what could not be read as a finding."""
+
+
+class LogContext(Protocol):
+    """What a reader may know of the experiment that states a log.
+
+    Paths are as the file has them. Files that are resolved here are the inputs of the experiment: all that is read must
+    be, for they are what is hashed.
+    """
+
+    @property
+    def sensors(self) -> Mapping[str, str]:
+        """Name of the sensor that reads a stream, by the stream."""
+
+    @property
+    def joint_units(self) -> Mapping[str, str]:
+        """Unit of the position of every joint of the robot, rad or m; empty for a wrist sensor."""
+
+    def file(self, relative: Path) -> Path:
+        """Resolve a file, which becomes an input."""
+
+    def below(self, relative: Path, *patterns: str) -> Path:
+        """Resolve a folder, of which the files with these names, wildcards allowed, become inputs."""
+
+    def folder(self, relative: Path) -> Path:
+        """Resolve a folder that must be there."""
+
+    def stated_in(self, table: str) -> AbstractContextManager[None]:
+        """Put the table of `[recording]` that is being read, such as `stream[2]`, in front of errors."""
+
+
+StatedLog = TypeVar("StatedLog", bound=LogTable)
+
+
+class LogFormat(Protocol[StatedLog]):
+    """A format of logs; `forcetorque.formats.registry` lists them all."""
+
+    @property
+    def table(self) -> type[StatedLog]:
+        """Form of the `[recording]` table that states such a log; its `format` is the name of the format."""
+
+    @property
+    def sign(self) -> str | None:
+        """What it is recognised by, for the message where nothing is; None if it never is."""
+
+    def recognises(self, path: Path) -> bool:
+        """Tell whether a file or a folder is such a log, by as little of its content as that takes.
+
+        Args:
+            path: File or folder; it exists.
+
+        Returns:
+            Whether `describe` makes sense.
+        """
+
+    def describe(self, path: Path) -> LogDescription:
+        """Read a log without anyone saying what is in it.
+
+        Args:
+            path: File or folder that is recognised.
+
+        Returns:
+            What is in it, and how an experiment file would state that.
+
+        Raises:
+            ForceTorqueError: If nothing of it can be read.
+        """
+
+    def read(self, stated: StatedLog, context: LogContext) -> LogReading:
+        """Read what an experiment file states.
+
+        Args:
+            stated: The `[recording]` table.
+            context: What else the experiment says; resolves the files.
+
+        Returns:
+            The streams that are stated.
+
+        Raises:
+            ForceTorqueError: If a file is not there or holds something else than what is stated.
+        """
+
+
+_MOST_LISTED = 20
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SketchedColumns:
+    """A column of a table, or an array of a file of arrays."""
+
+    name: str
+    """Its name."""
+    rows: int
+    """How many rows it has."""
+    columns: int = 1
+    """How many columns; 1 for that of a table."""
+    unit: str | None = None
+    """Unit that its name states, `iso8601` of dates; None for none."""
+    is_number: bool = True
+    """Whether it holds numbers, as far as it was looked at."""
+    smallest: float | None = None
+    """Smallest of its numbers; None for none."""
+    largest: float | None = None
+    """Largest of its numbers; None for none."""
+    mean: float | None = None
+    """Mean of its numbers; None for none."""
+    step: float | None = None
+    """Median step, in seconds of dates, where its first numbers rise as times do; else None."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LogSketch:
+    """A log that does not say what it holds."""
+
+    path: Path
+    """The file."""
+    columns: tuple[SketchedColumns, ...]
+    """Its columns or arrays, in their order."""
+    is_table: bool = True
+    """Whether its columns are those of one table, not arrays of a file."""
+    delimiter: str | None = None
+    """Of a text table the character between columns; a space for any run of blanks."""
+    decimal: str = "."
+    """Of a text table the character in front of decimals."""
+    skipped: tuple[str, ...] = ()
+    """Of a text table the lines in front of it, headings not counted."""
+    names_apart: bool = False
+    """Whether the last two of those lines have names and units, of which the names of the columns are made."""
+    has_headings: bool = True
+    """Whether the file itself names them; without, they are called by their number, from 1."""
+    quaternion: tuple[int, ...] = ()
+    """Places of the first columns of four that have norm 1 in each of the first rows, as quaternions do."""
+    skipped_arrays: Mapping[str, str] = field(default_factory=dict)
+    """Of a file of arrays what no experiment file can state, such as `1 x 3 struct array`, by its name."""
+    ranged_rows: int | None = None
+    """How many rows, from the first, the smallest, largest and mean numbers are of; None for all."""
+    stopped: str | None = None
+    """Why they are not of all."""
+
+    @property
+    def range_words(self) -> str:
+        """Words about the rows that ranges are of, where these are not all; else empty."""
+        return "" if self.ranged_rows is None else f" in the first {self.ranged_rows} rows"
+
+
+def median_step(values: FloatArray | IntArray) -> float | None:
+    """Say how far numbers are apart that rise as times do.
+
+    Args:
+        values: Numbers in the order of the file; shape (n,).
+
+    Returns:
+        Their median step; None where one falls, or half of them do not rise: times that were rounded, or sent twice,
+        come again, but those of most samples do not.
+    """
+    steps = np.diff(values)
+    median = float(np.median(steps)) if len(steps) and (steps >= 0).all() else 0.0
+    return median if median > 0.0 else None
+
+
+def skipped_words(skipped: Mapping[str, str]) -> str:
+    """List what of a file of arrays cannot be read.
+
+    Args:
+        skipped: As of a sketch.
+
+    Returns:
+        Names, each with what it is, of many the first; empty for none.
+    """
+    shown = [f"{name} ({content})" for name, content in list(skipped.items())[:_MOST_LISTED]]
+    return ", ".join(shown) + (f" and {len(skipped) - len(shown)} more" if len(skipped) > len(shown) else "")
+
+
+def not_read_sentence(skipped: Mapping[str, str]) -> str:
+    """Say what of a file of arrays is not read.
+
+    Args:
+        skipped: As of a sketch; at least one.
+
+    Returns:
+        The sentence that every command says of it.
+    """
+    return f"not read, for only arrays of real numbers within the file are: {skipped_words(skipped)}"
+
+
+@runtime_checkable
+class SketchingFormat(Protocol):
+    """A format whose logs say nothing of units."""
+
+    def sketch(self, path: Path) -> LogSketch:
+        """Look at a log that is recognised.
+
+        Args:
+            path: The file.
+
+        Returns:
+            What can be told.
+        """

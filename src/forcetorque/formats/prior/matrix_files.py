@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Matrices as files: those of iCub, and plain numbers in six rows with a column for each channel."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FormatError, UnitError
+from forcetorque.base.units import si_factor
+from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.formats.icub_matrix import read_matrix_file, serial_number_in_name
+from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
+
+_CODES = 36
+_MOST_CODES_LOOKED_AT, _FEWEST_CODES = 12, 10
+
+
+class IcubMatrix:
+    """Files `matrix_SN026.txt`: 36 codes of one to four hex digits a line, a gain, six full scales."""
+
+    sign = "a matrix file of iCub (36 lines of hex)"
+
+    def recognises(self, path: Path, text: str) -> bool:
+        """Look for one number of hex digits a line; a short or damaged file is one too, by its name."""
+        lines = text.split("\n")
+        codes = [line.strip() for line in lines[:_MOST_CODES_LOOKED_AT]]
+        # nearly all: what is wrong with one of them is said by its reader, line by line
+        hex_only = sum(re.fullmatch("[0-9A-Fa-f]{1,4}", code) is not None for code in codes) >= _FEWEST_CODES
+        return (hex_only and len(lines) > _CODES) or serial_number_in_name(path) is not None
+
+    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+        """Read it."""
+        file = read_matrix_file(path)
+        return PriorFile(
+            form="matrix file of iCub",
+            matrix=file.matrix,
+            raw_unit=RawUnit.COUNTS,
+            full_scale=np.array(file.full_scale, dtype=np.float64),
+            serial=serial_number_in_name(path),
+        )
+
+
+_HEADINGS = ["sensor", "serial", "component", "unit", "c0_per_count"]
+_MOST_CHANNELS = 64
+_LARGEST = 1e12
+
+
+class PlainTable:
+    """Six lines of numbers between commas, semicolons, tabs or blanks; lines with # are comments."""
+
+    sign = "six rows of numbers"
+
+    def recognises(self, path: Path, text: str) -> bool:
+        """Look for six rows of as many numbers."""
+        return _rows(text) is not None
+
+    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+        """Read it, in the units that are stated."""
+        rows = _rows(text)
+        if rows is None:
+            raise FormatError(f"{path}: expected {self.sign}")
+        if units.force is None or units.moment is None:
+            raise FormatError(
+                f"{path}: expected its units, which plain numbers do not state; write "
+                f'prior = {{ path = "{path.name}", force_unit = "N", moment_unit = "N m" }}'
+            )
+        factors = [_factor(path, unit, si) for unit, si in ((units.force, "N"), (units.moment, "N m"))]
+        matrix = np.repeat(factors, 3)[:, None] * rows
+        return PriorFile(form="plain table", matrix=matrix, raw_unit=RawUnit.COUNTS)
+
+
+class ExportedTable:
+    """What `forcetorque export --to csv` writes, of one sensor."""
+
+    sign = "a table of `forcetorque export --to csv`"
+
+    def recognises(self, path: Path, text: str) -> bool:
+        """Look at the headings."""
+        return text.split("\n", 1)[0].strip().split(",")[: len(_HEADINGS)] == _HEADINGS
+
+    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+        """Read it."""
+        try:
+            lines = list(csv.DictReader(io.StringIO(text), strict=True))
+        except csv.Error as error:
+            raise FormatError(f"{path}: expected a table with commas, got {error}") from error
+        serials = sorted({str(line.get("serial")) for line in lines})
+        if len(lines) != 6 or len(serials) != 1:
+            raise FormatError(f"{path}: expected six rows of one sensor, got {len(lines)} of {', '.join(serials)[:80]}")
+        channels = [name for name in lines[0] if name and name.startswith("c") and name.endswith("_per_count")]
+        for line, component, unit in zip(lines, WRENCH_COMPONENTS, WRENCH_UNITS, strict=True):
+            if (line["component"], line["unit"]) != (component, unit):
+                raise FormatError(
+                    f"{path}: expected {component} in {unit}, got {str(line['component'])[:20]!r} in "
+                    f"{str(line['unit'])[:20]!r}"
+                )
+        matrix = np.array([[_number(path, line[name]) for name in channels] for line in lines])
+        offset = np.array([_number(path, line.get("offset")) for line in lines])
+        return PriorFile(
+            form="table of a calibration", matrix=matrix, raw_unit=RawUnit.COUNTS, offset=offset, serial=serials[0]
+        )
+
+
+def _rows(text: str) -> FloatArray | None:
+    """Six rows of as many numbers; None for anything else."""
+    lines = [
+        line.strip() for line in text.lstrip("\ufeff").splitlines() if line.strip() and line.strip()[0] not in "#%"
+    ]
+    if len(lines) != 6:
+        return None
+    cells = [line.replace(",", " ").replace(";", " ").split() for line in lines]
+    if len({len(row) for row in cells}) != 1 or not 1 < len(cells[0]) <= _MOST_CHANNELS:
+        return None
+    try:
+        rows = np.array([[float(cell) for cell in row] for row in cells])
+    except ValueError:
+        return None
+    return rows if (np.abs(rows) < _LARGEST).all() else None
+
+
+def _factor(path: Path, unit: str, si: str) -> float:
+    known, factor = si_factor(unit)
+    if known != si:
+        raise UnitError(f"{path}: expected a unit that converts to {si}, got {unit!r}")
+    return factor
+
+
+def _number(path: Path, cell: str | None) -> float:
+    try:
+        value = float(cell or "")
+    except ValueError:
+        value = np.nan
+    if not abs(value) < _LARGEST:
+        raise FormatError(f"{path}: expected a number, got {str(cell)[:40]!r}")
+    return value

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a file of any form says of a sensor's calibration, in SI units, and what a form has to have."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import FormatError
+
+
+class RawUnit(StrEnum):
+    """What the channels are that a matrix takes."""
+
+    COUNTS = "counts"
+    VOLTS = "V"
+    WRENCH = "N, N m"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StatedUnits:
+    """Units that a file does not state and somebody else does."""
+
+    force: str | None = None
+    """Unit of the first three rows; None where nobody said."""
+    moment: str | None = None
+    """Unit of the last three rows; None where nobody said."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PriorFile:
+    """A calibration that a sensor came with."""
+
+    form: str
+    """What the file is, in words."""
+    matrix: FloatArray
+    """Matrix; rows fx to tz, columns the c channels; shape (6, c); N, N m per raw unit."""
+    raw_unit: RawUnit
+    """Unit of the channels."""
+    offset: FloatArray | None = None
+    """What is added; shape (6,); N, N m; None where the form has none."""
+    full_scale: FloatArray | None = None
+    """Full scale of fx to tz; shape (6,); N, N m; None where the form has none."""
+    serial: str | None = None
+    """Serial number of the sensor; None where the form has none."""
+    date: str | None = None
+    """When it was calibrated, as the file writes it; None where it does not."""
+    notes: tuple[str, ...] = ()
+    """What else is to be known of it."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "matrix", read_only(self.matrix, name="matrix", shape=(6, None)))
+        for name in ("offset", "full_scale"):
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, read_only(value, name=name, shape=(6,)))
+            if value is not None and not np.isfinite(value).all():
+                raise FormatError(f"{name}: expected finite numbers")
+        if self.matrix.shape[1] < 1 or not np.isfinite(self.matrix).all():
+            raise FormatError("matrix: expected finite numbers in at least one column")
+
+
+class PriorFormat(Protocol):
+    """A form of calibrations, recognised by the content of the file."""
+
+    @property
+    def sign(self) -> str:
+        """What it is recognised by, for the message where nothing is."""
+
+    def recognises(self, path: Path, text: str) -> bool:
+        """Tell whether a file is one.
+
+        Args:
+            path: File.
+            text: Its content.
+
+        Returns:
+            Whether it is.
+        """
+
+    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+        """Read a file.
+
+        Args:
+            path: File.
+            text: Its content.
+            units: Units for a form that states none.
+
+        Returns:
+            What it says.
+
+        Raises:
+            FormatError: If it is damaged, or says what is not known here.
+        """

@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The formats of logs that are known: to add one, write its file and add its line to `LOG_FORMATS`.
+
+The experiment file's schema, its loading, `inspect` and their messages all ask this list.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import reduce
+from operator import or_
+from pathlib import Path
+from typing import Annotated, Any, get_args
+
+from pydantic import Field, GetCoreSchemaHandler
+from pydantic_core import CoreSchema
+
+from forcetorque.base.errors import FormatError, known_names
+from forcetorque.base.input_file import accept_input
+from forcetorque.formats.array_file.log_format import Hdf5Format, MatlabFormat, NpzFormat
+from forcetorque.formats.log_format import LogContext, LogFormat, LogReading, LogTable
+from forcetorque.formats.other_file import other_file
+from forcetorque.formats.parquet import ParquetFormat
+from forcetorque.formats.robometry.log_format import RobometryFormat
+from forcetorque.formats.ros.log_format import RosFormat
+from forcetorque.formats.tabular.form import hindrance
+from forcetorque.formats.tabular.log_format import TabularFormat
+from forcetorque.formats.yarp.log_format import YarpFormat
+from forcetorque.recording.alignment import joined_stream
+
+LOG_FORMATS: tuple[LogFormat[Any], ...] = (
+    YarpFormat(),
+    ParquetFormat(),
+    TabularFormat(),
+    RobometryFormat(),
+    MatlabFormat(),
+    Hdf5Format(),
+    NpzFormat(),
+    RosFormat(),
+)
+
+
+def format_name(known: LogFormat[Any]) -> str:
+    """Name a format as `format` of the `[recording]` table has it.
+
+    Args:
+        known: One of `LOG_FORMATS`.
+
+    Returns:
+        Its name.
+    """
+    return str(get_args(known.table.model_fields["format"].annotation)[0])
+
+
+def format_named(name: str) -> LogFormat[Any]:
+    """Find a format by its name.
+
+    Args:
+        name: As `format` of the `[recording]` table has it.
+
+    Returns:
+        The format.
+
+    Raises:
+        FormatError: If no format is called so.
+    """
+    formats = {format_name(known): known for known in LOG_FORMATS}
+    if name not in formats:
+        raise FormatError(f"no format of logs is called {name!r}; {known_names(name, formats)}")
+    return formats[name]
+
+
+def read_log(stated: LogTable, context: LogContext) -> LogReading:
+    """Read the log that an experiment file states, by its format.
+
+    Args:
+        stated: The `[recording]` table.
+        context: What else the experiment says; resolves the files.
+
+    Returns:
+        Streams and findings.
+    """
+    log_format = format_named(stated.format)
+    if not stated.continued_in:
+        return log_format.read(stated, context)
+    paths = (stated.path, *stated.continued_in)
+    readings = [
+        log_format.read(stated.model_copy(update={"path": path, "continued_in": ()}), context) for path in paths
+    ]
+    with context.stated_in("continued_in"):
+        return _joined(readings, [path.as_posix() for path in paths])
+
+
+def _joined(readings: Sequence[LogReading], paths: Sequence[str]) -> LogReading:
+    """Streams of logs that follow each other, by their names."""
+    first = readings[0]
+    for reading, path in zip(readings, paths, strict=True):
+        names, wanted = ([stream.name for stream in one.streams] for one in (reading, first))
+        if names != wanted:
+            raise FormatError(
+                f"{path}: expected the streams {', '.join(wanted)} as in {paths[0]}, got {', '.join(names)}"
+            )
+    return LogReading(
+        streams=tuple(
+            joined_stream([reading.streams[k] for reading in readings], [f"{path}: {stream.name}" for path in paths])
+            for k, stream in enumerate(first.streams)
+        ),
+        findings=tuple(finding for reading in readings for finding in reading.findings),
+        origin=first.origin,
+    )
+
+
+def recognised_format(path: Path) -> LogFormat[Any] | None:
+    """Find the format of a log by what is there.
+
+    Args:
+        path: File or folder; it exists.
+
+    Returns:
+        The format; None if no format knows it.
+
+    Raises:
+        FormatError: If several do, or it is neither a file nor a folder.
+    """
+    accept_input(path)
+    formats = [known for known in LOG_FORMATS if known.recognises(path)]
+    if len(formats) > 1:
+        raise FormatError(
+            f"{path}: expected a log of one format, got signs of {' and '.join(map(format_name, formats))} "
+            f"({', '.join(str(known.sign) for known in formats)}); inspect one of them, or state --log-format"
+        )
+    return formats[0] if formats else None
+
+
+_LOOSE_PORT = "data.log"
+_MOST_NAMED = 12
+
+
+def _is_log_file(entry: Path) -> bool:
+    return entry.is_file() and any(known.recognises(entry) for known in LOG_FORMATS)
+
+
+def _loose_ports(path: Path) -> str:
+    """Words about messages of ports that lie beside each other, as `left_data.log`: each needs a folder of its own."""
+    entries = sorted(path.iterdir()) if path.is_dir() else [path]
+    loose = [entry.name for entry in entries if entry.name.endswith(_LOOSE_PORT) and entry.name != _LOOSE_PORT]
+    if not loose:
+        return ""
+    return f"; {loose[0]} looks like a port's: put it into a folder of its own as {_LOOSE_PORT}, its info.log beside it"
+
+
+def not_recognised(path: Path) -> FormatError:
+    """Say what would have made a path a log.
+
+    Args:
+        path: What no format knows.
+
+    Returns:
+        The error to raise.
+    """
+    logs = [entry.name for entry in sorted(path.iterdir()) if _is_log_file(entry)] if path.is_dir() else []
+    if logs:
+        shown = ", ".join(logs[:_MOST_NAMED]) + (f" and {len(logs) - _MOST_NAMED} more" if logs[_MOST_NAMED:] else "")
+        return FormatError(
+            f"{path}: expected a log, got a folder of several: {shown}; name one, or those of one recording"
+        )
+    reason = other_file(path) or (hindrance(path) if path.is_file() else None)
+    if reason is not None:
+        return FormatError(reason)
+    signs = [known.sign for known in LOG_FORMATS if known.sign is not None]
+    return FormatError(
+        f"{path}: expected {', or '.join(signs)}; found none of them; name the folder that holds them, or an "
+        f"experiment file with a [recording] of format {', '.join(map(format_name, LOG_FORMATS))}{_loose_ports(path)}"
+    )
+
+
+class _AnyKnownFormat:
+    """Stands for the tables of all formats, of which `format` chooses one."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        tables = reduce(or_, (known.table for known in LOG_FORMATS))
+        return handler.generate_schema(Annotated[tables, Field(discriminator="format")])
+
+
+AnyLog = Annotated[LogTable, _AnyKnownFormat()]
+"""The `[recording]` table of any known format."""

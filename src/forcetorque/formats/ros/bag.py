@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bags, opened with rosbags: their topics, and the bytes of their messages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from forcetorque.base.arrays import IntArray
+from forcetorque.base.errors import ForceTorqueError, FormatError, MissingExtraError, MissingFileError
+from forcetorque.base.input_file import accept_input
+from forcetorque.formats.ros.unpacking import bound_mcap, bound_reader, require_small_files
+
+BATCH_MESSAGES = 1 << 14
+"""Messages that are held as bytes at a time."""
+LARGEST_MESSAGE = 1 << 20
+"""Bytes of a message of those that are read."""
+
+_INDEX, _INDEX_KEY, _INDEX_SIZE = "metadata.yaml", b"rosbag2_bagfile_information", 1 << 20
+_SIGNS = {".bag": b"#ROSBAG V2.0\n", ".mcap": b"\x89MCAP0\r\n", ".db3": b"SQLite format 3\0"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bag:
+    """An open bag."""
+
+    path: Path
+    """File or folder."""
+    reader: Any
+    """The reader of rosbags."""
+    cdr: bool
+    """Whether it is one of ROS 2."""
+    unpack: Callable[[bytes], bytes]
+    """What each of its messages is unpacked by."""
+
+    @property
+    def types(self) -> dict[str, str]:
+        """Type of message of every topic.
+
+        Raises:
+            FormatError: If messages of two types go by one topic.
+        """
+        types: dict[str, str] = {}
+        for connection in self.reader.connections:
+            if types.setdefault(connection.topic, connection.msgtype) != connection.msgtype:
+                raise FormatError(f"{self.path}: topic {connection.topic!r}: expected one type of message, got two")
+        return types
+
+    def messages(self, topic: str) -> Iterator[tuple[IntArray, list[bytes]]]:
+        """Give the messages of a topic.
+
+        Args:
+            topic: The topic.
+
+        Yields:
+            When some messages were received, shape (k,), ns, and their bytes.
+
+        Raises:
+            FormatError: If a message is too large.
+        """
+        connections = [connection for connection in self.reader.connections if connection.topic == topic]
+        stamps: list[int] = []
+        data: list[bytes] = []
+        for _, stamp, message in self.reader.messages(connections=connections):
+            content = self.unpack(message)
+            if len(content) > LARGEST_MESSAGE:
+                raise FormatError(f"{self.path}: {topic}: expected messages of at most {LARGEST_MESSAGE} bytes")
+            stamps.append(stamp)
+            data.append(content)
+            if len(data) == BATCH_MESSAGES:
+                yield np.array(stamps, dtype=np.int64), data
+                stamps, data = [], []
+        if data:
+            yield np.array(stamps, dtype=np.int64), data
+
+
+def is_bag(path: Path) -> bool:
+    """Tell whether a path is a bag, by the first bytes of a file or by the index of a folder.
+
+    Args:
+        path: File or folder; it exists.
+
+    Returns:
+        Whether it is.
+    """
+    if path.is_dir():
+        return (path / _INDEX).is_file() and _INDEX_KEY in _first_bytes(path / _INDEX, 4096)
+    return _kind(path) is not None
+
+
+@contextmanager
+def opened_bag(path: Path) -> Iterator[Bag]:
+    """Open a bag for reading.
+
+    Args:
+        path: File or folder.
+
+    Yields:
+        The open bag.
+
+    Raises:
+        MissingExtraError: If rosbags is not installed.
+        MissingFileError: If there is no such file.
+        FormatError: If it is no bag, or what is read inside the context is damaged.
+        ForceTorqueError: As it was raised inside the context.
+    """
+    try:
+        from rosbags.rosbag1 import Reader as Reader1
+        from rosbags.rosbag2 import Reader as Reader2
+    except ImportError as error:
+        raise MissingExtraError(f"{path}: bags are read by rosbags: pip install forcetorque[ros]") from error
+    _require_bag(path)
+    bound_mcap()
+    cdr = path.suffix != ".bag" or path.is_dir()
+    try:
+        require_small_files(path)
+        with Reader2(path) if cdr else Reader1(path) as reader:
+            yield Bag(path=path, reader=reader, cdr=cdr, unpack=bound_reader(path, reader))
+    except ForceTorqueError:
+        raise
+    # rosbags hands on what YAML, SQLite, zstd and lz4 raise, and none of these names its errors as its own
+    except Exception as error:
+        reason = " ".join(f"{type(error).__name__} {error}".split())[:200]
+        raise FormatError(
+            f"{path}: expected a whole bag, got one that cannot be read: {reason}; `ros2 bag reindex` or `rosbag "
+            "reindex` mend some"
+        ) from error
+
+
+def _require_bag(path: Path) -> None:
+    if not path.exists():
+        raise MissingFileError(f"{path}: expected a bag, there is none")
+    for file in path.iterdir() if path.is_dir() else (path,):
+        accept_input(file)
+    if not is_bag(path):
+        raise FormatError(f"{path}: expected a bag of ROS, got something else; name its file or folder")
+    if path.is_dir():
+        if (path / _INDEX).stat().st_size > _INDEX_SIZE:
+            raise FormatError(f"{path / _INDEX}: expected at most {_INDEX_SIZE} bytes, got more; reindex the bag")
+    elif path.suffix != _kind(path):
+        raise FormatError(f"{path}: expected a name that ends in {_kind(path)}, as its content says; rename it")
+
+
+def _kind(path: Path) -> str | None:
+    if not path.is_file():
+        return None
+    start = _first_bytes(path, 16)
+    return next((suffix for suffix, sign in _SIGNS.items() if start.startswith(sign)), None)
+
+
+def _first_bytes(path: Path, count: int) -> bytes:
+    with path.open("rb") as file:
+        return file.read(count)
+
+
+def bag_files() -> Sequence[str]:
+    """Name the files of a bag, for the inputs of an experiment.
+
+    Returns:
+        Patterns of their names.
+    """
+    return (_INDEX, "*.db3", "*.mcap", "*.zstd")

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables that nobody has declared: whether a file is one, and what its columns hold."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.csv as pacsv
+
+from forcetorque.base.arrow import arrow_text
+from forcetorque.base.errors import FormatError
+from forcetorque.formats.headings import read_heading
+from forcetorque.formats.log_format import LogSketch, SketchedColumns, median_step
+from forcetorque.formats.tabular.columnar import first_batch, is_parquet_file, parquet_size
+from forcetorque.formats.tabular.extents import Extents, parquet_extents, text_extents
+from forcetorque.formats.tabular.form import LOOKED_AT, MOST_COLUMNS, beginning, form_of, hindrance
+from forcetorque.formats.tabular.numbers import ISO8601, column_of_dates
+from forcetorque.formats.tabular.row_blocks import open_text, quote_of
+
+_UNIT_NORM = 1e-3
+
+
+def is_table(path: Path) -> bool:
+    """Tell whether a file is a table of numbers, by its first lines.
+
+    Args:
+        path: File or folder; it exists.
+
+    Returns:
+        Whether it is a Parquet file, or a text with at least two columns, and numbers below at most one line of
+        headings. Numbers between blanks alone, without headings, may be anything, such as messages of a port. Other
+        lines may stand in front where all that is looked at behind them is the table.
+    """
+    if not path.is_file():
+        return False
+    if is_parquet_file(path):
+        return True
+    form = form_of(beginning(path))
+    return form is not None and (form.has_headings or form.delimiter != " ")
+
+
+def sketch_table(path: Path) -> LogSketch:
+    """Look at a table that is recognised.
+
+    Args:
+        path: The file.
+
+    Returns:
+        Its columns.
+
+    Raises:
+        FormatError: If it is no table after all.
+    """
+    return _sketch_parquet(path) if is_parquet_file(path) else _sketch_text(path)
+
+
+def _sketch_parquet(path: Path) -> LogSketch:
+    names, rows = parquet_size(path)
+    batch = first_batch(path)
+    columns = tuple(
+        _sketched(name, rows, None if batch is None else batch.column(k)) for k, name in enumerate(names[:MOST_COLUMNS])
+    )
+    # two columns may have one name
+    numeric = [column.name for column in columns if column.smallest is not None and names.count(column.name) == 1]
+    return _with_extents(
+        LogSketch(path=path, columns=columns), parquet_extents(path, numeric), 0 if batch is None else len(batch)
+    )
+
+
+def _sketch_text(path: Path) -> LogSketch:
+    text = beginning(path)
+    form = form_of(text)
+    if form is None:
+        raise FormatError(
+            hindrance(path)
+            or f"{path}: expected a table of numbers below at most one line of headings, got another text"
+        )
+    lines = [line for line in text.splitlines()[form.lines_above :] if line.strip()]
+    whole = "\n".join(" ".join(line.split()) if form.delimiter == " " else line for line in lines)
+    try:
+        table = pacsv.read_csv(
+            arrow_text(f"{whole}\n".encode()),
+            read_options=pacsv.ReadOptions(column_names=list(form.names)),
+            parse_options=pacsv.ParseOptions(delimiter=form.delimiter, quote_char=quote_of(form.delimiter)),
+            convert_options=pacsv.ConvertOptions(decimal_point=form.decimal),
+        ).combine_chunks()
+    except pa.ArrowException as error:
+        raise FormatError(
+            f"{path}: expected {len(form.names)} columns in every row, got {' '.join(str(error).split())[:200]}"
+        ) from error
+    rows = _count_lines(path) - form.lines_above
+    columns = (_sketched(name, rows, table.column(k)) for k, name in enumerate(form.names))
+    sketch = LogSketch(
+        path=path,
+        columns=tuple(column for k, column in enumerate(columns) if not form.is_bare(k) or column.smallest is not None),
+        delimiter=form.delimiter,
+        decimal=form.decimal,
+        skipped=form.skipped,
+        names_apart=form.names_apart,
+        has_headings=form.has_headings,
+        quaternion=_unit_fours(table),
+    )
+    numeric = [column.name for column in sketch.columns if column.smallest is not None]
+    return _with_extents(sketch, text_extents(path, form, numeric), len(table))
+
+
+def _with_extents(sketch: LogSketch, extents: Extents, sketch_rows: int) -> LogSketch:
+    """The same with the extents of more rows than were looked at; of those where a block has no other."""
+    if not extents.rows and extents.stopped is not None:
+        return replace(sketch, ranged_rows=sketch_rows, stopped=extents.stopped)
+    columns = (
+        column
+        if (extent := extents.columns.get(column.name)) is None or not extent.count
+        else replace(column, smallest=extent.smallest, largest=extent.largest, mean=extent.total / extent.count)
+        for column in sketch.columns
+    )
+    return replace(
+        sketch,
+        columns=tuple(columns),
+        ranged_rows=None if extents.stopped is None else extents.rows,
+        stopped=extents.stopped,
+    )
+
+
+def _count_lines(path: Path) -> int:
+    count, last = 0, b"\n"
+    with open_text(path) as file:
+        while chunk := file.read(LOOKED_AT):
+            count += chunk.count(b"\n")
+            last = chunk[-1:]
+    return count + (last != b"\n")
+
+
+def _unit_fours(table: Any) -> tuple[int, ...]:
+    """First columns of four floating ones whose norm is 1 in every row."""
+    floating = [pa.types.is_floating(column.type) for column in table.columns]
+    columns = [
+        np.asarray(column.to_numpy()) if is_float else None
+        for column, is_float in zip(table.columns, floating, strict=True)
+    ]
+    fours = []
+    for first in range(len(columns) - 3):
+        four = [column for column in columns[first : first + 4] if column is not None]
+        if len(four) == 4 and len(table) and np.allclose(np.linalg.norm(four, axis=0), 1.0, atol=_UNIT_NORM):
+            fours.append(first)
+    return tuple(fours)
+
+
+def _sketched(name: str, rows: int, column: Any) -> SketchedColumns:
+    unit = read_heading(name).unit
+    kind = None if column is None else column.type
+    instants = None if column is None else column_of_dates(column)
+    if instants is not None:
+        step = median_step(instants)
+        return SketchedColumns(
+            name=name, rows=rows, unit=ISO8601, is_number=False, step=None if step is None else 1e-9 * step
+        )
+    if kind is None or not (pa.types.is_floating(kind) or pa.types.is_integer(kind)):
+        is_number = kind is None or pa.types.is_null(kind)
+        return SketchedColumns(name=name, rows=rows, unit=unit, is_number=is_number)
+    values = np.asarray(column.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False), dtype=np.float64)
+    finite = values[np.isfinite(values)]
+    if not len(finite):
+        return SketchedColumns(name=name, rows=rows, unit=unit)
+    return SketchedColumns(
+        name=name,
+        rows=rows,
+        unit=unit,
+        smallest=float(finite.min()),
+        largest=float(finite.max()),
+        mean=float(finite.mean()),
+        step=median_step(values),
+    )

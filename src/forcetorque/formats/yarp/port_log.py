@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The messages of a port: sequence numbers, exact stamps and chosen numbers of every line.
+
+The file is read in blocks, so that a few tens of MB are held besides the result. The lines of a
+block are grouped by skeleton; the first line of each new skeleton is parsed with care.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.errors import FormatError
+from forcetorque.formats.yarp.conversion import LineGroup, NumberLayout, Numbers, convert, group_lines, layout_of
+from forcetorque.formats.yarp.message import Bottle, check_head, is_number, parse_line
+from forcetorque.formats.yarp.port_folder import LINE_LIMIT, PortFolder, find_port, read_blocks, read_first_line
+from forcetorque.recording.recording import Finding
+
+Choose = Callable[[Bottle], Sequence[int | None]]
+"""Tells for each value that is wanted which number of a message it is, None where the message has
+none; raises `FormatError` without a place if the message is not of the expected kind."""
+
+FORM_LIMIT = 8192
+"""Skeletons of a log: twice as many as the mixtures of twelve flags; it stops files that are not logs."""
+
+_EMPTY = "expected at least one message, got an empty log"
+_TOO_LONG = f"expected lines of at most {LINE_LIMIT} bytes, got a longer one; is this the log of a port?"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PortLog:
+    """The messages of one port."""
+
+    sequence: IntArray
+    """Sequence numbers as logged; shape (n,)."""
+    stamp_ns: IntArray
+    """Stamps, shape (n,); ns."""
+    values: FloatArray
+    """Chosen numbers; shape (n, width); NaN where a message has none."""
+    findings: tuple[Finding, ...]
+    """What is to be known about the stamps."""
+
+
+def read_port_log(port_dir: str | Path, *, stream: str, choose: Choose) -> PortLog:
+    """Read chosen numbers of every message of a port.
+
+    Where messages carry the sender's and the dumper's stamp, the sender's is taken if it is
+    positive and else the dumper's, as the dumper itself does where it writes only one.
+
+    Every line is checked for its structure and every wanted number for being one; numbers that are
+    not wanted are converted in the first line of each skeleton only.
+
+    Args:
+        port_dir: Folder with `data.log` or `data.log.gz`, and `info.log`.
+        stream: Name of the stream, for the findings.
+        choose: Tells which numbers of a message are wanted.
+
+    Returns:
+        The messages in the order of the log.
+
+    Raises:
+        MissingFileError: If the folder or its log is not there.
+        FormatError: If the log is empty, cut off, or a line is not of the expected kind.
+    """
+    port = find_port(port_dir)
+    layouts: dict[bytes, NumberLayout] = {}
+    blocks: list[Numbers] = []
+    n_lines = 0
+    for text in read_blocks(port.data):
+        _check_text(text, port.data, n_lines)
+        blocks.append(_read_block(text, port, n_lines, layouts, choose))
+        n_lines += len(blocks[-1].sequence)
+    if not blocks:
+        raise FormatError(f"{port.data}: {_EMPTY}")
+    log = _joined(blocks)
+    return PortLog(
+        sequence=log.sequence,
+        stamp_ns=log.stamp_ns,
+        values=log.values,
+        findings=_stamp_findings(stream, port, log.stamp_ns, by_dumper=log.by_dumper),
+    )
+
+
+def read_first_message(port: PortFolder) -> Bottle:
+    """Read the first line of a log and nothing more.
+
+    Args:
+        port: The port folder.
+
+    Returns:
+        The elements of the line: sequence number, stamps and message.
+
+    Raises:
+        MissingFileError: If the log vanished.
+        FormatError: If the log is empty, or its first line is cut off or no message.
+    """
+    text = read_first_line(port.data)
+    if not text:
+        raise FormatError(f"{port.data}: {_EMPTY}")
+    _check_text(text, port.data, 0)
+    line = text[:-1]
+    try:
+        bottle = parse_line(line)
+        check_head(line, bottle, n_stamps=len(port.stamps))
+    except FormatError as error:
+        raise FormatError(f"{port.data}:1: {error}") from error
+    return bottle
+
+
+def _check_text(text: bytes, path: Path, n_before: int) -> None:
+    if not text.endswith(b"\n"):
+        where = f"{path}:{n_before + 1}"
+        if len(text) > LINE_LIMIT:
+            raise FormatError(f"{where}: {_TOO_LONG}")
+        raise FormatError(
+            f"{where}: expected a line feed at the end of the last line, got none: the dumper was stopped while "
+            "writing; delete this line"
+        )
+    if not text.isascii():
+        row, line = next((row, line) for row, line in enumerate(text.split(b"\n")) if not line.isascii())
+        byte = next(byte for byte in line if byte > 0x7F)
+        raise FormatError(
+            f"{path}:{n_before + row + 1}: expected ASCII text, got the byte 0x{byte:02x}; "
+            "a compressed log is to be named data.log.gz"
+        )
+
+
+def _read_block(
+    text: bytes, port: PortFolder, n_before: int, layouts: dict[bytes, NumberLayout], choose: Choose
+) -> Numbers:
+    (first,) = group_lines(text[: text.index(b"\n") + 1])
+    _add_layout(first, port, n_before, layouts, choose)
+    groups = group_lines(text, n_structure=layouts[first.skeleton].n_structure)
+    for group in groups:
+        _add_layout(group, port, n_before, layouts, choose)
+    parts = [_convert(group, layouts[group.skeleton], port, n_before) for group in groups]
+    if len(parts) == 1:
+        return parts[0]
+    return _joined(parts, order=np.argsort(np.concatenate([group.rows for group in groups])))
+
+
+def _add_layout(
+    group: LineGroup, port: PortFolder, n_before: int, layouts: dict[bytes, NumberLayout], choose: Choose
+) -> None:
+    """Add the layout of the lines of a group, from the first of them, if it is not there."""
+    if group.skeleton not in layouts:
+        try:
+            layouts[group.skeleton] = _layout(group, port, choose, n_known=len(layouts))
+        except FormatError as error:
+            raise FormatError(f"{port.data}:{n_before + int(group.rows[0]) + 1}: {error}") from error
+
+
+def _joined(parts: Sequence[Numbers], *, order: IntArray | slice = slice(None)) -> Numbers:
+    return Numbers(
+        sequence=np.concatenate([part.sequence for part in parts])[order],
+        stamp_ns=np.concatenate([part.stamp_ns for part in parts])[order],
+        by_dumper=np.concatenate([part.by_dumper for part in parts])[order],
+        values=np.concatenate([part.values for part in parts])[order],
+    )
+
+
+def _layout(group: LineGroup, port: PortFolder, choose: Choose, *, n_known: int) -> NumberLayout:
+    line = group.text[: group.text.index(b"\n")]
+    if len(line) > LINE_LIMIT:
+        raise FormatError(_TOO_LONG)
+    if n_known == FORM_LIMIT:
+        raise FormatError(f"expected lines of at most {FORM_LIMIT} forms, got another; is this the log of a port?")
+    bottle = parse_line(line)
+    *others, stamps = port.possible_stamps(bottle)
+    stamps = next((other for other in others if _fits(bottle, len(other), choose)), stamps)
+    try:
+        check_head(line, bottle, n_stamps=len(stamps))
+        chosen = choose(bottle[1 + len(stamps) :])
+    except FormatError as error:
+        if n_known == 0 and _fits(bottle, 3 - len(stamps), choose):
+            raise FormatError(f"{error}; {_advice(port, stamps)}") from error
+        raise
+    return layout_of(line, bottle, stamps=stamps, chosen=chosen)
+
+
+def _advice(port: PortFolder, stamps: Sequence[str]) -> str:
+    fitting = "two stamps" if len(stamps) == 1 else "one stamp"
+    if port.has_info:
+        return f"with {fitting} the line would fit: if that is so, correct the line Stamp: of info.log"
+    return f'with {fitting} the line would fit: if that is so, write "Type: Bottle;" and "Stamp: tx+rx;" to info.log'
+
+
+def _fits(bottle: Bottle, n_stamps: int, choose: Choose) -> bool:
+    try:
+        choose(bottle[1 + n_stamps :])
+    except FormatError:
+        return False
+    return all(is_number(value) for value in bottle[: 1 + n_stamps])
+
+
+def _convert(group: LineGroup, layout: NumberLayout, port: PortFolder, n_before: int) -> Numbers:
+    numbers = convert(group, layout)
+    if numbers is not None:
+        _check_envelopes(numbers, group, layout, port, n_before)
+        return numbers
+    for row, line in zip(group.rows.tolist(), group.text.split(b"\n"), strict=False):
+        try:
+            check_head(line, parse_line(line), n_stamps=len(layout.stamps))
+        except FormatError as error:
+            raise FormatError(f"{port.data}:{n_before + row + 1}: {error}") from error
+    raise FormatError(
+        f"{port.data}:{n_before + int(group.rows[0]) + 1}: expected plain numbers in this line and those like it, "
+        "got some that cannot be converted; log the port again"
+    )
+
+
+def _check_envelopes(numbers: Numbers, group: LineGroup, layout: NumberLayout, port: PortFolder, n_before: int) -> None:
+    """Check that lines with more stamps than were asked for are of messages without an envelope."""
+    if len(layout.stamps) != len(port.stamps) and (numbers.sequence >= 0).any():
+        row = group.rows[np.flatnonzero(numbers.sequence >= 0)[0]]
+        raise FormatError(
+            f"{port.data}:{n_before + row + 1}: expected one stamp as info.log says, got two although the sequence "
+            "number is not negative; delete the line"
+        )
+
+
+def _stamp_findings(stream: str, port: PortFolder, stamp_ns: IntArray, *, by_dumper: BoolArray) -> tuple[Finding, ...]:
+    findings = []
+    if not port.has_info:
+        findings.append(
+            Finding(
+                stream=stream,
+                kind="unknown_stamp",
+                message="there is no info.log; the sender or the dumper may have stamped the messages",
+                count=len(stamp_ns),
+                start_ns=int(stamp_ns[0]),
+                end_ns=int(stamp_ns[-1]),
+            )
+        )
+    rows = np.flatnonzero(by_dumper)
+    if len(rows):
+        findings.append(
+            Finding(
+                stream=stream,
+                kind="dumper_stamp",
+                message=f"{len(rows)} of {len(stamp_ns)} messages have no stamp of the sender; the dumper's is used",
+                count=len(rows),
+                start_ns=int(stamp_ns[rows[0]]),
+                end_ns=int(stamp_ns[rows[-1]]),
+            )
+        )
+    return tuple(findings)

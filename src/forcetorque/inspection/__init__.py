@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a log holds, what is wrong with it, and a first experiment file of it."""
+
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from forcetorque.inspection.draft.draft import draft_experiment
+    from forcetorque.inspection.inspect import inspect_log, inspected
+
+__all__ = [
+    "draft_experiment",
+    "inspect_log",
+    "inspected",
+]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "draft_experiment": "forcetorque.inspection.draft.draft",
+        "inspect_log": "forcetorque.inspection.inspect",
+        "inspected": "forcetorque.inspection.inspect",
+    },
+)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque init` and `forcetorque inspect`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from forcetorque.base.files import STANDARD_OUTPUT
+from forcetorque.base.output_file import declare_outputs
+from forcetorque.results.terminal.options import ForceOption, FormatOption
+from forcetorque.results.terminal.output import Format, refuse_two_on_standard_output, show, start_logging
+
+
+def init(
+    log: Annotated[list[Path], typer.Argument(help="A log of any format, or several tables of one recording.")],
+    urdf: Annotated[
+        Path | None, typer.Option("--urdf", help="The robot. Default: none, a wrist sensor whose pose is logged.")
+    ] = None,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Experiment file to write; - for standard output.")
+    ] = Path("experiment.toml"),
+    log_format: Annotated[
+        str | None,
+        typer.Option(help="Format of the log, such as ros or hdf5, as in [recording]. Default: by what is there."),
+    ] = None,
+    force: ForceOption = False,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Begin an experiment file of a log: what it does not say is a question.
+
+    Example: forcetorque init log.csv --urdf robot.urdf -o experiment.toml
+    """
+    from forcetorque.inspection.draft.draft import draft_experiment
+
+    start_logging().info("reading %s", ", ".join(map(str, log)))
+    refuse_two_on_standard_output(output, output_format)
+    declare_outputs(output, force=force)
+    draft = draft_experiment(log, output, urdf=urdf, log_format=log_format, force=force)
+    if output != STANDARD_OUTPUT:  # else the file itself went there
+        show(draft, output_format)
+
+
+def inspect(
+    log: Annotated[
+        Path, typer.Argument(help="Experiment file, or a log that is recognised, such as a YARP dumper folder.")
+    ],
+    log_format: Annotated[
+        str | None,
+        typer.Option(help="Format of a log, such as ros or hdf5, as in [recording]. Default: by what is there."),
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Find gaps, lost messages, frozen or saturated sensors, steps and contacts.
+
+    Example: forcetorque inspect experiment.toml
+    """
+    from forcetorque.inspection.inspect import inspect_log
+
+    start_logging().info("reading %s", log)
+    show(inspect_log(log, log_format=log_format), output_format)

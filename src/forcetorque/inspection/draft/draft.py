@@ -1,0 +1,317 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Write the first experiment file of a log: what can be told, and a question a line for what cannot."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field, ValidationError
+
+from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.base.files import STANDARD_OUTPUT, write_bytes_atomically
+from forcetorque.base.output_file import refuse_output
+from forcetorque.base.toml_file import open_questions
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.formats.log_format import not_read_sentence
+from forcetorque.formats.registry import format_named
+from forcetorque.inspection.draft.gravity import Hanging, hanging
+from forcetorque.inspection.draft.intervals import (
+    DraftedInterval,
+    clock_lines,
+    draft_intervals,
+    interval_lines,
+    whole_log,
+)
+from forcetorque.inspection.draft.log import draft_log, recording_lines
+from forcetorque.inspection.draft.missing_joints import standing_lines
+from forcetorque.inspection.draft.sensors import DraftedSensor, draft_sensors, sensor_joints, sensor_lines
+from forcetorque.inspection.draft.streams import DraftedLog, relative
+from forcetorque.inspection.draft.supports import base_of_arm, has_no_tool, interval_support, load_lines, support_lines
+from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
+from forcetorque.inspection.streams import StreamRow, stream_rows, stream_table
+from forcetorque.recording.recording import Recording
+from forcetorque.results.result import Result
+from forcetorque.results.row import Row, Shown
+from forcetorque.results.table import Table, table_of
+from forcetorque.robot.model import JointType, RobotModel
+from forcetorque.robot.urdf import read_urdf
+
+_INERTIAL = ("proper_acceleration", "angular_velocity")
+_MOST_JOINTS = 12
+"""Fixed joints that a reading is held against."""
+
+
+class QuestionRow(Row):
+    """A line that somebody has to fill in."""
+
+    line: Annotated[int, Shown("line")]
+    """Its line in the file."""
+    key: Annotated[str, Shown("key")]
+    """The key."""
+    question: Annotated[str, Shown("question")]
+    """What is asked, and what is known about it."""
+
+
+class Draft(Result):
+    """A first experiment file."""
+
+    schema_name: Literal["forcetorque/init/1"] = Field(default="forcetorque/init/1", alias="schema")
+    """Form of the result."""
+    file: str
+    """The experiment file."""
+    format: str
+    """Format of the log."""
+    streams: dict[str, StreamRow]
+    """Streams of the log, where all about it is known."""
+    questions: tuple[QuestionRow, ...]
+    """What is to be answered."""
+    notes: tuple[str, ...]
+    """What was found out without asking, and what could not be."""
+    content: str = Field(exclude=True, repr=False)
+    """Content of the file."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give what was found, and the questions.
+
+        Yields:
+            The tables and sentences.
+        """
+        if self.streams:
+            yield stream_table(self.streams, f"{self.file}: streams")
+        yield from self.notes
+        if not self.questions:
+            yield f"{self.file}: nothing is left to ask; read it, then `forcetorque {self._next} {self.file}`"
+            return
+        yield table_of(self.questions, f'{self.file}: questions, one a line, in place of each "?"')
+        count = len(self.questions)
+        yield (
+            f"{count} line{'' if count == 1 else 's'} to fill in; `forcetorque inspect {self.file}` says which is "
+            "next, and then what is wrong with the log"
+        )
+
+    @property
+    def _next(self) -> str:
+        return "calibrate -o new.json" if "[[sensor]]" in self.content else "inspect"
+
+    def columns(self) -> list[str]:
+        """Name the columns of the CSV.
+
+        Returns:
+            The keys of a question, also where there is none.
+        """
+        return list(QuestionRow.model_fields)
+
+
+def draft_experiment(
+    logs: Path | str | Sequence[Path | str],
+    output: Path | str | None = None,
+    *,
+    urdf: Path | str | None = None,
+    log_format: str | None = None,
+    force: bool = False,
+) -> Draft:
+    """Write the first experiment file of a log.
+
+    What the log and the robot's model say is written down; what they do not is the value `"?"` with a comment, which no
+    command takes for an answer. Spans in which nothing seems to touch are offered where the reading could be held
+    against the orientation of the sensor.
+
+    Args:
+        logs: A log of any format, or several tables of one recording.
+        output: File to write; None to write none.
+        urdf: The robot; None for a wrist sensor whose pose is logged.
+        log_format: Name of the format; it is recognised by what is there if None.
+        force: Whether a file that is there already may be replaced.
+
+    Returns:
+        The file, and its questions.
+
+    Raises:
+        OutputError: If there is such a file already.
+        ExperimentError: If no log is given.
+        FormatError: If the log is of no known format.
+    """
+    file = Path("experiment.toml") if output is None else Path(output)
+    if output is not None:
+        refuse_output(file, force=force)
+    files = [logs] if isinstance(logs, Path | str) else logs
+    if not files:
+        raise ExperimentError("expected a log to begin an experiment file of, got none")
+    folder = Path() if file == STANDARD_OUTPUT else file.parent
+    model = None if urdf is None else read_urdf(Path(urdf))
+    log = draft_log([Path(path) for path in files], model, log_format)
+    robot = None if urdf is None else relative(Path(urdf), folder)
+    text, notes, recording = _written(log, folder, model, robot)
+    if output is not None:
+        write_bytes_atomically(file, text.encode())
+    questions = tuple(QuestionRow(line=q.line, key=q.key, question=q.words) for q in open_questions(text))
+    return Draft(
+        file=str(file),
+        format=log.format,
+        streams={} if recording is None else stream_rows(recording.streams),
+        questions=questions,
+        notes=notes,
+        content=text,
+    )
+
+
+def _written(
+    log: DraftedLog, folder: Path, model: RobotModel | None, robot: str | None
+) -> tuple[str, tuple[str, ...], Recording | None]:
+    sensors = draft_sensors(log.streams, model)
+    frames = {sensor.stream: sensor.name for sensor in sensors if not sensor.tags}
+    recorded = recording_lines(log, folder, model, frames)
+    recording, reason = _read("\n".join(recorded), folder, sensors, model)
+    first_look = recording
+    if recording is None:
+        first_look, _ = _read(likeliest_text(recorded), folder, sensors, model)
+    base = None if model is None else base_of_arm(model)
+    sensors = tuple(_with_evidence(sensor, first_look, model, base) for sensor in sensors)
+    if recording is None and any(sensor.evidence for sensor in sensors):
+        reason += "; meanwhile it was looked at with the likeliest units, and the force turns as a weight does"
+    notes = [*_notes(log, sensors, model), *([reason] if reason else [])]
+    evidence = [best for sensor in sensors if (best := _best(sensor)) is not None]
+    intervals = draft_intervals(first_look, evidence) if first_look is not None and evidence else ()
+    notes.append(_about_intervals(intervals, evidence) or _why_no_interval(first_look, sensors, model, evidence))
+    lines = ['# What is "?" is a question: put the answer there. Every command says which is next.']
+    lines += [line("schema", "forcetorque/experiment/1"), line("name", log.paths[0].stem)]
+    if robot is not None:
+        lines += ["", "[robot]", line("urdf", robot)]
+    if model is not None:
+        lines += standing_lines(log, sensors, model, base)
+    lines += ["", *recorded, *clock_lines(log, first_look)]
+    for sensor in sensors:
+        lines += sensor_lines(sensor, on_robot=model is not None)
+    extra: list[str] = []
+    if model is None:
+        lines += _wrist_lines(log, sensors)
+    elif sensors:
+        lines += support_lines(base, model, _imus(log), evidence[0] if evidence else None)
+        extra = [interval_support(base)]
+        bare = [sensor for sensor in sensors if has_no_tool(sensor, model)]
+        if bare:
+            lines += load_lines(bare[0], model)
+    words = (
+        "all of the log: put it where nothing touches, and cut out what does"
+        if sensors
+        else "all of the log, to look at"
+    )
+    for interval in intervals or whole_log(words, use="calibration" if sensors else "ignore"):
+        lines += interval_lines(interval, extra)
+    return "\n".join(lines) + "\n", tuple(notes), recording
+
+
+def _read(
+    text: str, folder: Path, sensors: Sequence[DraftedSensor], model: RobotModel | None
+) -> tuple[Recording | None, str]:
+    """The recording that the table states, once nothing of it is open; else why it is not known."""
+    if open_questions(text):
+        return None, "the log is read once the questions of [recording] are answered"
+    try:
+        content = tomllib.loads(text)["recording"]
+        known = format_named(content["format"])
+        context = ExperimentContext(
+            experiment=folder / "experiment.toml",
+            inputs=Inputs(folder),
+            sensors={sensor.stream: sensor.name for sensor in sensors},
+            joint_units={} if model is None else {name: joint.type.unit for name, joint in model.joints.items()},
+        )
+        reading = known.read(known.table.model_validate(content), context)
+    except ValidationError as error:
+        return None, f"the log cannot be read yet: {error.errors()[0]['msg']}"
+    except ForceTorqueError as error:
+        return None, f"the log cannot be read yet: {error}"
+    return Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings), ""
+
+
+def _with_evidence(
+    sensor: DraftedSensor, recording: Recording | None, model: RobotModel | None, base: str | None
+) -> DraftedSensor:
+    """Hold the reading against the orientation of each link that it may be along."""
+    if recording is None or model is None or base is None or sensor.is_raw or sensor.tags:
+        return sensor
+    joints = sensor_joints(sensor, model)[:_MOST_JOINTS]
+    stream = recording.stream(sensor.stream)
+    hangings = {joint: hanging(model, joint, base, recording, stream) for joint in joints}
+    evidence = {joint: one for joint, one in hangings.items() if one is not None and one.says_something}
+    return replace(sensor, evidence=evidence)
+
+
+def _best(sensor: DraftedSensor) -> Hanging | None:
+    return min(sensor.evidence.values(), key=lambda one: one.typical, default=None)
+
+
+def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel | None) -> Iterator[str]:
+    for sensor in sensors:
+        what = "raw channels" if sensor.is_raw else "a wrench"
+        yield f"{sensor.stream}: looks like {what}; sensor {'to be named' if sensor.tags else sensor.name}"
+    if not sensors:
+        yield "no stream looks like the reading of a force-torque sensor; without one a log is inspected and viewed"
+    if log.skipped_arrays:
+        yield not_read_sentence(log.skipped_arrays)
+    if log.description is not None:
+        left_out = [one.stream for one in log.description.reading.findings if one.kind == "not_read"]
+        if left_out:
+            yield f"not read, or not all of it: {listed(left_out, 12)}; `forcetorque inspect {log.paths[0]}` says what"
+    if model is None:
+        return
+    moving = {name for name, joint in model.joints.items() if joint.type is not JointType.FIXED and joint.mimic is None}
+    weight = sum(link.mass for link in model.links.values())
+    yield f"the robot of the URDF weighs {weight:.2f} kg, {weight * STANDARD_GRAVITY:.1f} N"
+    known = {joint for stream in log.streams for joint in stream.joints}
+    if known:
+        missing = sorted(moving - known)
+        without = f"; no stream is known to hold {listed(missing, 12)}" if missing else ""
+        yield f"joints of the robot by name: {len(known)} of {len(moving)}{without}"
+
+
+def _about_intervals(intervals: Sequence[DraftedInterval], evidence: Sequence[Hanging]) -> str:
+    if not intervals:
+        return ""
+    seconds = sum((one.end_s or 0.0) - one.start_s for one in intervals)
+    tolerance = max(hanging.tolerance for hanging in evidence)
+    return (
+        f"intervals: {len(intervals)} of {seconds:.0f} s together, in which the force goes with the orientation within "
+        f"{tolerance:.2g} N; a steady push in a fixed direction of the sensor would not show, so look at them"
+    )
+
+
+def _why_no_interval(
+    recording: Recording | None,
+    sensors: Sequence[DraftedSensor],
+    model: RobotModel | None,
+    evidence: Sequence[Hanging],
+) -> str:
+    if recording is None or not sensors:
+        return "no interval is offered: the reading was not held against anything"
+    if model is None:
+        return "no interval is offered: without a robot `forcetorque payload` holds the reading against the load"
+    if evidence:
+        return "no interval is offered: no span of 2 s or more is free of what the weight does not explain"
+    return (
+        "no interval is offered: the reading could not be held against the orientation of its sensor, or does not turn "
+        "with it as a weight does"
+    )
+
+
+def _imus(log: DraftedLog) -> list[str]:
+    return [stream.name for stream in log.streams if set(_INERTIAL) <= set(stream.quantities)]
+
+
+def _wrist_lines(log: DraftedLog, sensors: Sequence[DraftedSensor]) -> list[str]:
+    """What hangs on a wrist sensor whose pose is logged."""
+    if not sensors:
+        return []
+    posed = [s.name for s in log.streams if {"orientation", "gravity"} & set(s.quantities)]
+    poses = posed or [s.name for s in log.streams if "proper_acceleration" in s.quantities]
+    # of tables the frame is asked, and has to be that of the sensor; other logs have their own
+    words = "streams with gravity, orientation or acceleration along the axes of the sensor"
+    shown = f", as {toml_value(poses)} if that is turned as the sensor is" if poses else ""
+    motion = line("motion", poses) if poses and log.format == "tabular" else question("motion", f"{words}{shown}")
+    words = "child_to_parent if a hanging load reads down, parent_to_child if the opposite"
+    return ["", "[load]", line("frame", sensors[0].name), motion, question("measure_direction", words)]

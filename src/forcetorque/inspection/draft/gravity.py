@@ -1,0 +1,310 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a reading says of gravity by itself: force as the weight of whatever hangs on the sensor, plus a bias.
+
+A sensor that nothing touches reads `f = R h + mu R a + b` along its axes: R turns vectors of the support to those of
+the sensor, a is the acceleration of the centre of mass of what hangs on it, h the weight in the axes of the support (up
+or down, by who acts on whom), mu the mass with that sign. Neither mass nor direction need be known, and a contact shows
+as what is left, once the matrix of a sensor that is not calibrated yet is allowed for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.units import MAD_TO_DEVIATION
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.recording.alignment import interpolate, usable_samples
+from forcetorque.recording.quality import spans
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.smoothing import SavitzkyGolay
+from forcetorque.recording.stream import Stream
+from forcetorque.robot.joint_motion import joint_motion_at
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.tree import build_tree, required_joints
+
+WINDOW_S = 0.2
+"""Readings are averaged over so long, against noise and vibration; s."""
+MARGIN_S = 0.4
+"""So long before and after what does not seem free nothing is offered: a push begins and ends gently; s."""
+SHORTEST_S = 2.0
+"""Shortest span that is offered; s."""
+LARGE_SHARE = 0.02
+"""What is left may be this share of the weight, for a sensor that is not calibrated yet."""
+
+CROSS_TALK = 0.05
+"""What is expected of the errors of a matrix that a sensor came with: share of a load that shows where it is not."""
+LEVER_M = 0.05
+"""Moment over force of full scales, by which shares of moments are shares of forces; m."""
+LIGHT_KG = 1e-3
+"""Less than this beyond a joint is no load."""
+
+_PROBE = "probe"
+_FEWEST = 20
+_ROUNDS = 20
+_MOST_WINDOWS = 20_000
+_DEVIATIONS = 5.0
+_MEDIAN_OF_NORM = 1.538
+"""Median of the norm of three normal errors of deviation 1."""
+_SURE = 5.0
+_FILTER = SavitzkyGolay(window_s=0.3, order=3)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Hanging:
+    """How a reading goes with the orientation of its sensor."""
+
+    stamp_ns: IntArray
+    """Middles of the n windows; ns."""
+    weight: FloatArray
+    """Weight in the axes of the support, as it is read; shape (3,); N."""
+    inertia: float
+    """Mass with the sign of the reading, by its acceleration: minus for child_to_parent; kg."""
+    inertia_deviation: float
+    """Standard deviation of that; kg."""
+    left: FloatArray
+    """Magnitude of the force that is left; shape (n,); N."""
+    turned: float
+    """Standard deviation of the force that the orientation explains; N."""
+    tolerance: float
+    """Force that is taken for none; N."""
+
+    @property
+    def is_free(self) -> BoolArray:
+        """Windows in which nothing seems to touch; shape (n,)."""
+        free: BoolArray = self.left <= self.tolerance
+        return free
+
+    @property
+    def typical(self) -> float:
+        """Median of the force that is left; N."""
+        return float(np.median(self.left))
+
+    @property
+    def share_free(self) -> float:
+        """Share of the windows in which nothing seems to touch."""
+        return float(self.is_free.mean())
+
+    @property
+    def says_something(self) -> bool:
+        """Whether orientation moves the reading by far more than what is left, in most of the time."""
+        return self.turned > 3.0 * self.typical and self.share_free > 0.5
+
+    @property
+    def direction(self) -> str | None:
+        """Who acts on whom, where accelerations tell it surely and agree with the weight."""
+        mass = float(np.linalg.norm(self.weight)) / 9.8
+        sure = abs(self.inertia) > _SURE * self.inertia_deviation
+        if not (sure and 0.5 * mass < abs(self.inertia) < 2.0 * mass):
+            return None
+        return "child_to_parent" if self.inertia < 0.0 else "parent_to_child"
+
+
+def hanging(model: RobotModel, joint: str, support: str, recording: Recording, stream: Stream) -> Hanging | None:
+    """Hold the forces of a stream against the orientation of a sensor that may sit in a joint.
+
+    Args:
+        model: The robot; where it has no mass beyond the joint a point mass at the child link stands for it.
+        joint: Fixed joint, with a sensor or without.
+        support: Link that is taken to stand still.
+        recording: Streams with the joints between them, and those that move what is beyond.
+        stream: Stream with the wrench.
+
+    Returns:
+        What the readings say; None where too few windows have all joints.
+    """
+    probe = _probe(model, joint)
+    tree = build_tree(probe, support)
+    at_ns, wrench = _windows(stream)
+    joints = required_joints(tree, _PROBE)
+    if len(at_ns) < _FEWEST or not set(joints) <= set(recording.joint_signals("position")):
+        return None
+    motion = joint_motion_at(recording, joints, at_ns, window=_FILTER)
+    whole = np.isfinite(motion.position).all(axis=1) & np.isfinite(motion.acceleration).all(axis=1)
+    whole &= np.isfinite(wrench).all(axis=1)
+    if int(whole.sum()) < _FEWEST:
+        return None
+    moving = motion.samples(np.flatnonzero(whole))
+    mass = mass_beyond(probe, joint)
+
+    def read(motion: JointMotion, pull: FloatArray) -> FloatArray:
+        """Force by the acceleration of free fall, which is what a probe reads as child_to_parent; per kg."""
+        root = RootMotion(proper_acceleration=-pull, angular_velocity=np.zeros(3), angular_acceleration=np.zeros(3))
+        return expected_wrenches(tree, motion, root, [_PROBE])[_PROBE][:, :3] / mass
+
+    still = JointMotion.at_rest(moving.names, moving.position)
+    link_R_support = np.stack([read(still, axis) for axis in np.eye(3)], axis=-1)
+    return _fitted(at_ns[whole], wrench[whole], link_R_support, -read(moving, np.zeros(3)))
+
+
+def felt_joints(model: RobotModel, joint: str, support: str) -> tuple[str, ...]:
+    """Name the joints that move what a sensor in a joint reads.
+
+    Args:
+        model: The robot.
+        joint: Fixed joint, with a sensor or without.
+        support: Link that is taken to stand still.
+
+    Returns:
+        Joints between the two, and those that move what hangs beyond.
+    """
+    return required_joints(build_tree(_probe(model, joint), support), _PROBE)
+
+
+def _probe(model: RobotModel, joint: str) -> RobotModel:
+    """The robot with one sensor, at the joint, read as child_to_parent, and something that hangs on it."""
+    tags = [sensor for sensor in model.sensors.values() if sensor.joint == joint]
+    bare = replace(model, sensors={})
+    if tags:
+        place = replace(tags[0], name=_PROBE, direction=MeasureDirection.CHILD_TO_PARENT, aliases=())
+        bare = replace(bare, sensors={_PROBE: place})
+    else:
+        bare = bare.with_sensor(_PROBE, joint=joint, direction=MeasureDirection.CHILD_TO_PARENT)
+    if mass_beyond(model, joint) >= LIGHT_KG:
+        return bare
+    child = model.joints[joint].child
+    point = Inertia.about_centre_of_mass(mass=1.0, centre_of_mass=np.zeros(3), second_moment=np.zeros((3, 3)))
+    return replace(bare, links={**bare.links, child: point})
+
+
+def mass_beyond(model: RobotModel, joint: str) -> float:
+    """Add up what hangs on a joint.
+
+    Args:
+        model: The robot.
+        joint: One of its joints.
+
+    Returns:
+        Mass of all links beyond it; kg.
+    """
+    outward: dict[str, list[str]] = {}
+    for entry in model.joints.values():
+        outward.setdefault(entry.parent, []).append(entry.child)
+    total, waiting = 0.0, [model.joints[joint].child]
+    while waiting:
+        link = waiting.pop()
+        total += model.links[link].mass
+        waiting += outward.get(link, ())
+    return total
+
+
+def _windows(stream: Stream) -> tuple[IntArray, FloatArray]:
+    """Middles of windows, and the mean wrench in each."""
+    usable = usable_samples(stream.stamp_ns)
+    stamps, wrench = stream.stamp_ns[usable], stream.signal("wrench").values[usable]
+    if len(stamps) < 2:
+        return np.empty(0, dtype=np.int64), np.empty((0, 6))
+    length = max(int(WINDOW_S * 1e9), int(stamps[-1] - stamps[0]) // _MOST_WINDOWS + 1)
+    number = (stamps - stamps[0]) // length
+    starts = np.flatnonzero(np.diff(number, prepend=-1))
+    count = np.diff(np.append(starts, len(stamps)))
+    mean = np.add.reduceat(wrench, starts, axis=0) / count[:, None]
+    middle = stamps[starts] + (np.add.reduceat(stamps - stamps[0], starts) // count - (stamps[starts] - stamps[0]))
+    return middle.astype(np.int64), mean
+
+
+def _fitted(at_ns: IntArray, wrench: FloatArray, link_R_support: FloatArray, moved: FloatArray) -> Hanging:
+    n = len(at_ns)
+    force, moment = wrench[:, :3], wrench[:, 3:]
+    ideal = np.concatenate([link_R_support, moved[:, :, None], np.broadcast_to(np.eye(3), (n, 3, 3))], axis=2)
+    ideal = ideal.reshape(3 * n, 7)
+    exact = _robust(ideal, force.reshape(-1))
+    load = (ideal[:, :4] @ exact[:4]).reshape(n, 3)
+    design = np.hstack([ideal, _spread(load), _spread(moment - np.median(moment, axis=0))])
+    noise = MAD_TO_DEVIATION * float(np.median(np.abs(force.reshape(-1) - ideal @ exact)))
+    # rows that say how near one the matrix is expected to be: else its errors look like mass and direction
+    expected = np.repeat([np.inf, CROSS_TALK, CROSS_TALK / LEVER_M], [7, 9, 9])
+    for _ in range(2):  # the noise is what the expected errors of the matrix do not explain
+        prior = np.diag(max(noise, 1e-9) / expected)
+        coefficients = _robust(design, force.reshape(-1), prior)
+        left = np.linalg.norm((force.reshape(-1) - design @ coefficients).reshape(n, 3), axis=1)
+        noise = float(np.median(left)) / _MEDIAN_OF_NORM
+    # a matrix that is not one and a weight that is larger are the same: the size is that of the matrix one
+    size = float(np.linalg.norm(exact[:3])) / max(float(np.linalg.norm(coefficients[:3])), 1e-9)
+    weight = size * coefficients[:3]
+    tolerance = max(_DEVIATIONS * noise, LARGE_SHARE * float(np.linalg.norm(weight)))
+    rows = np.vstack([design[np.repeat(left <= tolerance, 3)], prior])
+    covariance = np.linalg.pinv(rows.T @ rows) * noise**2
+    turned = link_R_support @ weight
+    return Hanging(
+        stamp_ns=at_ns,
+        weight=weight,
+        inertia=float(size * coefficients[3]),
+        inertia_deviation=float(size * np.sqrt(covariance[3, 3])),
+        left=left,
+        turned=float(np.sqrt(turned.var(axis=0).sum())),
+        tolerance=float(tolerance),
+    )
+
+
+def _spread(values: FloatArray) -> FloatArray:
+    """Columns by which every component of three may have a share of each of these; shape (3 n, 9)."""
+    spread: FloatArray = np.einsum("ij,nk->nijk", np.eye(3), values).reshape(3 * len(values), 9)
+    return spread
+
+
+def _robust(design: FloatArray, reading: FloatArray, prior: FloatArray | None = None) -> FloatArray:
+    """Coefficients that few large errors do not move: Cauchy's weights, for rows of the reading alone."""
+    scale = np.maximum(np.abs(design).max(axis=0), 1e-9)
+    scaled: FloatArray = design / scale
+    beliefs = np.empty((0, design.shape[1])) if prior is None else prior / scale
+    target = np.append(reading, np.zeros(len(beliefs)))
+    weights = np.ones(len(reading))
+    coefficients = np.zeros(design.shape[1])
+    for _ in range(_ROUNDS):
+        rows = np.vstack([weights[:, None] * scaled, beliefs])
+        coefficients = np.linalg.lstsq(rows, np.append(weights, np.ones(len(beliefs))) * target, rcond=None)[0]
+        rest = scaled @ coefficients - reading
+        noise = max(MAD_TO_DEVIATION * float(np.median(np.abs(rest))), 1e-9)
+        weights = 1.0 / np.sqrt(1.0 + (rest / noise) ** 2)
+    unscaled: FloatArray = coefficients / scale
+    return unscaled
+
+
+def free_spans(stamp_ns: IntArray, free: BoolArray) -> list[tuple[int, int]]:
+    """Find spans of time in which nothing seems to touch.
+
+    Args:
+        stamp_ns: Instants, in order; shape (n,); ns.
+        free: Whether nothing seems to touch then; shape (n,).
+
+    Returns:
+        First and last instant of every span that is long enough; ns.
+    """
+    if len(stamp_ns) < 2:
+        return []
+    step = float(np.median(np.diff(stamp_ns)))
+    breaks = np.flatnonzero(np.diff(stamp_ns) > 5.0 * step) + 1
+    runs: list[tuple[int, int]] = []
+    for part in np.split(np.arange(len(stamp_ns)), breaks):
+        for a, b in spans(free[part]):
+            early, late = (0 if edge else int(MARGIN_S * 1e9) for edge in (a == 0, b == len(part) - 1))
+            runs.append((int(stamp_ns[part[a]]) + early, int(stamp_ns[part[b]]) - late))
+    return [(first, last) for first, last in runs if last - first >= SHORTEST_S * 1e9]
+
+
+def joint_speed(recording: Recording, at_ns: IntArray) -> FloatArray | None:
+    """Give the fastest joint at given instants, to tell rest from motion.
+
+    Args:
+        recording: Streams, of which those with positions are used.
+        at_ns: Instants; shape (n,); ns.
+
+    Returns:
+        Speed; shape (n,); rad/s or m/s; None without joints.
+    """
+    fastest = None
+    for stream in recording.streams.values():
+        usable = usable_samples(stream.stamp_ns)
+        if "position" in stream.signals and len(usable) > 2:
+            positions = stream.signals["position"].values
+            rate = np.zeros_like(positions)
+            rate[usable] = np.gradient(positions[usable], stream.stamp_ns[usable] * 1e-9, axis=0)
+            speed = np.abs(interpolate(stream, rate, at_ns)).max(axis=1)
+            fastest = speed if fastest is None else np.fmax(fastest, speed)
+    return fastest

@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Intervals without contact that are offered, static or moving, and clocks of streams."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.inspection.draft.gravity import SHORTEST_S, Hanging, free_spans, joint_speed
+from forcetorque.inspection.draft.streams import DraftedLog
+from forcetorque.inspection.draft.toml_lines import line, question, remark
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.stream import Stream
+
+_MOST_SPANS = 12
+_CALIBRATION_SHARE = 2.0 / 3.0
+_MOVING_SPEED = 0.02
+"""Speed of the fastest joint above which a span moves; rad/s or m/s."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DraftedInterval:
+    """A span that is offered."""
+
+    label: str
+    """Its label."""
+    start_s: float
+    """Start; s from the earliest stamp."""
+    end_s: float | None
+    """End; s from the earliest stamp; None for the end of the log."""
+    use: str
+    """What it is offered for."""
+    words: str
+    """Why."""
+
+
+def whole_log(words: str, *, use: str) -> tuple[DraftedInterval, ...]:
+    """Offer the whole log, where nothing tells free spans.
+
+    Args:
+        words: What to do with it.
+        use: What it is offered for.
+
+    Returns:
+        One interval.
+    """
+    return (DraftedInterval(label="all", start_s=0.0, end_s=None, use=use, words=words),)
+
+
+def draft_intervals(recording: Recording, hangings: Sequence[Hanging]) -> tuple[DraftedInterval, ...]:
+    """Offer spans in which nothing seems to touch.
+
+    Args:
+        recording: The log.
+        hangings: What each sensor says of contact; of those that say something.
+
+    Returns:
+        The longest spans in the order of time, the first two thirds of them for calibration and the rest for
+        validation; none where nothing is free for long enough.
+    """
+    spans = _common([free_spans(hanging.stamp_ns, hanging.is_free) for hanging in hangings])
+    longest = sorted(sorted(spans, key=lambda span: span[0] - span[1])[:_MOST_SPANS])
+    start = recording.start_ns
+    pieces = _pieces(longest)
+    intervals = []
+    for k, (first, last, use) in enumerate(pieces, start=1):
+        low, high = _outward(first - start), _inward(last - start)
+        moving = _is_moving(recording, first, last)
+        motion = "" if moving is None else "moving, " if moving else "still, "
+        intervals.append(
+            DraftedInterval(
+                label=f"free {k}",
+                start_s=low,
+                end_s=high,
+                use=use,
+                words=f"{motion}nothing seems to touch",
+            )
+        )
+    return tuple(intervals)
+
+
+def interval_lines(interval: DraftedInterval, extra: Sequence[str]) -> list[str]:
+    """Write an `[[interval]]` table.
+
+    Args:
+        interval: The interval.
+        extra: Lines with its support or load.
+
+    Returns:
+        Its lines.
+    """
+    lines = ["", "[[interval]]", line("label", interval.label, interval.words), line("start_s", interval.start_s)]
+    if interval.end_s is not None:
+        lines.append(line("end_s", interval.end_s))
+    return [*lines, line("use", interval.use), *extra]
+
+
+def _common(several: Sequence[list[tuple[int, int]]]) -> list[tuple[int, int]]:
+    """Spans that are free for every sensor."""
+    if not several:
+        return []
+    first, *others = several
+    common = first
+    for spans in others:
+        common = [
+            (max(a, c), min(b, d)) for a, b in common for c, d in spans if min(b, d) - max(a, c) >= SHORTEST_S * 1e9
+        ]
+    return common
+
+
+def _pieces(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int, str]]:
+    """First part for calibration, the rest for validation; a span across the border is cut."""
+    total = sum(last - first for first, last in spans)
+    border = int(_CALIBRATION_SHARE * total)
+    pieces: list[tuple[int, int, str]] = []
+    used = 0
+    for first, last in spans:
+        cut = first + border - used
+        used += last - first
+        shortest = SHORTEST_S * 1e9
+        if cut - first < shortest:
+            pieces.append((first, last, "calibration" if cut > first and not pieces else "validation"))
+        elif last - cut < shortest:
+            pieces.append((first, last, "calibration"))
+        else:
+            pieces += [(first, cut, "calibration"), (cut, last, "validation")]
+    return pieces
+
+
+def _outward(ns: int) -> float:
+    return float(np.ceil(ns * 1e-8) / 10.0)
+
+
+def _inward(ns: int) -> float:
+    return float(np.floor(ns * 1e-8) / 10.0)
+
+
+def _is_moving(recording: Recording, first: int, last: int) -> bool | None:
+    at_ns = np.linspace(first, last, 200).astype(np.int64)
+    speed = joint_speed(recording, at_ns)
+    if speed is None or not np.isfinite(speed).any():
+        return None
+    return bool(np.nanquantile(speed, 0.9) > _MOVING_SPEED)
+
+
+_MOTION_SIGNALS = {"wrench", "raw", "position", "proper_acceleration", "angular_velocity", "orientation", "gravity"}
+"""Quantities that a reading is held against at one instant, and readings."""
+
+
+def clock_lines(log: DraftedLog, recording: Recording | None) -> list[str]:
+    """Ask how clocks of streams differ.
+
+    Args:
+        log: The log.
+        recording: Its streams; None where they cannot be read yet.
+
+    Returns:
+        A `[[clock]]` with a question for streams of another clock, or that share no time with the one whose clock
+        stays; one in comments for a table whose stamps are others than those of another table.
+    """
+    streams = (
+        [] if recording is None else [one for one in recording.streams.values() if _MOTION_SIGNALS & set(one.signals)]
+    )
+    if len(streams) < 2 or not all(map(len, streams)):
+        return []
+    stays = next((one for one in streams if "position" in one.signals), streams[0])
+    lines: list[str] = []
+    for group in _of_one_clock(streams, stays):
+        if group[0].clock != stays.clock or _apart(group[0], stays):
+            lines += _asked(group, stays)
+        elif log.format == "tabular" and not np.array_equal(group[0].stamp_ns, stays.stamp_ns):
+            lines += _offered(group[0], stays)
+    return lines
+
+
+def _of_one_clock(streams: Sequence[Stream], stays: Stream) -> list[list[Stream]]:
+    """The others; those that another clock stamped are together."""
+    groups: dict[str, list[Stream]] = {}
+    for stream in streams:
+        if stream is not stays:
+            own = stream.clock == stays.clock
+            groups.setdefault(f"stream {stream.name}" if own else f"clock {stream.clock}", []).append(stream)
+    return list(groups.values())
+
+
+def _apart(stream: Stream, other: Stream) -> bool:
+    (first, last), (other_first, other_last) = _ends_s(stream), _ends_s(other)
+    return first > other_last or other_first > last
+
+
+def _asked(group: Sequence[Stream], stays: Stream) -> list[str]:
+    first, names = group[0], [one.name for one in group]
+    why = (
+        f"the clock {first.clock!r} stamped it, {stays.clock!r} stamped {stays.name!r}"
+        if first.clock != stays.clock
+        else "they share no time"
+    )
+    began = f"{_ends_s(first)[0] - _ends_s(stays)[0]:.3f}"
+    words = (
+        f"{_extents(first, stays)}: {why}; by how much its stamps are later for what happens at once, s: {began} if "
+        'both began at once; or "estimate", with the line below'
+    )
+    return [
+        "",
+        "[[clock]]",
+        line("stream", names if len(names) > 1 else names[0]),
+        line("to", stays.name),
+        question("delay_s", words),
+        f'# around_s = {began}  # with "estimate", which looks within 0.5 s of it, or within_s',
+    ]
+
+
+def _offered(stream: Stream, stays: Stream) -> list[str]:
+    return [
+        "",
+        remark(f"{_extents(stream, stays)}; if two clocks stamped them, this is what to state:"),
+        "# [[clock]]",
+        f"# {line('stream', stream.name)}",
+        f"# {line('to', stays.name)}",
+        '# delay_s = "estimate"  # or a number, s, by which its stamps are later for what happens at once',
+    ]
+
+
+def _extents(stream: Stream, stays: Stream) -> str:
+    """From when to when both run, for people."""
+    return ", ".join("{!r} runs from {:.3f} s to {:.3f} s".format(one.name, *_ends_s(one)) for one in (stream, stays))
+
+
+def _ends_s(stream: Stream) -> tuple[float, float]:
+    return 1e-9 * float(stream.stamp_ns.min()), 1e-9 * float(stream.stamp_ns.max())

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Joints that a log only counts: which rows of joints of the robot have that number."""
+
+from __future__ import annotations
+
+import re
+
+from forcetorque.formats.yarp.port_reading import NO_JOINT
+from forcetorque.inspection.draft.toml_lines import listed, question, toml_value
+from forcetorque.robot.model import RobotModel
+
+_MOST_ROWS = 2
+_SIDES = {"left", "right"}
+"""Words of which joints have the first letter."""
+_LIMBS = {
+    "head": {"head", "neck", "eye", "eyes", "eyelids"},
+    "torso": {"torso", "waist"},
+    "arm": {"arm", "shoulder", "elbow", "wrist"},
+    "leg": {"leg", "hip", "knee", "ankle"},
+}
+"""Words that streams and joints of a limb are called by."""
+
+
+def joints_question(count: int, where: str, model: RobotModel | None, *, key: str = "joints") -> str:
+    """Ask for the names of joints.
+
+    Args:
+        count: How many there are.
+        where: Name of the stream, which may tell a limb.
+        model: The robot; None for none.
+        key: Key of the experiment file.
+
+    Returns:
+        The line.
+    """
+    words = f"names of the {count} joints in the order of the log, as the URDF has them"
+    if key == "joints":
+        words += f', "{NO_JOINT}" for one that it lacks'
+    if model is None:
+        return question(key, words)
+    rows = joint_rows(model, count, where)
+    if rows:
+        choices = " or ".join(toml_value(row) for row in rows[:_MOST_ROWS])
+        return question(key, f"{words}; the robot has {choices}")
+    limbs = _limbs_called(_words(where))
+    names = [name for name, joint in model.joints.items() if joint.type.moves]
+    likely = [name for name in names if not (limbs and _is_of_another([name], limbs))]
+    return question(key, f"{words}: of {listed(likely or names, 40)}")
+
+
+def joint_rows(model: RobotModel, count: int, where: str = "") -> list[list[str]]:
+    """Find as many joints as that one behind the other, without a branch between them.
+
+    Args:
+        model: The robot.
+        count: How many joints.
+        where: Name that may tell a limb, as `left_leg`; rows of another are left out, and any others where joints of
+            some begin alike.
+
+    Returns:
+        Rows of joints, each from the inner to the outer one.
+    """
+    words = _words(where)
+    limbs = _limbs_called(words)
+    rows = [row for row in _limbs(model) if len(row) == count and not (limbs and _is_of_another(row, limbs))]
+    initials = {side[0] for side in _SIDES & words}
+    named = [row for row in rows if all(_begins(joint, words, initials) for joint in row)]
+    return named or rows
+
+
+def _begins(joint: str, words: set[str], initials: set[str]) -> bool:
+    first = re.split(r"[_\W]+", joint.lower())[0]
+    return first in words or first in initials
+
+
+def _is_of_another(row: list[str], limbs: set[str]) -> bool:
+    called = _limbs_called({word for joint in row for word in _words(joint)})
+    return bool(called) and not called & limbs
+
+
+def _words(name: str) -> set[str]:
+    return set(re.findall("[a-z]+", name.lower()))
+
+
+def _limbs_called(words: set[str]) -> set[str]:
+    return {limb for limb, known in _LIMBS.items() if words & known}
+
+
+def _limbs(model: RobotModel) -> list[list[str]]:
+    """Joints that move from branch to branch, or to an end."""
+    outward: dict[str, list[str]] = {}
+    for name, joint in model.joints.items():
+        outward.setdefault(joint.parent, []).append(name)
+    inward = {joint.child: joint.parent for joint in model.joints.values()}
+    moved: set[str] = set()
+    for joint in model.joints.values():
+        link: str | None = joint.parent if joint.type.moves else None
+        while link is not None and link not in moved:
+            moved.add(link)
+            link = inward.get(link)
+    limbs: list[list[str]] = []
+    waiting: list[tuple[str, list[str]]] = [(model.root_link, [])]
+    while waiting:
+        here, row = waiting.pop()
+        ways = [
+            name for name in outward.get(here, ()) if model.joints[name].type.moves or model.joints[name].child in moved
+        ]
+        if len(ways) != 1 and row:
+            limbs.append(row)
+            row = []
+        for name in ways:
+            joint = model.joints[name]
+            waiting.append((joint.child, [*row, name] if joint.type.moves else row))
+    return limbs

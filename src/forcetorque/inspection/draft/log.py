@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The `[recording]` table of a log, and questions for what the log does not say."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from forcetorque.base.errors import FormatError, MissingFileError
+from forcetorque.base.toml_file import OPEN
+from forcetorque.formats.headings import read_heading
+from forcetorque.formats.log_format import LogDescription, LogFormat, LogSketch, SketchingFormat
+from forcetorque.formats.other_file import other_file
+from forcetorque.formats.registry import format_name, format_named, not_recognised, recognised_format
+from forcetorque.inspection.draft.arrays import array_groups, array_lines, array_streams, array_time
+from forcetorque.inspection.draft.column_match import likenesses, time_column
+from forcetorque.inspection.draft.joints import joints_question
+from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream, relative
+from forcetorque.inspection.draft.table_columns import table_lines, table_streams
+from forcetorque.inspection.draft.toml_lines import line, question, toml_value
+from forcetorque.robot.model import RobotModel
+
+_MADE_UP = "joint_"
+"""What joints are called that a log only counts."""
+
+
+def draft_log(paths: Sequence[Path], model: RobotModel | None, log_format: str | None = None) -> DraftedLog:
+    """Look at a log.
+
+    Args:
+        paths: One log of any format, or several tables of one recording.
+        model: The robot, whose joints are looked for by name; None for a wrist sensor without one.
+        log_format: Name of the format; it is recognised by what is there if None.
+
+    Returns:
+        What can be told of it.
+
+    Raises:
+        MissingFileError: If there is no such log.
+        FormatError: If a file is no log, or several are not tables.
+    """
+    for path in paths:
+        if not path.exists():
+            raise MissingFileError(f"{path}: expected a log, there is none")
+        other = other_file(path) if log_format is None else None
+        if other is not None:
+            raise FormatError(other)
+    formats = [recognised_format(path) if log_format is None else format_named(log_format) for path in paths]
+    known = _require_one_recording(paths, formats)
+    joints = [] if model is None else [name for name, joint in model.joints.items() if joint.type.moves]
+    if isinstance(known, SketchingFormat):
+        sketches = [known.sketch(path) for path in paths]
+        if format_name(known) == "tabular":
+            return DraftedLog(paths=tuple(paths), format="tabular", streams=table_streams(sketches, joints))
+        return DraftedLog(
+            paths=tuple(paths),
+            format=format_name(known),
+            streams=array_streams(sketches[0], joints),
+            arrays=sketches[0].columns,
+            skipped_arrays=sketches[0].skipped_arrays,
+        )
+    description = known.describe(paths[0])
+    streams = tuple(
+        DraftedStream(
+            name=stream.name,
+            quantities=tuple(stream.signals),
+            joints=tuple(joint for joint in _columns(stream.signals, "position") if joint in joints),
+            frame=None if "wrench" not in stream.signals else stream.signals["wrench"].frame,
+        )
+        for stream in description.reading.streams
+    )
+    return DraftedLog(paths=tuple(paths), format=format_name(known), streams=streams, description=description)
+
+
+def recording_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames: Mapping[str, str]) -> list[str]:
+    """Write the `[recording]` table.
+
+    Args:
+        log: The log.
+        folder: Folder of the experiment file, from which paths count.
+        model: The robot; None for a wrist sensor without one.
+        frames: Frame of the wrench of a stream, by the stream: the name of the sensor that reads it.
+
+    Returns:
+        Its lines.
+    """
+    if log.description is not None:
+        return _described_lines(log.description, folder, model)
+    if log.format == "tabular":
+        return table_lines(log, folder, model, frames)
+    return array_lines(log, folder, model, frames)
+
+
+def _columns(signals: Mapping[str, Any], quantity: str) -> tuple[str, ...]:
+    return tuple(signals[quantity].columns) if quantity in signals else ()
+
+
+def _require_one_recording(paths: Sequence[Path], formats: Sequence[LogFormat[Any] | None]) -> LogFormat[Any]:
+    """The format of all, which only tables may have together."""
+    known: list[LogFormat[Any]] = []
+    for path, form in zip(paths, formats, strict=True):
+        if form is None:
+            raise not_recognised(path)
+        if len(paths) > 1 and format_name(form) != "tabular":
+            raise FormatError(
+                f"{path}: expected tables (CSV, TSV, Parquet) where several files are one recording, got "
+                f"{format_name(form)}; draft a file of each log"
+            )
+        known.append(form)
+    return known[0]
+
+
+def _described_lines(description: LogDescription, folder: Path, model: RobotModel | None) -> list[str]:
+    content = description.table.model_dump(mode="json", exclude_none=True, warnings=False)
+    streams = content.pop("stream", ())
+    content["path"] = relative(description.table.path, folder)
+    lines = ["[recording]", *(line(key, value) for key, value in content.items() if value not in ({}, []))]
+    for entry in streams:
+        lines += ["", "[[recording.stream]]", *_stream_lines(entry, model)]
+    return lines
+
+
+def _stream_lines(entry: Mapping[str, Any], model: RobotModel | None) -> list[str]:
+    lines = []
+    for key, value in entry.items():
+        if key == "joints" and all(str(name).startswith(_MADE_UP) for name in value):
+            lines.append(joints_question(len(value), str(entry.get("name", "")), model))
+        elif key == "frame":
+            lines.append(_frame_line(str(value), model))
+        elif isinstance(value, list) and value and isinstance(value[0], Mapping):
+            lines += [f"{key} = [", *(_entry_line(one, model) for one in value), "]"]
+        else:
+            lines.append(line(key, value))
+    return lines
+
+
+def _frame_line(made_up: str, model: RobotModel | None) -> str:
+    known = _link_in(made_up, model)
+    words = "link of the URDF along whose axes it reads"
+    return question("frame", words) if known is None else line("frame", known, "by its name")
+
+
+def _entry_line(entry: Mapping[str, Any], model: RobotModel | None) -> str:
+    """A table among several in a list, on one line, so that a question in it has a line of its own."""
+    frame = None if "frame" not in entry else _link_in(str(entry["frame"]), model) or OPEN
+    stated = dict(entry) if frame is None else {**entry, "frame": frame}
+    words = "  # link of the URDF along whose axes it reads" if frame == OPEN else ""
+    return f"  {toml_value(stated)},{words}"
+
+
+def _link_in(name: str, model: RobotModel | None) -> str | None:
+    """The link that a name ends with, as that of a channel may; None for none."""
+    last = name.rpartition("/")[2]
+    return last if model is not None and last in model.links else None
+
+
+def looks(sketch: LogSketch) -> dict[int, str]:
+    """Say what each column of a log looks like, without a robot.
+
+    Args:
+        sketch: The log.
+
+    Returns:
+        A quantity or `time`, by the place of the column; what looks like nothing is left out.
+    """
+    if not sketch.is_table:
+        groups = array_groups(sketch.columns, ())
+        chosen = array_time(sketch.columns)
+        named = {group.columns[0]: group.quantity for group in groups}
+        return named if chosen is None else {**named, sketch.columns.index(chosen): "time"}
+    headings = [read_heading(column.name) for column in sketch.columns]
+    likeness = {k: group.words or group.quantity for group in likenesses(headings, ()) for k in group.columns}
+    likeness |= {k: "orientation" for first in sketch.quaternion for k in range(first, first + 4) if k not in likeness}
+    time = time_column(headings, [column.step for column in sketch.columns])
+    return likeness if time is None else {**likeness, time: "time"}

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Standing and moving robots: balance, coherence of contact forces, oscillations, torque control."""
+
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from forcetorque.locomotion.foot_forces import load_foot_forces
+    from forcetorque.locomotion.movement.movement import motion
+    from forcetorque.locomotion.movement.signals import motion_signals, motion_signals_of_arrays
+    from forcetorque.locomotion.net_force.net_force import coherence
+    from forcetorque.locomotion.standing.standing import balance
+    from forcetorque.locomotion.torque_control.file import read_torque_loop
+    from forcetorque.locomotion.torque_control.study import torque_loop
+
+__all__ = [
+    "balance",
+    "coherence",
+    "load_foot_forces",
+    "motion",
+    "motion_signals",
+    "motion_signals_of_arrays",
+    "read_torque_loop",
+    "torque_loop",
+]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "balance": "forcetorque.locomotion.standing.standing",
+        "coherence": "forcetorque.locomotion.net_force.net_force",
+        "load_foot_forces": "forcetorque.locomotion.foot_forces",
+        "motion": "forcetorque.locomotion.movement.movement",
+        "motion_signals": "forcetorque.locomotion.movement.signals",
+        "motion_signals_of_arrays": "forcetorque.locomotion.movement.signals",
+        "read_torque_loop": "forcetorque.locomotion.torque_control.file",
+        "torque_loop": "forcetorque.locomotion.torque_control.study",
+    },
+)

@@ -1,0 +1,269 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque balance`, `coherence`, `motion` and `torque-loop`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.results.terminal.options import CalibrationsOption, ExperimentArgument, ForceOption, FormatOption
+from forcetorque.results.terminal.output import Format, show, start_logging
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from logging import Logger
+
+    from forcetorque.experiment.experiment import Experiment
+    from forcetorque.experiment.sensor_reading import Correction
+    from forcetorque.locomotion.foot_forces import FootForces
+    from forcetorque.locomotion.net_force.result import Coherence
+    from forcetorque.locomotion.standing.interval import BalanceOptions
+    from forcetorque.locomotion.standing.standing import Balance
+
+
+def balance(
+    experiments: Annotated[list[Path], typer.Argument(help="Experiment files (TOML) with [[sole]]; see balance.md.")],
+    touch: Annotated[
+        str, typer.Option("--touch", help="Force that a contact reaches, as 50N, or a share of the weight, as 15%.")
+    ] = "15%",
+    release: Annotated[
+        str, typer.Option("--release", help="Force above which it lasts, as 20N or 6%; no more than --touch.")
+    ] = "6%",
+    dwell: Annotated[
+        float, typer.Option("--dwell", help="Shortest contact, and shortest pause between contacts, that counts; s.")
+    ] = 0.0,
+    least_load: Annotated[
+        str | None,
+        typer.Option("--least-load", help="Load below which a foot has no centre of pressure. Default: --touch."),
+    ] = None,
+    height_band: Annotated[
+        float | None,
+        typer.Option(
+            "--height-band",
+            help="How far the centre of mass may be from its median height; m. With it, its acceleration by (5.22).",
+        ),
+    ] = None,
+    calibration: CalibrationsOption = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="File for every sample, .parquet or .csv.")
+    ] = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option("--figure", help="PNG of phases, loads and points of the first interval that it stands in."),
+    ] = None,
+    force: ForceOption = False,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Say which feet bear the robot, and where.
+
+    Example: forcetorque balance standing.toml --touch 50N --release 20N
+    """
+    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
+    from forcetorque.locomotion.standing.interval import BalanceOptions
+    from forcetorque.locomotion.standing.support_phases import ForceLimit
+    from forcetorque.results.terminal.output import refuse_figure
+
+    log = start_logging()
+    refuse_figure(figure, force=force)
+    refuse_a_file_twice(experiments)
+    _refuse_output(output, force=force)
+    options = BalanceOptions(
+        touch=ForceLimit.of(touch),
+        release=ForceLimit.of(release),
+        dwell_s=dwell,
+        least_load=None if least_load is None else ForceLimit.of(least_load),
+        height_band_m=height_band,
+    )
+    result = _answer(experiments, calibration, options, log)
+    if output is not None:
+        log.info("%s: %d rows", output, result.write(output))
+    if figure is not None:
+        from forcetorque.locomotion.figures import balance_figure
+        from forcetorque.results.figures.canvas import png_bytes
+
+        standing = next(one for one in result.intervals if one.phases.down.any())
+        write_bytes_atomically(figure, png_bytes(balance_figure(standing)))
+    show(result, output_format)
+
+
+def _answer(
+    experiments: Sequence[Path], calibration: Sequence[Path] | None, options: BalanceOptions, log: Logger
+) -> Balance:
+    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.sensor_models import corrections_of
+    from forcetorque.locomotion.foot_forces import has_foot_forces, load_foot_forces
+    from forcetorque.locomotion.standing.standing import balance
+    from forcetorque.results.terminal.reading import read_calibrations, read_experiment
+
+    calibrations = read_calibrations(calibration)
+    recordings: list[Experiment | FootForces] = []
+    corrections: list[Mapping[str, Correction]] = []
+    for path in experiments:
+        if has_foot_forces(path):
+            recordings.append(load_foot_forces(path))
+            corrections.append({})
+            continue
+        content = read_experiment(path, log)
+        with stated_in(str(path)):
+            readings = corrections_of(content, calibrations)
+        recordings.append(content)
+        corrections.append(readings)
+        for sensor, correction in readings.items():
+            log.info("%s: %s", sensor, correction.source)
+    return balance(recordings, corrections, options)
+
+
+def _refuse_output(output: Path | None, *, force: bool) -> None:
+    """Say so before work is done for a file that cannot be written."""
+    from forcetorque.base.output_file import declare_outputs
+    from forcetorque.formats.sample_table import SUFFIXES
+
+    if output is None:
+        return
+    if output.suffix not in SUFFIXES:
+        raise ForceTorqueError(f"--output {output}: expected a name that ends in {' or '.join(SUFFIXES)}")
+    declare_outputs(output, force=force)
+
+
+def coherence(
+    experiment: ExperimentArgument,
+    calibration: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--calibration",
+            "-c",
+            help="Calibration file, or a folder of them; repeat for more. All files are one candidate, each folder is "
+            "one. The prior is always judged.",
+        ),
+    ] = None,
+    offset: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--offset",
+            help="Where offsets come from: one-link-imu:LABEL, one-link-fixed-frame:LABEL, tare:LABEL, fitted or none; "
+            "repeat for more. Default: the first interval in which one link alone is touched.",
+        ),
+    ] = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG of the errors by phase, candidate and offset.")
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Hold the net contact force against the weight as contacts switch.
+
+    Example: forcetorque coherence switching.toml -c calibrations
+    """
+    from forcetorque.calibration.joint.data import read_candidates
+    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.offsets import offset_policies
+    from forcetorque.locomotion.net_force.net_force import coherence
+    from forcetorque.results.terminal.output import refuse_figure
+    from forcetorque.results.terminal.reading import read_experiment
+
+    log = start_logging()
+    refuse_figure(figure)
+    policies = offset_policies(offset or ())
+    candidates = read_candidates(calibration or ())
+    content = read_experiment(experiment, log)
+    with stated_in(str(experiment)):
+        result = coherence(content, candidates, offsets=policies)
+    show(result if figure is None else _drawn(result, figure), output_format)
+
+
+def _drawn(result: Coherence, figure: Path) -> Coherence:
+    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.locomotion.figures import coherence_figure
+    from forcetorque.results.figures.canvas import png_bytes
+
+    write_bytes_atomically(figure, png_bytes(coherence_figure(result)))
+    return result.model_copy(update={"figure": str(figure)})
+
+
+def motion(
+    log: Annotated[Path, typer.Argument(help="Experiment file (TOML), with or without sensors, or a log.")],
+    column: Annotated[
+        list[str] | None,
+        typer.Option("--column", help="Column of the log, or of `balance`, such as com.y; repeat for more."),
+    ] = None,
+    desired: Annotated[
+        list[str] | None,
+        typer.Option("--desired", help="Column of the log with what was wanted; one for each --column, in its order."),
+    ] = None,
+    interval: Annotated[
+        list[str] | None,
+        typer.Option("--interval", help="Label of an interval; repeat for more. Default: all that are not ignored."),
+    ] = None,
+    step_at: Annotated[
+        list[float] | None,
+        typer.Option("--step-at", help="Instant of a step, s; repeat for more. Default: steps of --desired."),
+    ] = None,
+    band: Annotated[
+        float, typer.Option("--band-percent", help="Half of the band about its end in which a column has settled.")
+    ] = 5.0,
+    calibration: CalibrationsOption = None,
+    figure: Annotated[Path | None, typer.Option("--figure", help="PNG of the columns with their swings.")] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Say whether a motion oscillates, how long it settles, how well it tracks.
+
+    Example: forcetorque motion walk.toml --column com.y --column zmp.y
+    """
+    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.locomotion.movement.movement import motion
+    from forcetorque.locomotion.movement.signals import motion_signals
+    from forcetorque.results.terminal.output import refuse_figure
+    from forcetorque.results.terminal.reading import read_calibrations
+
+    start_logging().info("reading %s", log)
+    refuse_figure(figure)
+    calibrations = read_calibrations(calibration)
+    with stated_in(str(log)):
+        signals = motion_signals(
+            log, column or (), desired=desired or (), intervals=interval or (), calibrations=calibrations
+        )
+        result = motion(signals, steps_s=step_at or (), band_share=band / 100.0)
+    if figure is not None:
+        from forcetorque.locomotion.figures import motion_figure
+        from forcetorque.results.figures.canvas import png_bytes
+
+        write_bytes_atomically(figure, png_bytes(motion_figure(result)))
+        result = result.model_copy(update={"figure": str(figure)})
+    show(result, output_format)
+
+
+def torque_loop(
+    config: Annotated[
+        Path | None,
+        typer.Argument(
+            help="File of the loop (TOML), see docs/torque_loop.md; without one, the default, which takes ten minutes."
+        ),
+    ] = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG of tracking, swings and falls over the size of the error.")
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Balance a simulated biped by torques that sensors with errors tell.
+
+    Example: forcetorque torque-loop loop.toml --figure loop.png
+    """
+    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.locomotion.torque_control.file import read_torque_loop
+    from forcetorque.locomotion.torque_control.study import torque_loop
+    from forcetorque.results.terminal.output import refuse_figure
+
+    log = start_logging()
+    refuse_figure(figure)
+    file = None if config is None else read_torque_loop(config)
+    result = torque_loop(file, progress=log.info)
+    if figure is not None:
+        from forcetorque.locomotion.figures import torque_loop_figure
+        from forcetorque.results.figures.canvas import png_bytes
+
+        write_bytes_atomically(figure, png_bytes(torque_loop_figure(result)))
+    show(result, output_format)

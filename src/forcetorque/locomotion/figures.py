@@ -1,0 +1,307 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of feet and pressure, of net contact forces, of motions, and of torque control."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.locomotion.movement.movement import Motion
+from forcetorque.locomotion.movement.result import MotionCurve
+from forcetorque.locomotion.net_force.result import Coherence, PhaseForce, policy_words
+from forcetorque.locomotion.standing.interval import IntervalBalance
+from forcetorque.locomotion.torque_control.result import TorqueLoopRow
+from forcetorque.locomotion.torque_control.study import TorqueLoopStudy
+from forcetorque.results.figures.canvas import (
+    REFERENCE_COLOUR,
+    ROW_INCHES,
+    SMALL_POINTS,
+    TITLE_POINTS,
+    Look,
+    legend_below,
+    look,
+    new_figure,
+    shown_name,
+)
+from forcetorque.results.figures.curves import draw_over_time, thinned_line
+from forcetorque.results.table import short_names
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+_MM = 1e3
+_MOST_POINTS = 1500
+_WEIGHT: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 1.5)), "linewidth": 1.2}
+_OUTLINE: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": "-", "linewidth": 1.0}
+
+
+def balance_figure(interval: IntervalBalance) -> Figure:
+    """Draw the load on each foot over time, shaded where it is down, and the points on soles and ground.
+
+    Args:
+        interval: How a robot stood over an interval; panels that it has nothing for are left out.
+
+    Returns:
+        The figure.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    planes = len(interval.feet) + (1 if interval.robot is not None else 0)
+    figure = new_figure(ROW_INCHES[1] * (1.0 if not planes else 2.1))
+    grid = figure.add_gridspec(2 if planes else 1, max(planes, 1))
+    loads = figure.add_subplot(grid[0, :])
+    _draw_loads(loads, interval)
+    for k, foot in enumerate(interval.feet):
+        panel = figure.add_subplot(grid[1, k])
+        outline = foot.sole.outline
+        if outline is not None:
+            panel.plot(*(_MM * np.vstack([outline, outline[:1]])).T, **_OUTLINE)
+        _draw_points(panel, foot.pressure.points, k)
+        _plane(panel, foot.sole.frame)
+    if interval.robot is not None:
+        panel = figure.add_subplot(grid[1, planes - 1])
+        if interval.robot.zero_moment_point is not None:
+            _draw_points(panel, interval.robot.zero_moment_point, len(interval.feet) + 1)
+        _draw_points(panel, interval.robot.pressure.points, len(interval.feet))
+        _plane(panel, f"robot, in {interval.robot.frame}")
+    legend_below(figure, _keys(interval))
+    return figure
+
+
+def _draw_loads(panel: Axes, interval: IntervalBalance) -> None:
+    count = len(interval.forces)
+    for k, (force, down) in enumerate(zip(interval.forces.values(), interval.phases.down.T, strict=True)):
+        at, lines = thinned_line(interval.time_s, force[:, None])
+        draw_over_time(panel, at, lines[:, 0], look(k), turn=k, count=count)
+        # a bar for each foot above the curves, where it is down
+        panel.fill_between(
+            interval.time_s,
+            1.01 + 0.04 * (count - 1 - k),
+            1.04 + 0.04 * (count - 1 - k),
+            where=down.tolist(),
+            transform=panel.get_xaxis_transform(),
+            color=look(k).colour,
+            linewidth=0.0,
+            clip_on=False,
+        )
+    if interval.weight_N is not None:
+        panel.axhline(interval.weight_N, **_WEIGHT)
+    panel.set_xlabel("time, s", fontsize=TITLE_POINTS)
+    panel.set_ylabel("load, N", fontsize=TITLE_POINTS)
+    panel.tick_params(labelsize=SMALL_POINTS)
+
+
+def _draw_points(panel: Axes, points: FloatArray, k: int) -> None:
+    known = points[np.all(np.isfinite(points), axis=1)]
+    rows = _MM * known[:: max(1, -(-len(known) // _MOST_POINTS))]
+    panel.plot(rows[:, 0], rows[:, 1], linestyle="", marker=look(k).marker, markersize=2.5, color=look(k).colour)
+
+
+def _plane(panel: Axes, title: str) -> None:
+    panel.set_title(shown_name(title), fontsize=TITLE_POINTS)
+    panel.set_xlabel("x, mm", fontsize=TITLE_POINTS)
+    panel.set_ylabel("y, mm", fontsize=TITLE_POINTS)
+    panel.tick_params(labelsize=SMALL_POINTS)
+    panel.set_aspect("equal", adjustable="datalim")
+
+
+def _keys(interval: IntervalBalance) -> list[tuple[str, dict[str, Any]]]:
+    keys: list[tuple[str, dict[str, Any]]] = [
+        (f"{shown_name(frame)}, bar: down", look(k).key | {"linestyle": "-"}) for k, frame in enumerate(interval.forces)
+    ]
+    if interval.weight_N is not None:
+        keys.append(("weight of the robot", _WEIGHT))
+    dots = {"linestyle": ""}
+    if interval.robot is not None:
+        keys.append(("centre of pressure, robot", look(len(interval.feet)).key | dots))
+        if interval.robot.zero_moment_point is not None:
+            keys.append(("zero moment point of the motion", look(len(interval.feet) + 1).key | dots))
+    if any(foot.sole.outline is not None for foot in interval.feet):
+        keys.append(("outline of the sole", _OUTLINE))
+    return keys
+
+
+_SPREAD = 0.5
+"""Width that the candidates of one phase take, of that of the phase."""
+_LONGEST_LABEL = 14
+"""Characters of the name of a phase that stands level below its place; longer ones are turned."""
+
+
+def coherence_figure(result: Coherence) -> Figure:
+    """Draw what the net contact force of every phase is off the weight, with 95 % intervals.
+
+    A row for each offset, a panel for each axis. Hollow is what is near zero by construction.
+
+    Args:
+        result: The answer.
+
+    Returns:
+        The figure, a row for each offset.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    offsets = list(dict.fromkeys((row.offset, row.offset_interval) for row in result.rows))
+    names = short_names([row.candidate for row in result.rows])
+    looks = {candidate: look(k) for k, candidate in enumerate(names)}
+    figure = new_figure(ROW_INCHES[1] * len(offsets))
+    for line, panels in zip(offsets, figure.subplots(len(offsets), 3, squeeze=False, sharey="row"), strict=True):
+        rows = [row for row in result.rows if (row.offset, row.offset_interval) == line]
+        for axis, panel in enumerate(panels):
+            _draw_coherence(panel, rows, looks, axis)
+            panel.set_title(f"E{'xyz'[axis]}", loc="left", fontsize=TITLE_POINTS)
+        panels[0].set_ylabel(shown_name(f"{policy_words(*line)}; N"), fontsize=SMALL_POINTS)
+    keys: list[tuple[str, dict[str, Any]]] = [
+        (shown_name(names[candidate]), {"color": one.colour, "marker": one.marker, "linestyle": "none"})
+        for candidate, one in looks.items()
+    ]
+    if not all(row.evidence for row in result.rows):
+        hollow = {"color": "0.4", "marker": "o", "markerfacecolor": "white", "linestyle": "none"}
+        keys.append(("not evidence: the phase gave offset or matrix", hollow))
+    legend_below(figure, keys)
+    return figure
+
+
+def _draw_coherence(panel: Axes, rows: Sequence[PhaseForce], looks: dict[str, Look], axis: int) -> None:
+    phases = list(dict.fromkeys(row.phase for row in rows))
+    shift = dict(zip(looks, _SPREAD * (np.linspace(0.0, 1.0, len(looks) + 2)[1:-1] - 0.5), strict=True))
+    for row in rows:
+        one, x = looks[row.candidate], phases.index(row.phase) + shift[row.candidate]
+        half = row.force_half_width_95_N[axis]
+        panel.errorbar(
+            [x],
+            [row.force_error_N[axis]],
+            yerr=None if half is None else [half],
+            color=one.colour,
+            marker=one.marker,
+            markersize=5.0,
+            markerfacecolor=one.colour if row.evidence else "white",
+            linewidth=1.0,
+            capsize=2.0,
+        )
+    panel.axhline(0.0, color="0.5", linewidth=0.8, zorder=0)
+    turned = max(map(len, phases)) * len(phases) > 3 * _LONGEST_LABEL
+    panel.set_xticks(
+        range(len(phases)),
+        [shown_name(phase) for phase in phases],
+        fontsize=SMALL_POINTS,
+        rotation=30.0 if turned else 0.0,
+        ha="right" if turned else "center",
+    )
+    panel.set_xlim(-0.6, len(phases) - 0.4)
+    panel.grid(visible=True, axis="y", color="0.9", linewidth=0.6)
+    panel.set_axisbelow(True)
+
+
+MOST_CURVES = 6
+"""Columns that are drawn, the first ones."""
+_MEASURED, _SWING = look(0), look(1)
+
+
+def motion_figure(motion: Motion) -> Figure:
+    """Draw columns over time.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        The figure, a row for each column.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    curves = motion.curves[:MOST_CURVES]
+    figure = new_figure(0.7 * ROW_INCHES[1] * max(len(curves), 1))
+    panels = figure.subplots(max(len(curves), 1), 1, squeeze=False)[:, 0]
+    for panel, curve in zip(panels, curves, strict=False):
+        _draw_motion(panel, curve, motion)
+    keys: list[tuple[str, Any]] = [("measured", {"color": _MEASURED.colour, "linestyle": _MEASURED.dashes})]
+    if any(curve.swing is not None for curve in curves):
+        keys.append(("mean, trend and swings", {"color": _SWING.colour, "linestyle": _SWING.dashes}))
+    if motion.settling:
+        keys.append(("step", {"color": REFERENCE_COLOUR, "linestyle": ":"}))
+        keys.append(("settled", {"color": REFERENCE_COLOUR, "linestyle": "-"}))
+    legend_below(figure, keys)
+    return figure
+
+
+def _draw_motion(panel: Axes, curve: MotionCurve, motion: Motion) -> None:
+    panel.plot(curve.time_s, curve.values, color=_MEASURED.colour, linestyle=_MEASURED.dashes, linewidth=1.0)
+    if curve.swing is not None:
+        panel.plot(curve.time_s, curve.swing, color=_SWING.colour, linestyle=_SWING.dashes, linewidth=1.2)
+    for row in motion.settling:
+        if curve.title == f"{row.interval}: {row.column}":
+            panel.axvline(row.step_at_s, color=REFERENCE_COLOUR, linestyle=":", linewidth=1.0)
+            if row.settling_s is not None:
+                panel.axvline(row.step_at_s + row.settling_s, color=REFERENCE_COLOUR, linestyle="-", linewidth=1.0)
+    swings = [row for row in motion.oscillations if row.oscillates and curve.title == f"{row.interval}: {row.column}"]
+    words = ", ".join(f"{row.frequency_hz:.3g} Hz" for row in swings) or "no oscillation"
+    panel.set_title(shown_name(f"{curve.title}: {words}"), fontsize=TITLE_POINTS, loc="left")
+    panel.set_ylabel(shown_name(curve.unit), fontsize=SMALL_POINTS)
+    panel.set_xlabel("time, s", fontsize=SMALL_POINTS)
+    panel.set_xlim(*np.array([curve.time_s[0], curve.time_s[-1]]))
+    panel.tick_params(labelsize=SMALL_POINTS)
+
+
+def torque_loop_figure(loop: TorqueLoopStudy) -> Figure:
+    """Draw what the error of the sensors does, a curve per soles, gains and kind of error.
+
+    Args:
+        loop: The result.
+
+    Returns:
+        The figure: tracking error, share that swings on after a push, share that falls; bars are 95 % intervals.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    figure = new_figure(1.25 * ROW_INCHES[1])
+    panels = figure.subplots(1, 3)
+    curves = _curves(loop.rows)
+    for k, (_, rows) in enumerate(curves):
+        _draw_torque_loop(panels, rows, k)
+    names = ("tracking error, N m", "swings on after a push, %", "falls, %")
+    for panel, name in zip(panels, names, strict=True):
+        panel.set_xlabel("force error of the sensors under the weight, N", fontsize=TITLE_POINTS)
+        panel.set_ylabel(name, fontsize=TITLE_POINTS)
+        panel.tick_params(labelsize=SMALL_POINTS)
+    for panel in panels[1:]:
+        panel.set_ylim(-3.0, 103.0)
+    legend_below(figure, [(shown_name(name), look(k).key) for k, (name, _) in enumerate(curves)])
+    return figure
+
+
+def _curves(rows: Sequence[TorqueLoopRow]) -> list[tuple[str, list[TorqueLoopRow]]]:
+    """A curve per robot, gains and kind of error; each begins with the robot whose sensors have none."""
+    curves = []
+    for (tilt_deg, factor), group in groupby(rows, key=lambda row: (row.tilt_deg, row.gain_factor)):
+        first, *others = group
+        for errors, sized in groupby(others, key=lambda row: row.errors):
+            name = f"{errors}, soles at {tilt_deg:g} deg" + (f", gains times {factor:g}" if factor != 1.0 else "")
+            curves.append((name, [first, *sized]))
+    return curves
+
+
+def _draw_torque_loop(panels: Sequence[Axes], rows: Sequence[TorqueLoopRow], k: int) -> None:
+    style = look(k)
+    size = [row.force_error_N for row in rows]
+    shares = [
+        [(row.oscillating, row.oscillating_least_percent, row.oscillating_most_percent) for row in rows],
+        [(row.falls, row.falls_least_percent, row.falls_most_percent) for row in rows],
+    ]
+    panels[0].plot(size, [row.tracking_rms_Nm for row in rows], linewidth=1.0, markersize=5.0, **style.key)
+    for x, row in zip(size, rows, strict=True):
+        half = row.tracking_half_width_95_Nm or 0.0
+        panels[0].plot([x, x], [row.tracking_rms_Nm - half, row.tracking_rms_Nm + half], color=style.colour)
+    for panel, counts in zip(panels[1:], shares, strict=True):
+        values = [100.0 * count / row.runs for (count, _, _), row in zip(counts, rows, strict=True)]
+        panel.plot(size, values, linewidth=1.0, markersize=5.0, **style.key)
+        for x, (_, least, most) in zip(size, counts, strict=True):
+            panel.plot([x, x], [least, most], color=style.colour, linewidth=1.0)

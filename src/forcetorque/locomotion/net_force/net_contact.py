@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What all links that touch the world bear together over one phase, and what mechanics demands of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.pose import skew
+from forcetorque.base.wrench import transform_wrench
+from forcetorque.estimation.interval import IntervalQuestion
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.recording.alignment import seconds_since
+from forcetorque.recording.recording import Interval, Support
+from forcetorque.robot.contacts import Contact, Wrenches
+from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
+
+SLIP_M = 0.01
+"""How far two links that both touch may move against each other; m. Further, one of them does not stand still."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class NetContact:
+    """The links that touch over one phase.
+
+    Upright axes have z against gravity, and x is the x axis of the support frame made level.
+    """
+
+    asked: IntervalQuestion
+    """What is asked of the sensors; n samples."""
+    upright_R_support: FloatArray
+    """Rotation from the support frame to upright axes; shape (3, 3), or (n, 3, 3) where an IMU tells gravity."""
+    demanded: FloatArray | None
+    """Wrench that all contacts must have together for the robot to move as it does, upright, about the origin of the
+    support frame; shape (n, 6); N, N m; None where a joint that it depends on is in no stream."""
+
+    @classmethod
+    def of(cls, experiment: Experiment, interval: Interval) -> NetContact:
+        """Ask what touches over an interval.
+
+        Args:
+            experiment: The experiment.
+            interval: An interval with a support, or whose touched links are named.
+
+        Returns:
+            Its links.
+
+        Raises:
+            ExperimentError: If a contact that is named cannot be told from the sensors, or two links that touch move
+                against each other.
+        """
+        samples = padded_samples(experiment.recording, experiment.clock_stream, interval, None)
+        asked = IntervalQuestion.of(experiment, interval, samples, experiment.contacts, asked=True)
+        net = cls(asked=asked, upright_R_support=_upright(asked), demanded=None)
+        net._refuse_slip()
+        demanded = _demanded(asked)
+        return net if demanded is None else replace(net, demanded=net._upright(demanded))
+
+    @property
+    def touching(self) -> tuple[str, ...]:
+        """Names of the contacts."""
+        return tuple(contact.name for contact in self.asked.question.contacts)
+
+    @property
+    def time_s(self) -> FloatArray:
+        """Instants since the start of the recording; shape (n,); s."""
+        return seconds_since(self.asked.samples.stamp_ns, self.asked.experiment.recording.start_ns)
+
+    def wrench(self, measured: Wrenches) -> FloatArray:
+        """Add up what the contacts bear.
+
+        Args:
+            measured: What the sensors measured; n samples.
+
+        Returns:
+            What the environment does to the robot, upright, about the origin of the support frame; shape (n, 6); N,
+            N m; NaN in gaps.
+        """
+        return self._upright(sum(self._by_contact(measured).values(), np.zeros((len(measured), 6))))
+
+    def forces(self, measured: Wrenches) -> dict[str, float]:
+        """Give the mean vertical force of every contact.
+
+        Args:
+            measured: What the sensors measured; n samples.
+
+        Returns:
+            Force by name of the contact; N.
+        """
+        return {
+            name: float(np.nanmean(self._upright(wrench)[:, 2])) for name, wrench in self._by_contact(measured).items()
+        }
+
+    def leans_deg(self) -> dict[str, float]:
+        """Tell how far links that are stated to stand on level ground lean by the joints.
+
+        Returns:
+            Angle by name of the contact, in the mean; deg.
+        """
+        leans = {}
+        for contact in self.asked.question.contacts:
+            lean = self._lean(contact)
+            if lean is not None:
+                cosine = 0.5 * (np.trace(lean, axis1=1, axis2=2) - 1.0)
+                leans[contact.name] = float(np.degrees(np.nanmean(np.arccos(np.clip(cosine, -1.0, 1.0)))))
+        return leans
+
+    def unexplained(self, measured: Wrenches) -> dict[str, float]:
+        """Give the force that no contact explains, of the parts of the robot that nothing is said to touch.
+
+        Args:
+            measured: What the sensors measured; n samples.
+
+        Returns:
+            Norm of the mean force by sensor at the base of the part; N.
+        """
+        question, estimates = self.asked.question, self.asked.estimates(measured)
+        touched = {part.name for part in question.parts if question.unknown_in(part)}
+        return {
+            name: float(np.linalg.norm(np.nanmean(estimates.residual_of(name)[:, :3], axis=0)))
+            for name in estimates.layout.parts
+            if name not in touched
+        }
+
+    def answers(self, row: int) -> FloatArray:
+        """Tell how the net wrench answers the readings at one instant.
+
+        Args:
+            row: Place of the instant.
+
+        Returns:
+            Change of the net wrench per change of the reading of each sensor; shape (6, sensors, 6); the unit of a
+            component over that of a component.
+        """
+        names = [sensor.name for sensor in self.asked.experiment.sensors]
+        count = 6 * len(names) + 1
+        steps = np.concatenate([np.zeros((1, 6 * len(names))), np.eye(6 * len(names))]).reshape(count, -1, 6)
+        rows = np.full(count, row)
+        root = self.asked.root
+        one = replace(
+            self.asked,
+            joints=self.asked.joints.samples(rows),
+            root=root if root.proper_acceleration.ndim == 1 else root.samples(rows),
+            known=None if self.asked.known is None else replace(self.asked.known, values=self.asked.known.values[rows]),
+        )
+        upright = self.upright_R_support if self.upright_R_support.ndim == 2 else self.upright_R_support[rows]
+        net = replace(self, asked=one, upright_R_support=upright)
+        wrench = net.wrench(Wrenches(names=tuple(names), values=steps))
+        return np.moveaxis((wrench[1:] - wrench[0]).reshape(len(names), 6, 6), -1, 0)
+
+    def _by_contact(self, measured: Wrenches) -> dict[str, FloatArray]:
+        """What each contact bears, in the support frame about its origin; shape (n, 6) by name."""
+        asked, estimates = self.asked, self.asked.estimates(measured)
+        wrenches = {}
+        for contact in asked.question.contacts:
+            known = asked.known is not None and contact.name in asked.known.names
+            own = asked.known.of_name(contact.name) if known and asked.known else estimates.contact(contact.name)
+            root_H_contact = link_pose(asked.question.tree, asked.joints, contact.link) @ contact.link_H_contact
+            lean = self._lean(contact)
+            if lean is not None:
+                root_H_contact[:, :3, :3] = np.swapaxes(lean, 1, 2) @ root_H_contact[:, :3, :3]
+            wrenches[contact.name] = transform_wrench(root_H_contact, own)
+        return wrenches
+
+    def _lean(self, contact: Contact) -> FloatArray | None:
+        """Rotation from where level ground must have a link to where the joints have it; (n, 3, 3); None if unknown."""
+        asked = self.asked
+        tree = asked.question.tree
+        stated = next((one for one in asked.experiment.supports if one.frame == contact.link), None)
+        if stated is None or contact.link == tree.root_link:
+            return None
+        up = np.broadcast_to(self.upright_R_support[..., 2, :], (len(asked.joints), 3))
+        leaning = link_pose(tree, asked.joints, contact.link)[:, :3, :3] @ -stated.gravity_direction
+        return _shortest_rotation(up, leaning)
+
+    def _upright(self, wrench: FloatArray) -> FloatArray:
+        rotation = self.upright_R_support
+        parts = (np.einsum("...ij,...j->...i", rotation, part) for part in (wrench[:, :3], wrench[:, 3:]))
+        return np.concatenate(list(parts), axis=1)
+
+    def _refuse_slip(self) -> None:
+        asked = self.asked
+        if not isinstance(asked.interval.support, Support):
+            return  # an IMU tells how the robot moves, whatever its feet do
+        for contact in asked.question.contacts:
+            place = link_pose(asked.question.tree, asked.joints, contact.link)[:, :3, 3]
+            travel = float(np.nanmax(np.linalg.norm(place - np.nanmedian(place, axis=0), axis=1)))
+            if travel > SLIP_M:
+                raise ExperimentError(
+                    f"interval {asked.interval.label!r}: {asked.interval.support.frame} and {contact.name} both touch, "
+                    f"but move by {travel * 1e3:.0f} mm against each other, so that not both stand still; name both in "
+                    "touched, with an IMU in the recording, or end the interval where the robot moves"
+                )
+
+
+def _shortest_rotation(start: FloatArray, end: FloatArray) -> FloatArray:
+    """Rotations that turn unit vectors into others, by less than half a turn; shape (n, 3, 3)."""
+    axis, cosine = skew(np.cross(start, end)), np.einsum("ni,ni->n", start, end)
+    rotation: FloatArray = np.eye(3) + axis + axis @ axis / (1.0 + cosine)[:, None, None]
+    return rotation
+
+
+def _upright(asked: IntervalQuestion) -> FloatArray:
+    """Rotation from the support frame to upright axes; shape (3, 3) or (n, 3, 3)."""
+    frame = asked.question.tree.root_link
+    # a level ground that the file states is known better than an accelerometer tells it
+    stated = next((one for one in asked.experiment.supports if one.frame == frame), None)
+    up = asked.root.proper_acceleration if stated is None else -stated.gravity_direction
+    z = up / np.linalg.norm(up, axis=-1, keepdims=True)
+    # the x axis of the frame gives the heading; where it stands upright, less its z axis
+    heading = np.array([1.0, 0.0, 0.0]) if np.nanmean(np.abs(z[..., 0])) < 0.9 else np.array([0.0, 0.0, -1.0])
+    x = heading - z * (z @ heading)[..., None]
+    x /= np.linalg.norm(x, axis=-1, keepdims=True)
+    rotation: FloatArray = np.stack([x, np.cross(z, x), z], axis=-2)
+    return rotation
+
+
+def _demanded(asked: IntervalQuestion) -> FloatArray | None:
+    """What one contact at the support would have to bear, in its frame; shape (n, 6)."""
+    experiment, support, tree = asked.experiment, asked.interval.support, asked.question.tree
+    question = Question(tree=tree, contacts=(Contact(link=tree.root_link),), equations=())
+    needed = required_joints_of(question)
+    if support is None or not set(needed) <= set(experiment.recording.joint_signals("position")):
+        return None
+    joints, root = robot_motion_at(
+        experiment.recording,
+        experiment.model,
+        support,
+        needed,
+        experiment.clock_stream,
+        asked.samples.stamp_ns,
+        processing=experiment.processing,
+    )
+    return estimate(question, joints, root).contact_wrenches[:, 0]

@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Wrenches on the soles, from force-torque sensors, or from vertical forces alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Final
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.pose import invert_pose, make_pose
+from forcetorque.base.wrench import transform_wrench
+from forcetorque.estimation.skin.known_wrenches import uncertainty_of
+from forcetorque.estimation.uncertain.estimate import estimate_determined
+from forcetorque.estimation.uncertain.estimates import UncertainEstimates
+from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.sensor_reading import Correction, wrench_at
+from forcetorque.locomotion.foot_forces import FootForces
+from forcetorque.locomotion.standing.centre_of_mass import mass_of
+from forcetorque.locomotion.standing.interval import BalanceOptions, FootPressure, IntervalBalance
+from forcetorque.locomotion.standing.pressure import Sole, centre_of_pressure
+from forcetorque.locomotion.standing.robot_balance import robot_balance
+from forcetorque.locomotion.standing.robot_on_soles import BalanceScene
+from forcetorque.locomotion.standing.support_phases import support_phases
+from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since
+from forcetorque.recording.recording import Use
+from forcetorque.robot.contacts import Wrenches
+from forcetorque.robot.kinematics import body_pose
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.tree import build_tree
+
+
+def balance_of_sensors(
+    experiment: Experiment, corrections: Mapping[str, Correction], options: BalanceOptions
+) -> Iterator[IntervalBalance]:
+    """Find what presses on the soles over every interval that is not to be ignored.
+
+    A reading at the ankle, or further up a leg, is moved to the sole and rid of the weight and inertia in between, as
+    contact wrenches are estimated.
+
+    Args:
+        experiment: The experiment, with soles.
+        corrections: How its sensors are read (`corrections_of`).
+        options: What counts as a contact and as a point.
+
+    Yields:
+        How the robot stood, in the order of the intervals.
+
+    Raises:
+        ExperimentError: If the file has no sole, or every interval is to be ignored.
+    """
+    if not experiment.soles:
+        raise ExperimentError(
+            f"experiment {experiment.name!r}: expected [[sole]], the flat soles that the robot stands on, got none; "
+            "frame names a link whose plane z = 0 is a sole, outline_m its corners"
+        )
+    intervals = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
+    if not intervals:
+        raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")
+    for interval in intervals:
+        with stated_in(f"interval {interval.label!r}"):
+            yield _over(BalanceScene.of(experiment, interval), corrections, options)
+
+
+def _over(scene: BalanceScene, corrections: Mapping[str, Correction], options: BalanceOptions) -> IntervalBalance:
+    feet = tuple(_feet(scene, corrections, options))
+    forces = {foot.sole.frame: foot.wrench[:, 2] for foot in feet}
+    inside = scene.samples.inside
+    pushes = [
+        np.einsum("nij,nj->ni", scene.root_H_sole(foot.sole)[inside, :3, :3], foot.wrench[:, :3]) for foot in feet
+    ]
+    phases = support_phases(forces, scene.time_s, options.thresholds(scene.weight_N))
+    robot, refused = robot_balance(scene, feet, phases, options)
+    return IntervalBalance(
+        recording=scene.experiment.name,
+        label=scene.interval.label,
+        stamp_ns=scene.stamp_ns,
+        time_s=scene.time_s,
+        weight_N=scene.weight_N,
+        forces=forces,
+        net_N=np.einsum("ni,ni->n", np.sum(pushes, axis=0), scene.upward()),
+        phases=phases,
+        feet=feet,
+        robot=robot,
+        refused=tuple(refused),
+    )
+
+
+def _feet(
+    scene: BalanceScene, corrections: Mapping[str, Correction], options: BalanceOptions
+) -> Iterator[FootPressure]:
+    measured, known = _measured(scene, corrections), _known(scene)
+    plain = estimate(scene.question, scene.joints, scene.root, measured=measured, known=known)
+    uncertainty = _uncertainty(scene, corrections, measured)
+    uncertain: UncertainEstimates | None = None
+    if uncertainty.measured:
+        uncertain = estimate_determined(
+            scene.question, scene.joints, scene.root, measured=measured, known=known, uncertainty=uncertainty
+        )
+    least_N, inside = options.least_load_N(scene.weight_N), scene.samples.inside
+    for entry in scene.experiment.soles:
+        sole = entry.sole
+        sensors = _nearest_sensors(scene, sole)
+        wrench = scene.kept(plain.contact(sole.frame))
+        covariance = None
+        if uncertain is not None and set(sensors) <= uncertainty.measured.keys():
+            covariance = uncertain.covariance_of(sole.frame)[inside]
+        alone = None
+        if len(sensors) == 1:
+            on_foot = scene.kept(_reading_alone(scene, sole, sensors[0], measured.of_name(sensors[0])))
+            alone = centre_of_pressure(on_foot, least_load_N=least_N).points
+        yield FootPressure(
+            sole=sole,
+            sensors=sensors,
+            wrench=wrench,
+            covariance=covariance,
+            pressure=centre_of_pressure(wrench, least_load_N=least_N, covariance=covariance),
+            reading_alone=alone,
+        )
+
+
+def _nearest_sensors(scene: BalanceScene, sole: Sole) -> tuple[str, ...]:
+    """Sensors that bound the part of the robot that a sole is on."""
+    question = scene.question
+    body = question.body_of(sole.contact)
+    part = next(part for part in question.parts if body in part.bodies)
+    return (*(() if part.sensor is None else (part.sensor,)), *part.outboard_sensors)
+
+
+def _reading_alone(scene: BalanceScene, sole: Sole, sensor: str, reading: FloatArray) -> FloatArray:
+    """The reading as the ground's wrench on the foot, its moment taken as one about the point of the sole below it."""
+    # seen from the sole the sensor tells what the foot does to the rest: the ground's doing, but for weight and inertia
+    sign = build_tree(scene.experiment.model, sole.frame).cuts[sensor].sign
+    cut = scene.tree.cuts[sensor]
+    root_H_sensor = body_pose(scene.tree, scene.joints, cut.body) @ cut.body_H_sensor
+    sole_H_sensor = invert_pose(scene.root_H_sole(sole)) @ root_H_sensor
+    below = sole_H_sensor[:, :3, 3] * [1.0, 1.0, 0.0]
+    return transform_wrench(make_pose(sole_H_sensor[:, :3, :3], below), sign * reading)
+
+
+def _measured(scene: BalanceScene, corrections: Mapping[str, Correction]) -> Wrenches:
+    experiment, at_ns = scene.experiment, scene.samples.stamp_ns
+    for sensor in experiment.sensors:
+        require_overlap(experiment.clock_stream, experiment.recording.stream(sensor.stream))
+    return Wrenches.of(
+        {
+            sensor.name: wrench_at(experiment, sensor, corrections[sensor.name], at_ns, interval=scene.interval)
+            for sensor in experiment.sensors
+        }
+    )
+
+
+def _known(scene: BalanceScene) -> Wrenches | None:
+    recording, wrenches = scene.experiment.recording, {}
+    for entry in scene.present:
+        if entry.stream is not None:
+            stream = recording.stream(entry.stream)
+            require_overlap(scene.experiment.clock_stream, stream)
+            wrenches[entry.contact.name] = interpolate(stream, stream.signal("wrench").values, scene.samples.stamp_ns)
+    return Wrenches.of(wrenches) if wrenches else None
+
+
+def _uncertainty(scene: BalanceScene, corrections: Mapping[str, Correction], measured: Wrenches) -> Uncertainty:
+    """What readings are off by: as their calibration predicts, else as the file states."""
+    predicted = uncertainty_of(scene.experiment, corrections, (), measured, label=scene.interval.label).measured
+    stated = {sensor.name: _stated(sensor) for sensor in scene.experiment.sensors}
+    return Uncertainty(measured={**{name: one for name, one in stated.items() if one is not None}, **predicted})
+
+
+def _stated(sensor: ExperimentSensor) -> FloatArray | None:
+    """Covariance of one reading that the file states: noise, and what it is off all along."""
+    if sensor.reading_noise is None or sensor.reading_deviation is None:
+        return None
+    return np.diag(sensor.reading_noise**2 + sensor.reading_deviation**2)
+
+
+VERTICAL_ONLY: Final = (
+    "centre of pressure and zero moment point: only the vertical forces of the feet were logged, and a point takes the "
+    "moments too; they are not guessed"
+)
+"""What vertical forces do not tell."""
+
+
+def balance_of_forces(content: FootForces, options: BalanceOptions) -> Iterator[IntervalBalance]:
+    """Find the support phases of every interval that is not to be ignored.
+
+    Args:
+        content: The forces.
+        options: What counts as a contact.
+
+    Yields:
+        How the robot stood, in the order of the intervals.
+
+    Raises:
+        ExperimentError: If every interval is to be ignored, or one has no sample.
+    """
+    spans = [span for span in content.intervals if span.use is not Use.IGNORE]
+    if not spans:
+        raise ExperimentError(f"experiment {content.name!r}: expected an interval that is not to be ignored")
+    model = content.model
+    weight_N = None if model is None else content.gravity * mass_of(build_tree(model, model.root_link))
+    thresholds = options.thresholds(weight_N)
+    for span in spans:
+        with stated_in(f"interval {span.label!r}"):
+            at_ns, forces = content.over(span)
+            if not len(at_ns):
+                raise ExperimentError("expected samples of the vertical forces, got none; the log begins later or ends")
+            time_s = seconds_since(at_ns, content.recording.start_ns)
+            yield IntervalBalance(
+                recording=content.name,
+                label=span.label,
+                stamp_ns=at_ns,
+                time_s=time_s,
+                weight_N=weight_N,
+                forces=forces,
+                net_N=np.sum(list(forces.values()), axis=0),
+                phases=support_phases(forces, time_s, thresholds),
+                refused=(VERTICAL_ONLY,),
+            )

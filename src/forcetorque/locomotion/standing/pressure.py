@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Soles, the ground under them, and the centre of pressure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_last_axis
+from forcetorque.base.errors import EstimationError, ShapeError
+from forcetorque.base.wrench import transform_wrench, wrench_matrix
+from forcetorque.robot.contacts import Contact
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PressureCentres:
+    """Centres of pressure of n samples on the plane z = 0 of a frame; NaN where too little presses."""
+
+    points: FloatArray
+    """Along x and y from the frame's origin; shape (n, 2); m."""
+    covariance: FloatArray | None = None
+    """Covariance of their errors; shape (n, 2, 2); m2; None where that of the wrench is not known."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", read_only(self.points, name="points", shape=(None, 2)))
+        if self.covariance is not None:
+            shape = (len(self.points), 2, 2)
+            object.__setattr__(self, "covariance", read_only(self.covariance, name="covariance", shape=shape))
+
+    @property
+    def known(self) -> BoolArray:
+        """Whether there is a point; shape (n,)."""
+        known: BoolArray = np.all(np.isfinite(self.points), axis=1)
+        return known
+
+
+def centre_of_pressure(
+    ground_wrench: Any, *, least_load_N: float, covariance: FloatArray | None = None
+) -> PressureCentres:
+    """Find the centre of pressure on the plane z = 0 of a frame.
+
+    About the point the moment of the force along the plane vanishes: `x = -ty / fz`, `y = tx / fz` [1]. The plane may
+    be tilted, and the robot accelerate: neither enters. An error of the wrench goes to the point by the first
+    derivative, as `(-dty - x dfz) / fz` and `(dtx - y dfz) / fz`, which holds while `fz` is many times its own error.
+
+    Args:
+        ground_wrench: What the ground does to the robot, in and about the frame, z away from the ground; shape (n, 6);
+            N, N m.
+        least_load_N: Force along z below which there is no point; N.
+        covariance: Covariance of the wrench; shape (n, 6, 6); None where it is not known.
+
+    Returns:
+        The points; NaN where less than `least_load_N` presses.
+
+    Raises:
+        EstimationError: If the least load is not positive: without pressure there is no centre of it.
+        ShapeError: If shapes differ.
+
+    References:
+        [1] Thesis (5.21), which is printed as moment over force, component by component; in that form it is wrong.
+    """
+    wrench = np.asarray(ground_wrench, dtype=np.float64)
+    require_last_axis(wrench, name="ground_wrench", length=6)
+    if not 0.0 < least_load_N < np.inf:
+        raise EstimationError(f"least_load_N: expected a positive force in N, got {least_load_N:g}")
+    pressed = np.where(wrench[:, 2] >= least_load_N, wrench[:, 2], np.nan)
+    points = np.stack([-wrench[:, 4], wrench[:, 3]], axis=1) / pressed[:, None]
+    if covariance is None:
+        return PressureCentres(points=points)
+    if covariance.shape != (len(wrench), 6, 6):
+        raise ShapeError(f"covariance: expected shape ({len(wrench)}, 6, 6), got {covariance.shape}")
+    derivative = np.zeros((len(wrench), 2, 6))
+    derivative[:, 0, 4], derivative[:, 1, 3] = -1.0, 1.0
+    derivative[:, :, 2] = -points
+    derivative /= pressed[:, None, None]
+    return PressureCentres(points=points, covariance=derivative @ covariance @ derivative.swapaxes(1, 2))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlaneTolerance:
+    """How far soles may be out of one plane and still count as coplanar."""
+
+    height_m: float = 0.01
+    """Height of one sole's origin over the plane of another; m."""
+    tilt_rad: float = 0.05
+    """Angle between their planes; rad."""
+
+
+def coplanar(ground_H_soles: Sequence[FloatArray], down: BoolArray, tolerance: PlaneTolerance) -> BoolArray:
+    """Tell when all soles that are down lie in one plane, that of the ground's frame.
+
+    Args:
+        ground_H_soles: Poses of the soles in the frame of the ground, that of one of them; shape (n, 4, 4) each; m.
+        down: Whether each is down; shape (n, soles).
+        tolerance: How far they may be out of it.
+
+    Returns:
+        Whether they lie in it; shape (n,). A sole that is in the air may be anywhere.
+    """
+    level = np.ones(len(down), dtype=np.bool_)
+    for pose, here in zip(ground_H_soles, down.T, strict=True):
+        tilt = np.arctan2(np.linalg.norm(pose[:, :2, 2], axis=1), pose[:, 2, 2])
+        level &= ~here | ((np.abs(pose[:, 2, 3]) <= tolerance.height_m) & (tilt <= tolerance.tilt_rad))
+    return level
+
+
+def wrench_on_ground(
+    ground_H_soles: Sequence[FloatArray],
+    wrenches: Sequence[FloatArray],
+    covariances: Sequence[FloatArray | None],
+    down: BoolArray,
+) -> tuple[FloatArray, FloatArray | None]:
+    """Add up what the ground does to all feet that are down.
+
+    Args:
+        ground_H_soles: Poses of the soles in the frame of the ground; shape (n, 4, 4) each; m.
+        wrenches: What the ground does to each, in and about the frame of the sole; shape (n, 6) each; N, N m.
+        covariances: Covariances of these, independent from sole to sole; shape (n, 6, 6) each; None where one is not
+            known.
+        down: Whether each is down; shape (n, soles).
+
+    Returns:
+        The sum in and about the frame of the ground, shape (n, 6), N, N m; and its covariance, shape (n, 6, 6), None
+        where one is not known.
+    """
+    total = np.zeros((len(down), 6))
+    spread: FloatArray | None = np.zeros((len(down), 6, 6))
+    for pose, wrench, covariance, here in zip(ground_H_soles, wrenches, covariances, down.T, strict=True):
+        total += np.where(here[:, None], transform_wrench(pose, wrench), 0.0)
+        if covariance is None or spread is None:
+            spread = None
+            continue
+        carried = wrench_matrix(pose)
+        spread = spread + np.where(here[:, None, None], carried @ covariance @ carried.swapaxes(1, 2), 0.0)
+    return total, spread
+
+
+_FEWEST_CORNERS = 3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Sole:
+    """A flat sole: the plane z = 0 of its frame, z away from the ground."""
+
+    frame: str
+    """Link of the robot whose axes it has."""
+    position: FloatArray = field(default_factory=lambda: np.zeros(3))
+    """Origin of the sole in that frame, a point of its plane; shape (3,); m."""
+    outline: FloatArray | None = None
+    """Corners of the sole along x and y from its origin; shape (k, 2); m; None where nobody knows how far it reaches.
+    The ground presses, so the centre of pressure lies in the smallest convex shape around them."""
+    edges: FloatArray = field(init=False)
+    """Outward unit normals of that shape and their offsets, `normal . point + offset` being positive outside; shape
+    (e, 3); 1, 1, m."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "position", read_only(self.position, name=f"sole {self.frame!r}", shape=(3,)))
+        edges = np.empty((0, 3))
+        if self.outline is not None:
+            outline = read_only(self.outline, name=f"sole {self.frame!r}: outline", shape=(None, 2))
+            object.__setattr__(self, "outline", outline)
+            edges = _convex_edges(self.frame, outline)
+        object.__setattr__(self, "edges", read_only(edges, name="edges", shape=(None, 3)))
+
+    @property
+    def contact(self) -> Contact:
+        """The whole wrench of the ground, in and about the frame of the sole."""
+        return Contact.at_point(self.frame, self.position)
+
+    def beyond(self, points: FloatArray) -> FloatArray:
+        """Tell how far points lie outside the sole.
+
+        Args:
+            points: Points of its plane; shape (n, 2); m.
+
+        Returns:
+            Largest distance to an edge, from the inside outwards: positive outside; shape (n,); m. NaN for points that
+            are, and where the outline is not known.
+        """
+        require_last_axis(points, name="points", length=2)
+        if not len(self.edges):
+            return np.full(len(points), np.nan)
+        farthest: FloatArray = (points @ self.edges[:, :2].T + self.edges[:, 2]).max(axis=1)
+        return farthest
+
+
+def _convex_edges(frame: str, outline: FloatArray) -> FloatArray:
+    from scipy.spatial import ConvexHull, QhullError  # here because importing it takes longer than most commands
+
+    if len(outline) >= _FEWEST_CORNERS and np.isfinite(outline).all():
+        try:
+            return np.asarray(ConvexHull(outline).equations, dtype=np.float64)
+        except QhullError:
+            pass
+    raise EstimationError(
+        f"sole {frame!r}: outline: expected at least {_FEWEST_CORNERS} corners x, y in m that span an area, got "
+        f"{len(outline)}: {np.round(outline, 6).tolist()}"
+    )

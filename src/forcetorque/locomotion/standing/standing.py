@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How a robot stands: support phases, centre of pressure, zero moment point and centre of mass (thesis 5.6)."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.output_file import refuse_output
+from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.sensor_reading import Correction
+from forcetorque.formats.sample_table import SampleSpan, write_samples
+from forcetorque.locomotion.foot_forces import FootForces
+from forcetorque.locomotion.standing.foot_wrenches import balance_of_forces, balance_of_sensors
+from forcetorque.locomotion.standing.interval import BalanceOptions, IntervalBalance
+from forcetorque.locomotion.standing.result import (
+    FootPressureRow,
+    PendulumRow,
+    RobotPressureRow,
+    SupportPhaseRow,
+    foot_row,
+    pendulum_row,
+    phase_rows,
+    robot_row,
+)
+from forcetorque.locomotion.standing.support_phases import NO_FOOT, require_support
+from forcetorque.results.result import Result
+from forcetorque.results.table import Table, table_of
+
+SAMPLES = "forcetorque/balance-samples/1"
+"""Name and version of the table of samples."""
+
+_DOUBTED_SHARE = 0.1
+"""Share of the weight that feet may seem to bear more or less before it is a warning: sensors err by some percent."""
+
+
+class Balance(Result):
+    """How a robot stood over the intervals of experiments."""
+
+    interval_uses = ()
+
+    schema_name: Literal["forcetorque/balance/1"] = Field(default="forcetorque/balance/1", alias="schema")
+    """Form of the result."""
+    experiments: tuple[str, ...]
+    """Names of the experiments that are counted."""
+    weight_N: float | None
+    """Weight of the robot; None where nobody knows it, or robots differ."""
+    touch_N: float
+    """Force that a contact reaches."""
+    release_N: float
+    """Force above which it lasts."""
+    dwell_s: float
+    """Shortest contact, and shortest pause, that counts."""
+    least_load_N: float
+    """Load below which there is no centre of pressure."""
+    phases: tuple[SupportPhaseRow, ...]
+    """One per set of feet that are down together."""
+    feet: tuple[FootPressureRow, ...]
+    """One per interval and sole, where wrenches tell it."""
+    robot: tuple[RobotPressureRow, ...]
+    """One per interval, where wrenches tell it."""
+    pendulum: tuple[PendulumRow, ...]
+    """One per interval in which (5.22) was asked for and holds."""
+    refused: tuple[str, ...]
+    """What cannot be told, in words."""
+    intervals: tuple[IntervalBalance, ...] = Field(default=(), exclude=True, repr=False)
+    """Every sample, for files and pictures."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give tables of phases, feet, robot and pendulum.
+
+        Yields:
+            Tables and sentences.
+        """
+        weight = "" if self.weight_N is None else f", weight {self.weight_N:.1f} N"
+        yield table_of(
+            self.phases,
+            f"support phases of {', '.join(self.experiments)}{weight}; net force: mean, "
+            "± half its 95 % interval where it is stationary noise or the phase recurs",
+        )
+        if self.feet:
+            yield table_of(
+                self.feet,
+                "centre of pressure of each foot, on its sole; x, y: means; ± half a 95 % interval of one point",
+            )
+        if self.robot:
+            yield table_of(self.robot, "centre of pressure and of mass of the robot, in the frame of a sole")
+        if self.pendulum:
+            yield table_of(self.pendulum, "acceleration of the centre of mass by (5.22), beside that of the joints")
+        yield (
+            f"a foot is down while it bears more than {self.release_N:.3g} N and reaches {self.touch_N:.3g} N"
+            + (f", for {self.dwell_s:g} s at least" if self.dwell_s else "")
+            + (f"; no centre of pressure below {self.least_load_N:.3g} N" if self.feet else "")
+        )
+
+    def write(self, path: Path | str, *, force: bool = False) -> int:
+        """Write every sample: the columns of `IntervalBalance.columns`, a row per instant.
+
+        Args:
+            path: File to write or to replace, ending in .parquet or .csv.
+            force: Whether a file that is neither a result nor a figure may be replaced.
+
+        Returns:
+            Number of rows.
+        """
+        refuse_output(path, force=force)
+        several = len(self.experiments) > 1
+        spans = [
+            SampleSpan(
+                label=f"{one.recording}: {one.label}" if several else one.label,
+                stamp_ns=one.stamp_ns,
+                time_s=one.time_s,
+                columns=one.columns(),
+            )
+            for one in self.intervals
+        ]
+        return write_samples(path, spans, schema=SAMPLES)
+
+
+@with_recording_notes
+def balance(
+    recordings: Sequence[Experiment | FootForces],
+    corrections: Sequence[Mapping[str, Correction]] = (),
+    options: BalanceOptions | None = None,
+) -> Balance:
+    """Say how a robot stood, over all intervals that are not to be ignored.
+
+    Recordings that hold the same forces, sample for sample, under two names are noticed, and counted once.
+
+    Args:
+        recordings: Experiments with soles: with force-torque sensors, or with vertical forces alone.
+        corrections: How the sensors of each are read (`corrections_of`); none of vertical forces.
+        options: What counts as a contact, as a point, and as a height that does not change.
+
+    Returns:
+        Phases, centres of pressure and of mass, and what cannot be told.
+
+    Raises:
+        ExperimentError: If there is no recording, or one has no sole.
+        EstimationError: If no foot is down in any interval, or thresholds cross.
+    """
+    asked = BalanceOptions() if options is None else options
+    if not recordings:
+        raise ExperimentError("expected an experiment at least, got none")
+    by_place = tuple(corrections) or ({},) * len(recordings)
+    names: dict[str, str] = {}
+    counted: list[IntervalBalance] = []
+    doubts = []
+    for content, reading in zip(recordings, by_place, strict=True):
+        with stated_in(str(content.file)):
+            intervals = tuple(
+                balance_of_forces(content, asked)
+                if isinstance(content, FootForces)
+                else balance_of_sensors(content, reading, asked)
+            )
+        mark = _fingerprint(intervals)
+        if mark in names:
+            doubts.append(f"{content.name}: its forces are those of {names[mark]}, sample for sample; counted once")
+            continue
+        names[mark] = content.name
+        doubts += [
+            f"{content.name}: {sensor}: no offset was removed, so that forces and points have whatever offset it has; "
+            "give a calibration, or an interval for calibration"
+            for sensor, correction in reading.items()
+            if not correction.removes_offset
+        ]
+        counted += intervals
+    return _summed_up(tuple(counted), tuple(names.values()), asked, doubts)
+
+
+def _summed_up(
+    intervals: tuple[IntervalBalance, ...], names: tuple[str, ...], options: BalanceOptions, doubts: Sequence[str]
+) -> Balance:
+    weights = {interval.weight_N for interval in intervals}
+    weight_N = weights.pop() if len(weights) == 1 else None
+    thresholds = options.thresholds(intervals[0].weight_N)
+    require_support(
+        [interval.phases for interval in intervals], [interval.forces for interval in intervals], thresholds
+    )
+    robots = [(interval, interval.robot) for interval in intervals if interval.robot is not None]
+    refused = tuple(dict.fromkeys(words for interval in intervals for words in interval.refused))
+    phases = tuple(phase_rows(intervals))
+    feet = tuple(foot_row(interval, foot) for interval in intervals for foot in interval.feet)
+    return Balance(
+        experiments=names,
+        weight_N=weight_N,
+        touch_N=thresholds.touch_N,
+        release_N=thresholds.release_N,
+        dwell_s=thresholds.dwell_s,
+        least_load_N=options.least_load_N(intervals[0].weight_N),
+        phases=phases,
+        feet=feet,
+        robot=tuple(robot_row(interval, robot) for interval, robot in robots),
+        pendulum=tuple(
+            pendulum_row(interval, robot.com_acceleration, robot.com_acceleration_of_joints)
+            for interval, robot in robots
+            if robot.com_acceleration is not None
+        ),
+        refused=refused,
+        intervals=intervals,
+        warnings=(*doubts, *refused, *_doubts(feet), *_doubted_weights(phases, weight_N)),
+    )
+
+
+def _doubted_weights(phases: Sequence[SupportPhaseRow], weight_N: float | None) -> Iterator[str]:
+    """Phases in which feet bear so much more or less than the robot weighs that their readings cannot be right."""
+    for row in phases:
+        if weight_N is None or row.net_N is None or row.phase == NO_FOOT:
+            continue
+        if abs(row.net_N - weight_N) > _DOUBTED_SHARE * weight_N:
+            yield (
+                f"{row.phase}: the feet bear {row.net_N:.1f} N in the mean, the robot weighs {weight_N:.1f} N: an "
+                "offset was not removed, a matrix is wrong, or something else bears the robot; phases and points are "
+                "as wrong"
+            )
+
+
+def _doubts(feet: Sequence[FootPressureRow]) -> Iterator[str]:
+    for row in feet:
+        where = f"{row.interval}: sole {row.sole}"
+        if not row.samples:
+            yield f"{where}: never bears the least load, so that it has no centre of pressure; in the air"
+        if row.outside_percent:
+            yield (
+                f"{where}: {row.outside_percent:.1f} % of the points lie outside the outline, by up to "
+                f"{row.beyond_mm:.1f} mm, where the ground cannot press: offset or matrix of {', '.join(row.sensors)}, "
+                "or the outline, is wrong"
+            )
+
+
+def _fingerprint(intervals: Sequence[IntervalBalance]) -> str:
+    """Mark of instants and forces, by which a recording is known under another name."""
+    digest = hashlib.sha256()
+    for interval in intervals:
+        for values in (interval.stamp_ns, *interval.forces.values()):
+            digest.update(np.ascontiguousarray(values).tobytes())
+    return digest.hexdigest()

@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What errors of force-torque sensors do to a robot that controls its joint torques by them (thesis 5.6)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Final, Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.noise.regression import half_width
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.locomotion.oscillation.resampled import evened
+from forcetorque.locomotion.oscillation.search import find_oscillations
+from forcetorque.locomotion.torque_control.balancing import Phase, Reference, standing, switching
+from forcetorque.locomotion.torque_control.closed_loop import LoopRun, LoopSetting, run_loop
+from forcetorque.locomotion.torque_control.file import PERIOD_S, TorqueLoopFile
+from forcetorque.locomotion.torque_control.linear_robot import LinearRobot, linear_robot, require_stable
+from forcetorque.locomotion.torque_control.result import TorqueLoopOnsetRow, TorqueLoopRow
+from forcetorque.locomotion.torque_control.sensors import SensorErrors, drawn_matrices
+from forcetorque.locomotion.torque_control.world import SENSORS, Biped
+from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.result import Result
+from forcetorque.results.table import Table, table_of
+
+NO_ERROR: Final = "none"
+"""Name of the errors of sensors that read the truth."""
+_LARGEST: Final = 20.0
+"""Largest multiple of the largest size of E at which the linear loop is looked at."""
+_STANDING_S, _SETTLED_S, _PUSH_N = 4.0, 1.0, 20.0
+"""How long it stands on the left foot, from when on a swing counts, and the push before; s, N."""
+_LEAST_SWING_M: Final = 1e-4
+"""A swing of the centre of mass that is smaller is the trembling that noise of the sensors makes; m."""
+_EVERY = 10
+"""One of so many instants is looked at for swings: 100 Hz."""
+_SUPPORTS: Final = {"both feet": Phase.DOUBLE, "the left foot": Phase.LEFT, "the right foot": Phase.RIGHT}
+
+
+class TorqueLoopStudy(Result):
+    """A robot that balances by torque control, with errors of its force-torque sensors."""
+
+    schema_name: Literal["forcetorque/torque_loop/1"] = Field(default="forcetorque/torque_loop/1", alias="schema")
+    """Form of the result."""
+    name: str
+    """What the file is called."""
+    weight_N: float
+    """Weight of the robot."""
+    duration_s: float
+    """How long every run takes: both feet, left, both, right, both."""
+    delay_s: float
+    """Oldest estimate that a controller uses, less the step in which it is computed."""
+    rows: tuple[TorqueLoopRow, ...]
+    """One per robot, gains, kind and size of errors."""
+    onsets: tuple[TorqueLoopOnsetRow, ...]
+    """Where the linear loop becomes unstable."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give both tables.
+
+        Yields:
+            Tables and a sentence.
+        """
+        yield table_of(
+            self.rows, f"{self.name}: {self.duration_s:.1f} s of changing support; mean ± half its 95 % interval"
+        )
+        yield table_of(self.onsets, "size of the error from which the linear loop is unstable, by draws of it")
+        yield (
+            f"an error of scale 1 reads the weight of {self.weight_N:.0f} N wrong on any axis by a random share, whose "
+            f"size is that of its name; estimates are {1e3 * self.delay_s:g} ms late"
+        )
+
+
+def torque_loop(
+    file: TorqueLoopFile | None = None, *, progress: Callable[[str], None] = lambda _: None
+) -> TorqueLoopStudy:
+    """Let a small biped in MuJoCo change its support under torque control, with errors of its sensors.
+
+    Drives, controllers and rates are settled by the file before any error is drawn, and proven stable without.
+
+    Args:
+        file: What is tried; `TorqueLoopFile()` if None.
+        progress: Called with a line for people as work goes on.
+
+    Returns:
+        Tracking, swings and falls by size of error; and where the linear loop says that they begin.
+
+    Raises:
+        MissingExtraError: If MuJoCo is not installed.
+        ControlError: If gains are unstable without any error.
+    """
+    asked = TorqueLoopFile() if file is None else file
+    rng = np.random.default_rng(asked.seed)
+    unit = drawn_matrices(1.0, asked.sensor.lever_m, rng, asked.seeds)
+    rows: list[TorqueLoopRow] = []
+    onsets: list[TorqueLoopOnsetRow] = []
+    for tilt_deg in asked.tilt_deg:
+        biped = Biped.on_soles(tilt_deg)
+        reference = switching(biped, asked.timing, PERIOD_S)
+        for gain_factor in asked.gain_factors:
+            setting = asked.setting(biped, gain_factor)
+            case = _Case(file=asked, biped=biped, setting=setting, reference=reference, gain_factor=gain_factor)
+            progress(f"soles at {tilt_deg:g} degrees, gains times {gain_factor:g}: the linear loop")
+            robots = case.linear_robots()
+            onsets += case.onset_rows(robots, unit)
+            rows += case.rows(unit, rng, progress)
+    weight_N = biped.mass * STANDARD_GRAVITY
+    return TorqueLoopStudy(
+        name=asked.name,
+        weight_N=weight_N,
+        duration_s=asked.timing.duration_s,
+        delay_s=asked.estimator.delay_s + 1.0 / asked.estimator.rate_hz - PERIOD_S,
+        rows=tuple(rows),
+        onsets=tuple(onsets),
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Case:
+    """One robot with one set of gains."""
+
+    file: TorqueLoopFile
+    biped: Biped
+    setting: LoopSetting
+    reference: Reference
+    gain_factor: float
+
+    def linear_robots(self) -> Mapping[str, LinearRobot]:
+        """The linear loop on either foot and on both, stable without errors."""
+        robots = {}
+        for words, phase in _SUPPORTS.items():
+            still = standing(self.biped, phase, 2, self.file.motion.lift_m, self.setting.period_s)
+            robots[words] = linear_robot(self.biped, self.setting, still, 0)
+            require_stable(robots[words])
+        return robots
+
+    def onset_rows(self, robots: Mapping[str, LinearRobot], unit: FloatArray) -> Iterator[TorqueLoopOnsetRow]:
+        """Where the loop becomes unstable, in sizes of every kind of error."""
+        largest = _LARGEST * max(self.file.errors.values())
+        weight_N = self.biped.mass * STANDARD_GRAVITY
+        for words, robot in robots.items():
+            onsets = [robot.onset(matrix, largest=largest) for matrix in unit]
+            sizes = np.array([np.inf if one is None else one.scale for one in onsets])
+            frequencies = [one.frequency_hz for one in onsets if one is not None]
+            for errors, size in self.file.errors.items():
+                scales = sizes / size
+                median = float(np.median(scales))
+                yield TorqueLoopOnsetRow(
+                    tilt_deg=self.biped.tilt_deg,
+                    gain_factor=self.gain_factor,
+                    errors=errors,
+                    support=words,
+                    draws=len(scales),
+                    least_scale=finite_or_none(float(scales.min())),
+                    median_scale=finite_or_none(median),
+                    median_force_error_N=finite_or_none(median * size * weight_N),
+                    below_one_percent=100.0 * float(np.mean(scales < 1.0)),
+                    median_frequency_hz=float(np.median(frequencies)) if frequencies else None,
+                    largest_scale=largest / size,
+                )
+
+    def rows(
+        self, unit: FloatArray, rng: np.random.Generator, progress: Callable[[str], None]
+    ) -> Iterator[TorqueLoopRow]:
+        """Run every size of every kind of error, and the robot without any: all copies at once."""
+        sizes = [(NO_ERROR, 0.0, 0.0)]
+        sizes += [(name, scale, scale * size) for name, size in self.file.errors.items() for scale in self.file.scales]
+        drawn = self._errors(np.concatenate([size * unit for _, _, size in sizes]), rng)
+        words = (
+            f"soles at {self.biped.tilt_deg:g} degrees, gains times {self.gain_factor:g}, {len(drawn.matrix)} copies"
+        )
+        progress(f"{words}: changing support")
+        run = run_loop(self.biped, self.setting, self.reference, drawn, rng=rng)
+        progress(f"{words}: pushed on the left foot")
+        steps = round(_STANDING_S / self.setting.period_s)
+        still = standing(self.biped, Phase.LEFT, steps, self.file.motion.lift_m, self.setting.period_s)
+        pushed = run_loop(self.biped, self.setting, still, drawn, rng=rng, push_N=_PUSH_N)
+        for k, (errors, scale, size) in enumerate(sizes):
+            own = slice(k * len(unit), (k + 1) * len(unit))
+            yield self._row(errors, scale, size, run.of(own), pushed.of(own))
+
+    def _errors(self, matrix: FloatArray, rng: np.random.Generator) -> SensorErrors:
+        sensor = self.file.sensor
+        bias = np.repeat([sensor.bias_N, sensor.bias_Nm], 3) * rng.standard_normal((len(matrix), len(SENSORS), 6))
+        return SensorErrors(
+            matrix=matrix,
+            bias=bias,
+            noise=np.repeat([sensor.noise_N, sensor.noise_Nm], 3),
+            resolution=np.repeat([sensor.resolution_N, sensor.resolution_Nm], 3),
+        )
+
+    def _row(self, errors: str, scale: float, size: float, run: LoopRun, pushed: LoopRun) -> TorqueLoopRow:
+        rms = run.tracking_rms
+        half = float(half_width(np.array([rms.std(ddof=1) / len(rms) ** 0.5]), np.array([len(rms) - 1.0]))[0])
+        fell = run.fallen < len(run.reference)
+        amplitudes = _amplitudes(pushed)
+        swinging = np.isfinite(amplitudes) | (pushed.fallen < len(pushed.reference))
+        falls, swings = _share_interval(fell), _share_interval(swinging)
+        lasting = amplitudes[np.isfinite(amplitudes)]
+        return TorqueLoopRow(
+            tilt_deg=self.biped.tilt_deg,
+            gain_factor=self.gain_factor,
+            errors=errors,
+            scale=scale,
+            force_error_N=size * self.biped.mass * STANDARD_GRAVITY,
+            runs=len(rms),
+            tracking_rms_Nm=float(rms.mean()),
+            tracking_half_width_95_Nm=finite_or_none(half),
+            centre_rms_mm=1e3 * float(np.sqrt(np.nanmean((run.centre_error**2).sum(axis=-1)))),
+            falls=int(fell.sum()),
+            falls_least_percent=falls[0],
+            falls_most_percent=falls[1],
+            oscillating=int(swinging.sum()),
+            oscillating_least_percent=swings[0],
+            oscillating_most_percent=swings[1],
+            amplitude_mm=1e3 * float(np.median(lasting)) if len(lasting) else None,
+        )
+
+
+def _amplitudes(pushed: LoopRun) -> FloatArray:
+    """Amplitude of the largest swing of the centre of mass that does not die away; NaN of none, or a fall; (B,); m."""
+    first, steps = round(_SETTLED_S / pushed.period_s), len(pushed.reference)
+    time_s = pushed.period_s * np.arange(first, steps, _EVERY)
+    amplitudes = np.full(len(pushed.fallen), np.nan)
+    for k, fallen in enumerate(pushed.fallen):
+        if fallen < steps:
+            continue
+        lasting = []
+        for axis in (0, 1):
+            signal = evened(time_s, pushed.centre_error[k, first::_EVERY, axis], name="centre of mass")
+            lasting += [
+                swing.amplitude
+                for swing in find_oscillations(signal, name="centre of mass").oscillations
+                if swing.amplitude > _LEAST_SWING_M and not swing.damping - swing.half_width[2] > 0.0
+            ]
+        amplitudes[k] = max(lasting, default=np.nan)
+    return amplitudes
+
+
+def _share_interval(happened: BoolArray) -> tuple[float, float]:
+    """95 % interval of a share by Clopper and Pearson; percent."""
+    from scipy.special import betaincinv  # here because importing it takes longer than most commands
+
+    k, n = int(happened.sum()), len(happened)
+    low = float(betaincinv(k, n - k + 1, 0.025)) if k else 0.0
+    high = float(betaincinv(k + 1, n - k, 0.975)) if k < n else 1.0
+    return 100.0 * low, 100.0 * high

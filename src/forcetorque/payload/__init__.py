@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Loads on a sensor or on the robot: identified from measurements, given to robots, and zeroed without being lost."""
+
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from forcetorque.payload.load_for_robot import export_load, robot_load
+    from forcetorque.payload.payload import weigh_load
+    from forcetorque.payload.zeroing import tare
+
+__all__ = [
+    "export_load",
+    "robot_load",
+    "tare",
+    "weigh_load",
+]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "export_load": "forcetorque.payload.load_for_robot",
+        "robot_load": "forcetorque.payload.load_for_robot",
+        "tare": "forcetorque.payload.zeroing",
+        "weigh_load": "forcetorque.payload.payload",
+    },
+)

@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque payload` and `forcetorque tare`, and the file for a robot that both write."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.files import STANDARD_OUTPUT
+from forcetorque.base.output_file import declare_outputs
+from forcetorque.payload.robot_files.formats import LoadFormat
+from forcetorque.results.terminal.options import (
+    ExperimentArgument,
+    ExperimentsArgument,
+    ForceOption,
+    FormatOption,
+    SensorOption,
+)
+from forcetorque.results.terminal.output import (
+    Format,
+    refuse_two_on_standard_output,
+    show,
+    show_warnings,
+    start_logging,
+)
+
+if TYPE_CHECKING:
+    import logging
+
+    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.experiment import Experiment
+    from forcetorque.payload.robot_files.robot_load import RobotLoad
+
+
+LoadFormatOption = Annotated[
+    LoadFormat | None, typer.Option("--to", help="Form of the file for a robot: its program, by name.")
+]
+LoadFileOption = Annotated[
+    Path | None, typer.Option("--output", "-o", help="File for a robot, in the form of --to; - for standard output.")
+]
+WorldFrameOption = Annotated[
+    str | None, typer.Option("--world-frame", help="Frame of tf whose z axis points up, for gravity-filter.")
+]
+SensorPoseOption = Annotated[
+    tuple[float, float, float, float, float, float] | None,
+    typer.Option(
+        "--sensor-pose",
+        help="Pose x y z (m) roll pitch yaw (rad) of the sensor in its parent body, as in a URDF, for mc-rtc.",
+    ),
+]
+
+
+def refuse_load_file(output: Path | None, to: LoadFormat | None, output_format: Format, *, force: bool) -> None:
+    """Say what is wrong with the file before anything is estimated.
+
+    Args:
+        output: File to write; None for none.
+        to: Its form.
+        output_format: Form of the result.
+        force: As of `declare_outputs`.
+
+    Raises:
+        ForceTorqueError: If one of file and form is missing, or the file cannot be written.
+    """
+    if (output is None) != (to is None):
+        raise ForceTorqueError(
+            f"expected both --to, out of {', '.join(LoadFormat)}, and --output, the file, or neither of them"
+        )
+    if output is not None:
+        refuse_two_on_standard_output(output, output_format)
+        declare_outputs(output, force=force)
+
+
+def write_load(
+    load: RobotLoad,
+    output: Path,
+    to: LoadFormat,
+    *,
+    world_frame: str | None,
+    sensor_pose: tuple[float, ...] | None,
+    log: logging.Logger,
+) -> None:
+    """Write the file and say what its program does.
+
+    Args:
+        load: The load.
+        output: File to write.
+        to: Its form.
+        world_frame: As of the option.
+        sensor_pose: As of the option.
+        log: Where that goes.
+    """
+    from forcetorque.base.pose import make_pose, rotation_from_rpy
+    from forcetorque.payload.load_for_robot import export_load
+
+    pose = None if sensor_pose is None else make_pose(rotation_from_rpy(sensor_pose[3:]), sensor_pose[:3])
+    convention = export_load(load, output, to, world_frame=world_frame, body_H_sensor=pose)
+    log.info("%s, for readings of %s: %s", output, load.direction, convention)
+
+
+def payload(
+    experiments: ExperimentsArgument,
+    to: LoadFormatOption = None,
+    output: LoadFileOption = None,
+    world_frame: WorldFrameOption = None,
+    sensor_pose: SensorPoseOption = None,
+    force: ForceOption = False,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Estimate mass, centre of mass and bias of a wrist sensor's load.
+
+    Example: forcetorque payload wrist.toml --to ft-tools -o load.yaml
+    """
+    from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
+    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.loading import load_experiment
+    from forcetorque.experiment.sensor_run import SensorRun
+    from forcetorque.payload.load_for_robot import robot_load
+    from forcetorque.payload.payload import weigh_load
+
+    log = start_logging()
+    refuse_load_file(output, to, output_format, force=force)
+    refuse_a_file_twice(experiments)
+    runs = []
+    for path in experiments:
+        log.info("reading %s", path)
+        content = load_experiment(path)
+        runs.append(SensorRun(content, content.sensors[0]))
+    with stated_in(", ".join(str(path) for path in experiments)):
+        load = weigh_load(runs)
+        if output is not None and to is not None:
+            together = load if len(runs) > 1 else None
+            robot = robot_load(runs[-1], load.sessions[-1].bias, weighed=together)
+            log.info("the bias is that of %r, the last power-up", load.sessions[-1].session)
+            write_load(robot, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)
+    if output == STANDARD_OUTPUT:  # the file itself went there
+        show_warnings(load)
+    else:
+        show(load, output_format)
+
+
+def tare(
+    experiment: ExperimentArgument,
+    interval: Annotated[str, typer.Option("--interval", help="Label of an interval in which nothing moves.")],
+    sensor: SensorOption = None,
+    calibration: Annotated[
+        list[Path] | None,
+        typer.Option("--calibration", "-c", help="Calibration that reads a sensor; repeat for more. Default: none."),
+    ] = None,
+    to: LoadFormatOption = None,
+    output: LoadFileOption = None,
+    world_frame: WorldFrameOption = None,
+    sensor_pose: SensorPoseOption = None,
+    force: ForceOption = False,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Find the offset that keeps the weight of a load, from a stretch at rest.
+
+    Example: forcetorque tare wrist.toml --interval still
+    """
+    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.sensor_run import SensorRun
+    from forcetorque.payload.load_for_robot import robot_load
+    from forcetorque.payload.zeroing import Tare, tare
+    from forcetorque.results.terminal.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
+
+    log = start_logging()
+    refuse_load_file(output, to, output_format, force=force)
+    calibrations = read_calibrations(calibration)
+    content = read_experiment(experiment, log)
+    chosen = sensors_named(content, sensor)
+    refuse_left_out(content, chosen, calibrations)
+    by_sensor = _one_for_each(content, calibrations)
+    runs = [SensorRun(content, one) for one in chosen]
+    names = [by_sensor.get(run.sensor.name) for run in runs]
+    with stated_in(str(experiment)):
+        result = Tare.together(
+            tare(run, interval, name=name, calibration=calibrations[name] if name else None)
+            for run, name in zip(runs, names, strict=True)
+        )
+    if output is not None and to is not None:
+        load = robot_load(runs[0], result.sensors[0].bias)
+        write_load(load, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)
+    if output == STANDARD_OUTPUT:
+        show_warnings(result)
+    else:
+        show(result, output_format)
+
+
+def _one_for_each(content: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, str]:
+    """Names of calibrations by the sensors that they read."""
+    names: dict[str, str] = {}
+    for name, calibration in calibrations.items():
+        other = names.setdefault(content.sensor(calibration.sensor.name).name, name)
+        if other != name:
+            raise ForceTorqueError(f"{name}: calibrates the sensor of {other}; expected one calibration for each")
+    return names

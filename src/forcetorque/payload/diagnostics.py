@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contradictions between measurements and the file: loads, the sense of the sensor, loads of the URDF."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.wrench import MeasureDirection, reading_sign
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.inspection.draft.gravity import hanging
+from forcetorque.payload.identification.parameters import six_of
+from forcetorque.payload.identification.solution import LoadSolution
+from forcetorque.payload.link_loads import LinkLoads
+from forcetorque.payload.wrist_load import inertia_of_stated
+from forcetorque.recording.recording import Support, Use
+
+
+def reversed_sense(run: SensorRun) -> Iterator[str]:
+    """Name the sense of a reading on an arm whose tool is a `[[load]]`, where the accelerations say the other one.
+
+    Args:
+        run: The sensor.
+
+    Yields:
+        A sentence where they do; none where the arm moves too slowly to tell, where the base moves, or for raw counts.
+    """
+    yield from run.once("reversed sense", lambda: tuple(_reversed_sense(run)))
+
+
+def _reversed_sense(run: SensorRun) -> Iterator[str]:
+    experiment = run.experiment
+    if experiment.link_loads is None or run.sensor.quantity != "wrench" or not run.has(Use.CALIBRATION):
+        return
+    supports = [interval.support for interval in experiment.intervals(Use.CALIBRATION)]
+    frames = {support.frame if isinstance(support, Support) else None for support in supports}
+    frame, *others = frames
+    if others or frame is None:
+        return
+    sensor, stream = experiment.model.sensor(run.sensor.name), experiment.recording.stream(run.sensor.stream)
+    felt = hanging(experiment.model, sensor.joint, frame, experiment.recording, stream)
+    if felt is None or not felt.says_something or felt.direction in (None, sensor.direction):
+        return
+    down = felt.weight if felt.direction == MeasureDirection.CHILD_TO_PARENT else -felt.weight
+    along = (np.round(down / np.linalg.norm(down), 1) + 0.0).tolist()
+    yield (
+        f"the accelerations in the log say measure_direction = {felt.direction!r}, with which things fall along "
+        f"{along} of {frame!r}, and the file says {sensor.direction.value!r}; state both so: with both reversed "
+        "weights are right, and every push comes out with the other sign"
+    )
+
+
+_BETTER = 0.7
+"""Share of the residual that is left where a load is in the URDF already (heuristic)."""
+
+
+def load_doubts(run: SensorRun) -> Iterator[str]:
+    """Say what makes loads on links of a robot doubtful.
+
+    Args:
+        run: The sensor.
+
+    Yields:
+        A sentence where loads are weighed with the sensor's own reading, one for every load that it weighed before, and
+        one for every stated load without which the readings fit better.
+    """
+    loads = run.experiment.link_loads
+    if loads is None:
+        return
+    known = [load for own in (loads, *_beside(loads)) for load in own.loads if load.is_known and load.mass]
+    names = ", ".join(repr(load.name) for load in loads.loads if not load.is_known and load.expected is None)
+    if names:
+        weighed = ", ".join(dict.fromkeys(repr(load.name) for load in known))
+        yield (
+            f"load {names}: estimated with this sensor's own reading, beside {weighed}, which is stated"
+            if weighed
+            else f"load {names}: estimated with this sensor's own reading, so its mass and the scale of the matrix are "
+            "told apart by the prior alone; weigh one tool and state its mass_kg and centre_of_mass_m"
+        )
+    hung = {load.name for own in (loads, *_beside(loads)) for load in own.loads if load.mass != 0.0}
+    if names and len(hung) == 1:
+        yield (
+            f"load {names}: one tool moves three of the six directions of a wrench, the others stay as the prior has "
+            "them; record a second one, with its centre of mass elsewhere"
+        )
+    yield from circular_loads(run)
+    if loads.sensor is not None and run.has(Use.CALIBRATION):
+        yield from _doubled(run, loads)
+
+
+def circular_loads(run: SensorRun) -> Iterator[str]:
+    """Name loads that the sensor itself weighed before, as if its matrix were right.
+
+    Args:
+        run: The sensor.
+
+    Yields:
+        A sentence for every load beside which nothing was stated then that would have told the scale of the matrix.
+    """
+    for weighed in () if run.experiment.link_loads is None else run.experiment.link_loads.weighed:
+        if weighed.serial == run.sensor.serial and not weighed.beside:
+            yield (
+                f"load {weighed.load.name!r}: weighed before by this sensor itself ({weighed.serial}), beside nothing "
+                "that was stated, so its mass has the error that the sensor has, which no calibration or verdict on it "
+                "can see; weigh it on a scale, or by another sensor"
+            )
+
+
+def _beside(loads: LinkLoads) -> list[LinkLoads]:
+    return [one.link_loads for one in loads.beside.values() if one.link_loads is not None]
+
+
+def _doubled(run: SensorRun, loads: LinkLoads) -> Iterator[str]:
+    """Name loads that the URDF has too: without them the readings fit better, about the means of intervals."""
+    stated = [number for number, load in enumerate(loads.loads) if load.is_known and load.mass]
+    if not stated:
+        return
+    problem = loads.problem(run.experiment)
+    rows, sign = problem.rows, reading_sign(problem.direction, child_is_outboard=True)
+    if rows.columns is None or rows.known is None:
+        return
+    for number in stated:
+        load, mine = loads.loads[number], rows.load == number
+        if not mine.any():
+            continue
+        inertia = inertia_of_stated(load)
+        values = np.concatenate([[inertia.mass], inertia.first_moment, six_of(inertia.second_moment)])
+        bare = (rows.wrench - rows.known)[mine, :3]
+        weight = (sign * rows.columns[mine] @ values)[:, :3]
+        with_it, without = (_about_means(part, rows.block[mine]) for part in (bare - weight, bare))
+        if without < _BETTER * with_it:
+            yield (
+                f"load {load.name!r}: the readings fit the URDF better without it: the URDF seems to have it already; "
+                f"take it out of one of the two (force residual {with_it:.3g} N with it, {without:.3g} N without)"
+            )
+
+
+def _about_means(values: FloatArray, block: IntArray) -> float:
+    """Root mean square about the mean of every block."""
+    about = values.copy()
+    for number in np.unique(block):
+        about[block == number] -= values[block == number].mean(axis=0)
+    return float(np.sqrt((about**2).sum(axis=1).mean()))
+
+
+def reference_doubts(run: SensorRun) -> tuple[str, ...]:
+    """Say why what mechanics demands of a sensor may be wrong, so that it flatters the calibration fitted to it.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        A sentence for each statement that the readings contradict, and for each load that the sensor itself weighed;
+        none for a bias that steps or a reading that comes late, which change a load little.
+    """
+    return (*contradicted_statements(run, cautions=False), *circular_loads(run))
+
+
+def contradicted_statements(run: SensorRun, *, cautions: bool = True) -> Iterator[str]:
+    """Name frames, senses and clocks with whose opposite the readings go better, where a load was estimated.
+
+    Without this a load takes up part of a wrong statement, and a fit on it looks like any other.
+
+    Args:
+        run: The sensor.
+        cautions: Whether accounts count that change a load little.
+
+    Yields:
+        A sentence for each.
+    """
+    solution = _estimated(run)
+    for hypothesis in () if solution is None else solution.hypotheses:
+        if cautions or hypothesis.severity == "contradiction":
+            yield f"the load was estimated, and the readings contradict the file: {hypothesis.words}"
+    yield from overweight_loads(run)
+    yield from reversed_sense(run)
+
+
+def overweight_loads(run: SensorRun) -> Iterator[str]:
+    """Name loads that were estimated and weigh more than their sensor reads: a wrong unit makes a load of any size.
+
+    Args:
+        run: The sensor.
+
+    Yields:
+        A sentence for each.
+    """
+    solution, full_scale = _estimated(run), run.sensor.full_scale
+    if solution is None or full_scale is None:
+        return
+    most = float(full_scale[:3].max())
+    for load in solution.loads:
+        weight = run.experiment.processing.gravity * abs(load.mass)
+        if weight > most:
+            yield (
+                f"load {load.name!r}: {load.mass:.3g} kg weigh {weight:.3g} N, and the sensor reads {most:g} N "
+                "at most; check units of the wrench (N m or N mm) and of the joints (deg or rad), and full_scale of "
+                "[[sensor]]"
+            )
+
+
+def _estimated(run: SensorRun) -> LoadSolution | None:
+    """The loads that were estimated; None where all are stated, or nothing estimates them."""
+    experiment = run.experiment
+    if not run.has(Use.CALIBRATION):
+        return None
+    if experiment.wrist is not None:
+        return None if experiment.wrist.are_stated else experiment.wrist.solution(experiment)
+    hung = experiment.link_loads
+    return None if hung is None or all(load.is_known for load in hung.loads) else hung.solution(experiment)

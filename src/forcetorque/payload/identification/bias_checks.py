@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks of biases: whether one would do, whether they drift, whether one jumps within a power cycle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.noise.slow_noise import SlowNoise
+from forcetorque.payload.identification.fit import Fit, fit, plain_fit
+from forcetorque.payload.identification.noise import noise_sizes
+from forcetorque.payload.identification.parameters import Kind, places
+from forcetorque.payload.identification.prediction import expected, masses
+from forcetorque.payload.identification.problem import LoadProblem
+from forcetorque.payload.identification.solution import BiasTest, DriftChoice
+
+
+def bias_tests(fitted: Fit, *, drift: bool) -> tuple[BiasTest, ...]:
+    """Compare the biases of sessions, and of the intervals of each session, by Wald's test.
+
+    Args:
+        fitted: The problem with a bias for each session.
+        drift: Whether biases move evenly in time.
+
+    Returns:
+        One for what there are several of.
+    """
+    problem = fitted.problem
+    tests = []
+    if len(np.unique(problem.rows.session)) > 1:
+        together = _in_one_session(problem)
+        plain = masses(together, plain_fit(together, drift=False, alike=True)[0])
+        tests.append(_compared(fitted, "sessions", np.zeros(len(problem.sessions), dtype=np.int64), plain))
+    finer = np.unique(np.stack([problem.rows.session, problem.rows.block], axis=1), axis=0)
+    if len(finer) > len(np.unique(problem.rows.session)):
+        by_interval = _sessions_of_blocks(problem, finer)
+        plain = masses(problem, plain_fit(problem, drift=drift, alike=True)[0])
+        tests.append(_compared(fit(by_interval, drift=drift), "intervals", finer[:, 0], plain))
+    return tuple(tests)
+
+
+def _in_one_session(problem: LoadProblem) -> LoadProblem:
+    rows = problem.rows
+    time = None if rows.time_s is None else np.arange(float(len(rows)))  # of several sessions instants may fall
+    one = replace(rows, session=np.zeros(len(rows), dtype=np.int64), time_s=time)
+    return replace(problem, rows=one, sessions=problem.sessions[:1])
+
+
+def _sessions_of_blocks(problem: LoadProblem, finer: np.ndarray) -> LoadProblem:
+    number = {(session, block): k for k, (session, block) in enumerate(finer.tolist())}
+    pairs = zip(problem.rows.session.tolist(), problem.rows.block.tolist(), strict=True)
+    rows = replace(problem.rows, session=np.array([number[pair] for pair in pairs]))
+    return replace(
+        problem, rows=rows, sessions=tuple(f"{problem.blocks[block]} {k}" for k, (_, block) in enumerate(finer))
+    )
+
+
+def _compared(fitted: Fit, of: str, group: np.ndarray, plain: tuple[float, ...]) -> BiasTest:
+    """Test that biases of one group are equal; groups by the number of the session; shape (sessions,)."""
+    from scipy.special import fdtrc  # here because importing it takes longer than most commands
+
+    listed, values, covariance = fitted.guess.parameters, fitted.guess.values, fitted.covariance
+    first: dict[int, list[int]] = {}
+    contrasts = []
+    for k in range(len(fitted.problem.sessions)):
+        own = places(listed, Kind.BIAS, k)
+        if not own:
+            continue
+        reference = first.setdefault(int(group[k]), own)
+        for place, other in zip(own, reference, strict=True) if own != reference else ():
+            contrast = np.zeros(len(values))
+            contrast[place], contrast[other] = 1.0, -1.0
+            contrasts.append(contrast)
+    matrix = np.array(contrasts)
+    difference = matrix @ values
+    touched = (matrix != 0.0).any(axis=0)
+    of_biases = covariance[np.ix_(touched, touched)]
+    degrees = float(fitted.estimate.degrees_of_freedom[touched].sum())  # all tell the one noise
+    if not np.isfinite(of_biases).all() or degrees <= 0.0:
+        p_value = np.nan
+    else:
+        spread = matrix[:, touched] @ of_biases @ matrix[:, touched].T
+        size = np.sqrt(np.diag(spread))
+        square = float(difference / size @ np.linalg.solve(spread / np.outer(size, size), difference / size))
+        p_value = float(fdtrc(len(difference), degrees, square / len(difference)))
+    largest: FloatArray = np.abs(difference.reshape(-1, 6)).max(axis=0)
+    return BiasTest(of=of, largest_difference=largest, p_value=p_value, mass_with_one=plain)  # type: ignore[arg-type]
+
+
+_BLOCKS = 6
+"""Blocks of each session, one held out at a time; a drift is an offset to a block that is short against the session."""
+_LEAST_ROWS = 12
+"""Rows that a session must have, two in a block, to have a say."""
+
+
+def choose_drift(problem: LoadProblem) -> DriftChoice:
+    """Let rows that were held out choose, where the problem states nothing.
+
+    The rows of each session are cut into blocks, in the order in which they were taken. Rows of a block are foretold
+    from all others, with a constant bias and with one that moves evenly, which is taken if it does better by more than
+    a standard error.
+
+    Args:
+        problem: The problem.
+
+    Returns:
+        The choice.
+    """
+    if np.bincount(problem.rows.session).max() < _LEAST_ROWS:
+        constant = masses(problem, plain_fit(problem, drift=False, alike=True)[0])
+        return DriftChoice(
+            taken=bool(problem.drift),
+            error_without=np.nan,
+            error_with=np.nan,
+            mass_without=constant,
+            mass_with=(np.nan,) * len(constant),
+            chosen=False,
+        )
+    constant, moving = (masses(problem, plain_fit(problem, drift=drift, alike=True)[0]) for drift in (False, True))
+    sizes = noise_sizes(plain_fit(problem, drift=True)[1])
+    without, within = (_held_out(problem, sizes, drift=drift) for drift in (False, True))
+    gain = without - within
+    better = gain.mean() > gain.std() / np.sqrt(len(gain))
+    return DriftChoice(
+        taken=bool(better) if problem.drift is None else problem.drift,
+        error_without=float(np.sqrt(without.mean())),
+        error_with=float(np.sqrt(within.mean())),
+        mass_without=constant,
+        mass_with=moving,
+        chosen=problem.drift is None,
+    )
+
+
+def _held_out(problem: LoadProblem, sizes: FloatArray, *, drift: bool) -> FloatArray:
+    """Mean square error of each row when it was held out, over the size of the noise; shape (n,)."""
+    block, squares = _blocks(problem), []
+    for number in range(_BLOCKS):
+        held = block == number
+        guess, _ = plain_fit(problem, drift=drift, weight=np.where(held, _NOTHING, 1.0))
+        error = (problem.rows.wrench - expected(problem, guess))[held] / sizes
+        squares.append((error**2).mean(axis=1))
+    return np.concatenate(squares)
+
+
+_NOTHING = 1e-12
+"""Weight of a row that is held out: it does not count, yet has its place in time."""
+
+
+def _blocks(problem: LoadProblem) -> IntArray:
+    block = np.full(len(problem.rows), -1, dtype=np.int64)
+    for session in np.unique(problem.rows.session):
+        mine = np.flatnonzero(problem.rows.session == session)
+        if len(mine) < _LEAST_ROWS:
+            continue
+        block[mine] = np.arange(len(mine)) * _BLOCKS // len(mine)
+    return block
+
+
+_FALSE_ALARMS = 1e-3
+"""Share of problems without a jump in which one is named."""
+_PLACES = 400
+"""Places at which a jump is looked for, at most; a jump is a row or two off then, in long recordings."""
+_LEAST_LEFT = 1e-3
+"""A step of which the fit leaves less than this part cannot be told from bias, drift and load."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Jump:
+    """Where the bias jumps."""
+
+    row: int
+    """The first row after it."""
+    axis: int
+    """Component in which it shows most."""
+    deviations: float
+    """How many standard deviations of chance it is."""
+
+
+def strongest_jump(fitted: Fit) -> Jump | None:
+    """Look for a step of one axis at every row.
+
+    Args:
+        fitted: The fit.
+
+    Returns:
+        The strongest step, if chance hardly makes it.
+    """
+    from scipy.special import ndtri  # here because importing it takes longer than most commands
+
+    rows = fitted.problem.rows
+    basis, covariance = fitted.directions.basis, fitted.estimate.covariance
+    best, tried = Jump(row=0, axis=0, deviations=0.0), 0
+    pairs = zip(fitted.groups, fitted.estimate.shapes, fitted.estimate.variances, strict=True)
+    for number, (group, noise, variance) in enumerate(pairs):
+        known = group.line.solve(group.design @ basis, noise)[0] / variance
+        left = group.line.solve(group.values[:, None], noise)[0][:, 0] / variance
+        for axis in range(3):
+            for session in np.unique(rows.session):
+                mine = np.flatnonzero(rows.session[group.order[: len(rows)]] == session)
+                block = axis * len(rows) + mine
+                after = _places(len(mine))
+                tried += len(after)
+                steps = (np.arange(len(mine))[:, None] >= after).astype(np.float64)
+                worth = _worth(fitted, number, block, steps, noise) / variance
+                seen = steps.T @ known[block]
+                own = worth - np.einsum("kr,rs,ks->k", seen, covariance, seen)
+                told_apart = own > _LEAST_LEFT * worth
+                strength = np.where(
+                    told_apart, np.abs(steps.T @ left[block]) / np.sqrt(np.where(told_apart, own, 1.0)), 0.0
+                )
+                if len(strength) and strength.max() > best.deviations:
+                    k = int(strength.argmax())
+                    row = int(group.order[mine[after[k]]])
+                    best = Jump(row=row, axis=3 * number + axis, deviations=float(strength[k]))
+    limit = -float(ndtri(0.5 * _FALSE_ALARMS / max(tried, 1)))
+    return best if best.deviations > limit else None
+
+
+def _places(count: int) -> np.ndarray:
+    """Rows before which a step may be: not the first and last two, which any row that disagrees would be."""
+    places = np.arange(3, count - 2)
+    return places[:: max(1, len(places) // _PLACES)]
+
+
+def _worth(fitted: Fit, number: int, block: np.ndarray, steps: FloatArray, noise: SlowNoise) -> FloatArray:
+    """`s' V^-1 s` of steps within one axis of one session; shape (k,)."""
+    line = fitted.groups[number].line
+    part = type(line).of(line.time_s[block], share=line.share[block])
+    worth: FloatArray = (steps * part.solve(steps, noise)[0]).sum(axis=0)
+    return worth

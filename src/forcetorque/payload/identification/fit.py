@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fit a problem: linearise, estimate under the noise, repeat; with prior distributions of the parameters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.noise.regression import SHAPES
+from forcetorque.payload.identification.noise import (
+    Estimate,
+    Group,
+    Prior,
+    estimate,
+    groups_of,
+    noise_sizes,
+    sizes_under,
+)
+from forcetorque.payload.identification.parameters import OF_LOAD, Guess, Kind, places, unknowns_of
+from forcetorque.payload.identification.prediction import changes, expected, first_mount, inertial
+from forcetorque.payload.identification.problem import LoadProblem
+from forcetorque.payload.identification.robust_weights import row_distances, row_weights
+
+
+def before(problem: LoadProblem, guess: Guess) -> tuple[FloatArray, FloatArray]:
+    """Give the prior of the unknowns about a guess.
+
+    Args:
+        problem: The problem.
+        guess: Values of its p unknowns.
+
+    Returns:
+        Its precision, shape (p, p), zero where nothing is known; and that times what is expected of the unknowns less
+        their values; shape (p,).
+    """
+    listed = guess.parameters
+    precision, sides = np.zeros((len(listed), len(listed))), np.zeros(len(listed))
+    if problem.matrix_prior is not None:
+        for row, known in enumerate(np.linalg.inv(problem.matrix_prior)):
+            own = places(listed, Kind.MATRIX, row)
+            precision[np.ix_(own, own)] = known
+            sides[own] = -known @ guess.values[own]
+    for number, load in enumerate(problem.loads):
+        own = [place for kind in OF_LOAD for place in places(listed, kind, number)]
+        if not own:
+            continue
+        values, change = inertial(load, number, guess)
+        if load.expected is not None and load.precision is not None:
+            precision[np.ix_(own, own)] += change.T @ load.precision @ change
+            sides[own] += change.T @ load.precision @ (load.expected - values)
+        if problem.slope:
+            sides[own] -= change.T @ problem.slope[number]
+    return precision, sides
+
+
+_OPEN = 1e-6
+"""Directions of unit columns that change the readings by less than this part of the strongest one are open."""
+_STEPS = 25
+"""Steps in which a nonlinear problem settles; with rotations and a matrix it takes five."""
+_WEIGHED = 4
+"""First steps, in which each axis is weighed by what is left of it."""
+_SETTLED = 1e-6
+"""Change of the expected reading, over that of the noise, at which nothing moves any more."""
+_ROUNDING = 1e-12
+"""The same over the reading, of rows without noise."""
+_ROUNDS = 6
+"""Rounds in which rows that disagree lose weight; three are usual."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Directions:
+    """Which combinations of the unknowns the rows determine."""
+
+    basis: FloatArray
+    """Parameters of each that is determined; shape (p, r)."""
+    free: FloatArray
+    """Parameters of each that is open; shape (p, p - r)."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Fit:
+    """A fitted problem."""
+
+    problem: LoadProblem
+    """What was fitted."""
+    guess: Guess
+    """Values of the unknowns; in open directions the smallest."""
+    directions: Directions
+    """What is determined."""
+    estimate: Estimate
+    """Covariance in the directions that are determined, and noise."""
+    groups: tuple[Group, Group]
+    """Forces and moments, at the values of the unknowns."""
+    residual: FloatArray
+    """Reading less what is expected; shape (n, 6); N, N m."""
+    weight: FloatArray
+    """What every row counts; shape (n,)."""
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Covariance of all unknowns; shape (p, p); infinite in the rows and columns of what is open."""
+        basis = self.directions.basis
+        covariance = basis @ self.estimate.covariance @ basis.T
+        covariance[self.is_open] = np.inf
+        covariance[:, self.is_open] = np.inf
+        return covariance
+
+    @property
+    def is_open(self) -> BoolArray:
+        """Which unknowns have a share in what is open; shape (p,)."""
+        free = self.directions.free
+        scale = np.abs(free).max(axis=0, initial=0.0)
+        shared = np.abs(free) > _OPEN * np.where(scale > 0.0, scale, 1.0)
+        return np.asarray(shared.any(axis=1), dtype=np.bool_)
+
+    @cached_property
+    def half_width(self) -> FloatArray:
+        """Half-widths of 95 % intervals of all unknowns; shape (p,); infinite where they are open."""
+        return np.where(self.is_open, np.inf, self.estimate.half_widths(self.directions.basis))
+
+
+def plain_fit(
+    problem: LoadProblem, *, drift: bool, weight: FloatArray | None = None, alike: bool = False
+) -> tuple[Guess, FloatArray]:
+    """Fit by weighted least squares, as if the noise were white.
+
+    Args:
+        problem: The problem.
+        drift: Whether biases move evenly in time.
+        weight: What every row counts; shape (n,); the same if left out.
+        alike: Whether the three axes of force count alike, and those of moment, whatever their noise.
+
+    Returns:
+        Values of the unknowns, and residuals; shape (n, 6); N, N m.
+    """
+    rows = problem.rows
+    counts = rows.share * (np.ones(len(rows)) if weight is None else weight)
+    guess = Guess.zero(unknowns_of(problem, drift=drift), first_mount(problem) if problem.mount else None)
+    now = expected(problem, guess)
+    flat = replace(problem, slope=())
+    sizes = noise_sizes(rows.wrench - now)
+    rounding = _ROUNDING * noise_sizes(rows.wrench)
+    for step in range(_STEPS):
+        residual = rows.wrench - now
+        sizes = noise_sizes(residual * np.sqrt(counts)[:, None]) if 0 < step < _WEIGHED else sizes
+        if alike:
+            sizes = np.repeat(np.sqrt((sizes.reshape(2, 3) ** 2).mean(axis=1)), 3)
+        root = np.sqrt(counts)[:, None] / sizes
+        # the slope is that under the noise at the end: against that of the first steps it would outweigh the rows
+        posed = problem if step >= _WEIGHED else flat
+        moved = _step(posed, guess, changes(problem, guess) * root[:, :, None], residual * root)
+        guess = guess.moved(guess.values + moved)
+        before, now = now, expected(problem, guess)
+        shift = np.abs((now - before) / np.maximum(_SETTLED * sizes, rounding)).max(initial=0.0)
+        if shift < 1.0 and (step >= _WEIGHED or (alike and not problem.slope)):
+            break
+    return guess, rows.wrench - now
+
+
+def _step(problem: LoadProblem, guess: Guess, design: FloatArray, values: FloatArray) -> FloatArray:
+    """Least-squares step in the directions that are determined; shape (p,)."""
+    precision, sides = before(problem, guess)
+    basis = directions_of(design, precision).basis
+    flat = design.reshape(-1, design.shape[2]) @ basis
+    inner = flat.T @ flat + basis.T @ precision @ basis
+    step: FloatArray = basis @ np.linalg.solve(inner, flat.T @ values.reshape(-1) + basis.T @ sides)
+    return step
+
+
+def directions_of(design: FloatArray, precision: FloatArray) -> Directions:
+    """Tell what is determined from what is open.
+
+    Args:
+        design: Change of the readings with the unknowns, over their noise; shape (n, 6, p).
+        precision: Precision of the unknowns before the rows; shape (p, p).
+
+    Returns:
+        The directions.
+    """
+    flat = design.reshape(-1, design.shape[2])
+    products = flat.T @ flat + precision
+    size = np.sqrt(np.diag(products))
+    seen = size > 0.0
+    scale = np.where(seen, size, 1.0)
+    squares, turned = np.linalg.eigh(products / np.outer(scale, scale))
+    known = squares > _OPEN**2 * squares.max(initial=0.0)
+    scaled = turned / scale[:, None]
+    return Directions(basis=scaled[:, known], free=scaled[:, ~known])
+
+
+def fit(problem: LoadProblem, *, drift: bool) -> Fit:
+    """Fit under white and slow noise; rows that disagree with all others lose weight.
+
+    Args:
+        problem: The problem.
+        drift: Whether biases move evenly in time.
+
+    Returns:
+        The fit.
+    """
+    weight = np.ones(len(problem.rows))
+    for _ in range(_ROUNDS):
+        fitted = _weighed_fit(problem, drift=drift, weight=weight)
+        if (np.abs(fitted.residual) <= _ROUNDING * noise_sizes(problem.rows.wrench)).all():
+            break
+        lighter = row_weights(row_distances(fitted.groups, fitted.directions.basis, fitted.estimate, weight))
+        if np.allclose(lighter, weight, rtol=0.02, atol=1e-4):
+            break
+        weight = lighter
+    return fitted
+
+
+def _weighed_fit(problem: LoadProblem, *, drift: bool, weight: FloatArray) -> Fit:
+    rows = problem.rows
+    guess, residual = plain_fit(problem, drift=drift, weight=weight)
+    shapes = SHAPES[:1] if rows.time_s is None else SHAPES
+    linear = not any(one.kind in (Kind.MOUNT, Kind.TILT, Kind.MATRIX) for one in guess.parameters)
+    # what exact rows leave is rounding, of which a part may be exactly zero
+    rounding = _ROUNDING * noise_sizes(rows.wrench)
+    sizes = noise_sizes(np.hypot(residual * np.sqrt(rows.share * weight)[:, None], rounding))
+    for _ in range(2 if linear and rows.angular_velocity_products is None else 4):
+        design = changes(problem, guess)
+        precision, sides = before(problem, guess)
+        directions = directions_of(design / sizes[:, None], precision)
+        groups = groups_of(rows, design, residual, sizes, weight)
+        basis = directions.basis
+        prior = Prior(precision=basis.T @ precision @ basis, sides=basis.T @ sides)
+        answer = estimate(groups, basis, prior, shapes)
+        guess = guess.moved(guess.values + basis @ answer.mean)
+        residual = rows.wrench - expected(problem, guess)
+        used, sizes = sizes, sizes_under(groups_of(rows, design, residual, sizes, weight), answer, sizes, rounding)
+    return Fit(
+        problem=problem,
+        guess=guess,
+        directions=directions,
+        estimate=answer,
+        groups=groups_of(rows, design, residual, used, weight),
+        residual=residual,
+        weight=weight,
+    )

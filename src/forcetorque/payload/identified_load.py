@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Loads that were identified before, with several recordings, or by a sensor whose matrix is known in part."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated, Final
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.base.errors import ExperimentError, FormatError, known_names
+from forcetorque.base.pose import skew
+from forcetorque.base.stored_model import read_json
+from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.full_scale import full_scale_of
+from forcetorque.payload.identification.fit import fit
+from forcetorque.payload.identification.parameters import six_of
+from forcetorque.payload.identification.partly_known_matrix import MatrixSpread, settled
+from forcetorque.payload.identification.problem import INERTIAL, Load, LoadProblem
+from forcetorque.payload.identification.several_recordings import together
+from forcetorque.payload.identification.solution import LoadEstimate, LoadSolution
+from forcetorque.payload.identification.solve import load_estimates
+from forcetorque.recording.recording import Use
+
+SCHEMA = "forcetorque/payload/2"
+"""Form of the results that are read."""
+_ROUNDING = np.repeat([1e-4, 1e-5, 1e-6], [1, 3, 6])
+"""kg, kg m, kg m2: nothing was weighed better. What was stated there, or follows from what was estimated as the inertia
+of a point mass does, has a precision by this; one that is much larger hides from the numbers what is told at all."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WeighedLoad:
+    """A load that was weighed before."""
+
+    load: Load
+    """What is known of it."""
+    serial: str
+    """Serial number of the sensor that weighed it."""
+    beside: tuple[str, ...]
+    """Loads that were stated when it was weighed, which tell the scale of the sensor; itself if it was stated."""
+
+
+class _Row(BaseModel):
+    model_config = ConfigDict(frozen=True, arbitrary_types_allowed=True)
+
+    load: str
+    estimated: bool
+    mass_kg: float | None
+    link: str | None = None
+    inertial: Annotated[FloatArray, ArrayField((INERTIAL,))] | None = None
+    covariance: Annotated[FloatArray, ArrayField((INERTIAL, INERTIAL))] | None = None
+
+
+class _Weighed(BaseModel):
+    model_config = ConfigDict(frozen=True)
+
+    serial: str
+    loads: tuple[_Row, ...]
+
+
+def read_weighed(file: Path, name: str, link: str) -> WeighedLoad:
+    """Read a load from a result of `forcetorque payload`.
+
+    Args:
+        file: JSON file.
+        name: Name of the load; if the file has one only, whatever its name.
+        link: Link that it hangs on, in whose frame it was weighed.
+
+    Returns:
+        The load under this name, and what weighed it.
+
+    Raises:
+        FormatError: If it is no such result.
+        ExperimentError: If it has no such load, or leaves it open, or weighed it in another frame.
+    """
+    content = read_json(file, expected="a result of `forcetorque payload FILE --format json`, there is none")
+    if not isinstance(content, dict) or content.get("schema") != SCHEMA:
+        raise FormatError(f"{file}: expected a result of `forcetorque payload FILE --format json`, schema {SCHEMA!r}")
+    try:
+        weighed = _Weighed.model_validate(content)
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(map(str, first["loc"]))
+        raise FormatError(f"{file}: {place}: {first['msg']}") from error
+    names = [row.load for row in weighed.loads]
+    if name not in names and len(names) != 1:
+        raise ExperimentError(f"{file}: no load {name!r}; {known_names(name, names)}")
+    row = weighed.loads[names.index(name) if name in names else 0]
+    if row.link is None:
+        raise ExperimentError(
+            f"{file}: expected a load that was weighed on a link of a robot, got {row.load!r} in the frame of a "
+            "sensor; state mass_kg and centre_of_mass_m in the frame of the link"
+        )
+    if row.link != link:
+        raise ExperimentError(f"{file}: expected a load on the link {link!r}, got {row.load!r} on {row.link!r}")
+    if row.inertial is None or row.covariance is None:
+        raise ExperimentError(f"{file}: the load {row.load!r} was left open there; weigh it again, or state mass_kg")
+    covariance = row.covariance + np.diag(_ROUNDING**2)
+    if not np.array_equal(covariance, covariance.T) or np.linalg.eigvalsh(covariance)[0] <= 0.0:
+        raise FormatError(f"{file}: loads: covariance: expected a symmetric positive matrix of {row.load!r}")
+    load = Load(
+        name=name,
+        inertia="unknown",
+        expected=row.inertial,
+        precision=np.asarray(np.linalg.inv(covariance), dtype=np.float64),
+    )
+    stated = tuple(one.load for one in weighed.loads if not one.estimated and one.mass_kg)
+    return WeighedLoad(load=load, serial=weighed.serial, beside=stated)
+
+
+def weighed_together(experiments: Mapping[str, Experiment]) -> dict[str, Experiment]:
+    """Let recordings weigh their loads together where one of them has a load that nobody stated.
+
+    Two tools tell more of a matrix, and of each other, than one does.
+
+    Args:
+        experiments: Experiments with one sensor, by the names of their recordings.
+
+    Returns:
+        The same; those with loads on links share what is estimated.
+
+    Raises:
+        ExperimentError: If files say different things of a load.
+    """
+    hanging = {name: experiment for name, experiment in experiments.items() if experiment.link_loads is not None}
+    loads = [experiment.link_loads for experiment in hanging.values() if experiment.link_loads is not None]
+    if len(hanging) < 2 or all(own.are_stated for own in loads) or all(own.beside for own in loads):
+        return dict(experiments)
+    _loads_of(hanging)
+    known: dict[str, LoadSolution] = {}
+    return {
+        name: experiment
+        if experiment.link_loads is None
+        else replace(experiment, link_loads=replace(experiment.link_loads, beside=hanging, _known=known))
+        for name, experiment in experiments.items()
+    }
+
+
+def joined_problem(
+    experiments: Mapping[str, Experiment],
+    *,
+    use: Use = Use.CALIBRATION,
+    among: Mapping[str, Experiment] | None = None,
+) -> LoadProblem:
+    """Ask what recordings together tell of the loads on their robots.
+
+    Args:
+        experiments: Experiments with loads on links, by the names of their recordings.
+        use: Use of the intervals; recordings without one are passed over.
+        among: Recordings that number the loads, if those are more.
+
+    Returns:
+        The problem.
+
+    Raises:
+        ExperimentError: If no recording has such an interval, or files say different things of a load.
+    """
+    loads = _loads_of(among or experiments)
+    problems: dict[str, LoadProblem] = {}
+    for name, experiment in experiments.items():
+        if experiment.link_loads is None or not any(one.use is use for one in experiment.recording.intervals):
+            continue
+        own = experiment.link_loads.problem(experiment, use=use)
+        numbers = np.array([list(loads).index(load.name) for load in own.loads])
+        rows = replace(own.rows, load=numbers[own.rows.load])
+        problems[name] = replace(own, loads=tuple(loads.values()), rows=rows)
+    if not problems:
+        raise ExperimentError(
+            f'{", ".join(experiments)}: expected an interval with use = "{use}", which weighs the loads, got none; '
+            "state mass_kg and centre_of_mass_m"
+        )
+    return together(problems)
+
+
+def _loads_of(experiments: Mapping[str, Experiment]) -> dict[str, Load]:
+    """Loads by name, those of the first recording first."""
+    loads: dict[str, tuple[Load, str]] = {}
+    for name, experiment in experiments.items():
+        if experiment.link_loads is None:
+            continue
+        for load, link in zip(experiment.link_loads.loads, experiment.link_loads.links, strict=True):
+            first, on = loads.setdefault(load.name, (load, link))
+            if on != link or not _alike(first, load):
+                raise ExperimentError(
+                    f"{name}: load {load.name!r}: expected the link, mass_kg, centre_of_mass_m and inertia_kgm2 that "
+                    "another recording states of it, got others; give another tool another name, and state one alike"
+                )
+    return {name: load for name, (load, _) in loads.items()}
+
+
+def _alike(first: Load, other: Load) -> bool:
+    fields = ("mass", "centre_of_mass", "inertia", "expected", "precision")
+    return all(np.array_equal(getattr(first, field), getattr(other, field)) for field in fields)
+
+
+GYRATION_M: Final = 0.1
+"""Radius of gyration about its centre of mass that an unknown load is expected to stay below (one s.d.); m."""
+
+
+def spread_of(experiment: Experiment, sensor: ExperimentSensor) -> MatrixSpread:
+    """Say how far the matrix of a sensor may be off, as the generative calibration takes it.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors, with a prior.
+
+    Returns:
+        The spread.
+
+    Raises:
+        ExperimentError: If it has no prior, or its full scale is not known.
+    """
+    if sensor.prior is None:
+        raise ExperimentError(f"sensor {sensor.name!r}: expected prior, the matrix that is known in part, got none")
+    accuracy = experiment.fit_options.accuracy
+    full_scale = full_scale_of(sensor, accuracy, channels=sensor.prior.shape[1])
+    return MatrixSpread.of(sensor.prior, Assumptions(full_scale=full_scale, accuracy=accuracy))
+
+
+def with_matrix_in_part(problem: LoadProblem, spread: MatrixSpread) -> LoadProblem:
+    """Let the matrix be known in part, and unknown inertias be those of loads of a usual size.
+
+    Args:
+        problem: Rows and loads.
+        spread: How far the matrix may be off.
+
+    Returns:
+        The problem to solve.
+    """
+    free = [isinstance(load.inertia, str) and load.expected is None for load in problem.loads]
+    if not any(free):
+        return settled(problem, spread)
+    points = tuple(
+        replace(load, inertia=None) if unknown else load for load, unknown in zip(problem.loads, free, strict=True)
+    )
+    # only their places are wanted of it: sizes of the matrix would run after what the inertias do
+    expected = replace(problem, loads=points, matrix_prior=spread.covariance(spread.expected))
+    first = fit(expected, drift=bool(problem.drift))
+    sized = tuple(
+        _of_usual_size(load, estimate) if unknown and estimate.is_determined else load
+        for load, estimate, unknown in zip(problem.loads, load_estimates(first), free, strict=True)
+    )
+    return settled(replace(problem, loads=sized), spread)
+
+
+def _of_usual_size(load: Load, point: LoadEstimate) -> Load:
+    """A load whose inertia about its centre of mass is that of a body of usual size."""
+    hat = skew(point.centre_of_mass)
+    expected, precision = np.zeros(INERTIAL), np.zeros((INERTIAL, INERTIAL))
+    expected[4:] = six_of(-point.mass * hat @ hat)
+    precision[4:, 4:] = np.eye(6) / (abs(point.mass) * GYRATION_M**2) ** 2
+    return replace(load, expected=expected, precision=precision)

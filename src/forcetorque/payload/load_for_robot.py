@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a robot has to know of the load of a wrist sensor, taken from its experiment."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.output_file import refuse_output
+from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.payload.diagnostics import overweight_loads
+from forcetorque.payload.identification.solution import Hypothesis
+from forcetorque.payload.payload import WeighedLoad
+from forcetorque.payload.result import HypothesisRow
+from forcetorque.payload.robot_files.formats import LoadFormat
+from forcetorque.payload.robot_files.robot_load import RobotLoad
+from forcetorque.payload.robot_files.writing import write_load_file
+from forcetorque.payload.wrist_load import LOAD_LINK, WristLoads
+from forcetorque.recording.recording import Use
+
+
+def robot_load(
+    run: SensorRun, bias: Sequence[float | None] | FloatArray, *, weighed: WeighedLoad | None = None
+) -> RobotLoad:
+    """Give the load of a wrist sensor, estimated or stated, with a bias of the sensor.
+
+    Args:
+        run: The wrist sensor.
+        bias: Reading without load, such as that of `weigh_load`, or minus the offset of `tare`; shape (6,); N, N m;
+            None where the data leave it open.
+        weighed: What several recordings say together, as `weigh_load` gives it; the run alone if None.
+
+    Returns:
+        The load, to write it for a robot (`export_load`).
+
+    Raises:
+        ExperimentError: If the experiment is of a robot with links, has several loads, leaves load or bias open, or if
+            the readings contradict the frames, senses and units by which the load was weighed.
+    """
+    experiment, known = run.experiment, np.array(bias, dtype=np.float64)
+    if experiment.wrist is None:
+        raise ExperimentError("expected [load], of which a robot is told, got the links of [robot]")
+    supports = experiment.wrist.supports
+    if len(supports) != 1:
+        names = ", ".join(map(repr, supports))
+        raise ExperimentError(
+            f"expected one [[load]], of which a robot is told, got {names}: leave the others, and their intervals, out "
+            "of the experiment file"
+        )
+    if not np.isfinite(known).all():
+        names = ", ".join(np.array(WRENCH_COMPONENTS)[~np.isfinite(known)])
+        raise ExperimentError(
+            f"expected a bias along every axis, of which a robot is told, the data leave {names} open: "
+            "`forcetorque payload` says what to record"
+        )
+    if contradiction := next(_contradictions(run, experiment.wrist, weighed), None):
+        raise ExperimentError(
+            f"expected a load that the readings agree with, of which a robot is told, they say: {contradiction}; mend "
+            "that, and weigh again"
+        )
+    if weighed is None:
+        (support,) = supports.values()
+        inertia = experiment.model_on(support).links[LOAD_LINK]
+        mass, centre = inertia.mass, inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3)
+    else:
+        (load,) = weighed.loads
+        if load.mass_kg is None or None in load.centre_of_mass_m:
+            raise ExperimentError(
+                f"expected a load that the recordings determine, of which a robot is told, they leave {load.load!r} "
+                "open: `forcetorque payload` says what to record"
+            )
+        mass, centre = load.mass_kg, np.array(load.centre_of_mass_m, dtype=np.float64)
+    matrix = run.sensor.prior if run.sensor.quantity == "raw" else None
+    return RobotLoad(
+        sensor=run.sensor.name,
+        frame=next(iter(experiment.model.links)),
+        direction=experiment.wrist.direction,
+        mass=mass,
+        centre_of_mass=centre,
+        bias=known,
+        matrix=np.eye(6) if matrix is None else matrix,
+    )
+
+
+def _contradictions(run: SensorRun, hanging: WristLoads, weighed: WeighedLoad | None) -> Iterator[str]:
+    """What says that the load is not what hangs there, or the bias not that of the sensor."""
+    accounts: Sequence[Hypothesis | HypothesisRow] = ()
+    if weighed is not None:
+        accounts = weighed.hypotheses
+    elif run.has(Use.CALIBRATION) and hanging.table.applied is None:
+        accounts = hanging.solution(run.experiment).hypotheses
+    # a mass that is stated as 0 is no mistake: a robot may be told that nothing hangs there
+    spared = {"no load"} if hanging.are_stated else set()
+    against = (account for account in accounts if account.severity == "contradiction")
+    yield from (f"{account.name}: {account.words}" for account in against if account.name not in spared)
+    yield from overweight_loads(run)
+
+
+def export_load(
+    load: RobotLoad,
+    output: Path | str,
+    form: LoadFormat,
+    *,
+    world_frame: str | None = None,
+    body_H_sensor: FloatArray | None = None,
+    force: bool = False,
+) -> str:
+    """Write the file in which a robot is told what hangs on its sensor.
+
+    Args:
+        load: The load.
+        output: File to write or to replace.
+        form: Form of the file.
+        world_frame: For `gravity-filter`, the frame of tf whose z axis points up.
+        body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body; shape (4, 4); m.
+        force: Whether a file that is neither a result nor a figure may be replaced.
+
+    Returns:
+        What the program does with it, in words.
+    """
+    refuse_output(output, force=force)
+    write_load_file(output, load, form, world_frame=world_frame, body_H_sensor=body_H_sensor)
+    return form.convention

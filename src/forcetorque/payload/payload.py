@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Identify the payload of a wrist sensor, or of a robot beyond a sensor, from the sensor's own measurements."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.noise.means import means_over
+from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.payload.diagnostics import load_doubts, overweight_loads, reversed_sense
+from forcetorque.payload.identification.prediction import instants, load_wrench
+from forcetorque.payload.identification.problem import LoadProblem
+from forcetorque.payload.identification.several_recordings import together
+from forcetorque.payload.identification.solution import LoadEstimate, LoadSolution
+from forcetorque.payload.identification.solve import solve
+from forcetorque.payload.identified_load import joined_problem
+from forcetorque.payload.link_loads import LinkLoads
+from forcetorque.payload.result import (
+    BiasRow,
+    BiasTestRow,
+    DriftRow,
+    HypothesisRow,
+    JudgedLoadRow,
+    LoadRow,
+    RecordingLoadRow,
+    RowThatDisagrees,
+    VariableRow,
+    six,
+)
+from forcetorque.payload.summary import (
+    bias_words,
+    disagreements,
+    drift_words,
+    inertia_words,
+    load_words,
+    payload_doubts,
+)
+from forcetorque.payload.wrist_load import WristLoads
+from forcetorque.recording.recording import Use
+from forcetorque.results.result import Result
+from forcetorque.results.row import WrenchValues
+from forcetorque.results.table import Table, table_of
+
+
+def hanging_on(run: SensorRun) -> WristLoads | LinkLoads:
+    """Give what hangs on a wrist sensor, or on the robot.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        The loads.
+
+    Raises:
+        ExperimentError: If nothing hangs on either.
+    """
+    hanging = run.experiment.wrist or run.experiment.link_loads
+    if hanging is None:
+        raise ExperimentError(
+            "expected [[load]], what hangs on the sensor, got [robot] alone; add [[load]] with link, the link of the "
+            "URDF that it is fastened to, or give [load] in place of [robot]"
+        )
+    return hanging
+
+
+def links_of(campaign: Campaign) -> dict[str, str]:
+    """Name the links of the loads on a robot.
+
+    Args:
+        campaign: The recordings.
+
+    Returns:
+        Link by name of the load; none for loads on a wrist sensor.
+    """
+    return {
+        load.name: link
+        for run in campaign.runs
+        if run.experiment.link_loads is not None
+        for load, link in zip(run.experiment.link_loads.loads, run.experiment.link_loads.links, strict=True)
+    }
+
+
+def weighed(campaign: Campaign) -> LoadSolution:
+    """Weigh the loads by all recordings together.
+
+    Args:
+        campaign: The recordings.
+
+    Returns:
+        Loads and biases.
+
+    Raises:
+        ExperimentError: If some have a wrist sensor and others a robot.
+    """
+    first, hanging = campaign.runs[0], [hanging_on(run) for run in campaign.runs]
+    if len({type(one) for one in hanging}) > 1:
+        raise ExperimentError(
+            "expected recordings that all have [robot], or all a wrist sensor without it, got some of both; state the "
+            "loads in one way"
+        )
+    if len(hanging) == 1 or isinstance(hanging[0], LinkLoads):
+        return hanging[0].solution(first.experiment)
+    named = zip(campaign.recordings, campaign.runs, hanging, strict=True)
+    return solve(together({name: own.problem(run.experiment) for name, run, own in named}))
+
+
+def weighed_alone(campaign: Campaign) -> Iterator[tuple[str, LoadEstimate]]:
+    """Weigh the loads by each of several recordings by itself.
+
+    Args:
+        campaign: The recordings.
+
+    Yields:
+        Name of the recording, and a load.
+    """
+    if len(campaign.runs) < 2:
+        return
+    for name, run in zip(campaign.recordings, campaign.runs, strict=True):
+        experiment = run.experiment
+        if experiment.link_loads is not None:
+            experiment = experiment.link_loads.beside.get(name, experiment)
+        if experiment.wrist is not None:
+            yield from ((name, load) for load in experiment.wrist.solution(experiment).loads)
+        elif experiment.link_loads is not None and run.has(Use.CALIBRATION):
+            yield from ((name, load) for load in experiment.link_loads.solution(experiment).loads)
+
+
+def problem_among(campaign: Campaign, run: SensorRun, use: Use) -> LoadProblem:
+    """Ask what a recording tells of the loads, numbered as `weighed` numbers them.
+
+    Args:
+        campaign: The recordings.
+        run: One of them.
+        use: Use of the intervals.
+
+    Returns:
+        The problem.
+    """
+    hanging, name = hanging_on(run), campaign.recording(run)
+    if isinstance(hanging, LinkLoads):
+        return joined_problem({name: run.experiment}, use=use, among=hanging.beside or None)
+    return hanging.problem(run.experiment, use=use)
+
+
+_TOUCHED = 0.2
+"""Share of the weight of a load that nothing but a contact leaves, on intervals that were not fitted (heuristic)."""
+_LASTING_S = 0.25
+"""What lasts shorter is a jerk of the motion, or a tap; s."""
+
+
+class WeighedLoad(Result):
+    """What hangs on a wrist sensor or on a robot, and the sensor's biases."""
+
+    of_several: ClassVar[tuple[str, ...]] = ("recordings", "disagreements")
+    interval_uses = ()
+
+    schema_name: Literal["forcetorque/payload/2"] = Field(default="forcetorque/payload/2", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    rows: int
+    """Number of means or poses that were fitted."""
+    left_out: int
+    """Samples that lack a finite reading or motion."""
+    loads: tuple[LoadRow, ...]
+    """Loads, in the order of the file."""
+    sessions: tuple[BiasRow, ...]
+    """Bias of every session, in the order of time."""
+    variables: tuple[VariableRow, ...]
+    """What the variables of the sensor add."""
+    drift: DriftRow
+    """Whether biases move evenly in time, and why."""
+    bias_tests: tuple[BiasTestRow, ...]
+    """Whether one bias would do."""
+    mount_rad: tuple[float, float, float] | None
+    """Rotation vector from the axes of the motion to those of the sensor; none where it was not asked for."""
+    tilt_rad: tuple[float, float] | None
+    """Rotation vector of gravity about x and y of the world; none where it was not asked for."""
+    open: tuple[str, ...]
+    """What the rows leave open, in sentences."""
+    disagreeing: tuple[RowThatDisagrees, ...]
+    """Rows that disagree with all others."""
+    hypotheses: tuple[HypothesisRow, ...]
+    """Other accounts of the rows that explain them better, the best first."""
+    judged: tuple[JudgedLoadRow, ...]
+    """Validation intervals, held against the loads."""
+    residual_rms: WrenchValues
+    """Root mean square residual; N, N m."""
+    spanned_directions: int
+    """Directions of wrench, of six, that the loads move: one centre of mass moves three, two five."""
+    recordings: tuple[RecordingLoadRow, ...] = ()
+    """What each of several recordings says by itself."""
+    disagreements: tuple[str, ...] = ()
+    """Where they differ by more than their intervals, in sentences."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give the loads, then biases, what is open and what disagrees.
+
+        Yields:
+            Sentences and tables.
+        """
+        source = f"{self.sensor} ({self.serial}), {self.rows} rows"
+        for load in self.loads:
+            yield f"{source}: {load_words(load)}"
+            if (inertia := inertia_words(load)) is not None:
+                yield inertia
+        yield table_of(self.sessions, "bias: reading without load")
+        if self.variables:
+            yield table_of(self.variables, "what variables add to the reading, per unit")
+        yield drift_words(self.drift)
+        yield from (bias_words(test, self.loads) for test in self.bias_tests)
+        yield from self.open
+        if self.disagreeing:
+            yield table_of(self.disagreeing, "rows that disagree with all others, and count less")
+        if self.recordings:
+            yield table_of(self.recordings, "what each recording says by itself, ± half a 95 % interval")
+            yield from self.disagreements or ("the recordings agree within their intervals",)
+        if self.judged:
+            yield table_of(self.judged, "what the loads leave of intervals that were not fitted, about its middle")
+        rms = ", ".join(f"{value:.4f}" for value in self.residual_rms)
+        yield f"residual RMS {rms} N, N m; the loads move {self.spanned_directions} of 6 directions of wrench"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give a line for every load and session.
+
+        Returns:
+            The lines: a load beside the bias of a session.
+        """
+        return [load.flat() | session.flat() for load in self.loads for session in self.sessions]
+
+
+@with_recording_notes
+def weigh_load(runs: Runs) -> WeighedLoad:
+    """Give the loads that the calibration intervals of one or several experiments tell.
+
+    Args:
+        runs: The sensor; of several experiments, all under the same loads for a wrist sensor without a robot, while
+            on a robot loads of one name are one load.
+
+    Returns:
+        Loads, biases, their 95 % intervals, what stays open, and what makes it doubtful.
+    """
+    campaign = Campaign.of(runs)
+    solution, first, links = weighed(campaign), campaign.runs[0], links_of(campaign)
+    table = None if first.experiment.wrist is None else first.experiment.wrist.table
+    alone = [RecordingLoadRow.by(name, load, links.get(load.name)) for name, load in weighed_alone(campaign)]
+    result = WeighedLoad(
+        experiment=", ".join(campaign.experiments),
+        sensor=first.sensor.name,
+        serial=first.sensor.serial,
+        rows=len(solution.residual),
+        left_out=sum(hanging_on(run).left_out(run.experiment) for run in campaign.runs if run.has(Use.CALIBRATION)),
+        loads=tuple(LoadRow.of(load, links.get(load.name)) for load in solution.loads),
+        sessions=tuple(BiasRow.of(session) for session in solution.sessions),
+        variables=tuple(
+            VariableRow(variable=one.name, coefficients=six(one.coefficients), half_width_95=six(one.half_width))
+            for one in solution.variables
+        ),
+        drift=DriftRow.of(solution.drift),
+        bias_tests=tuple(BiasTestRow.of_test(test) for test in solution.bias_tests),
+        mount_rad=None if table is None or table.mount is None else _vector(solution),
+        tilt_rad=None if table is None or table.tilt is None else (float(solution.tilt[0]), float(solution.tilt[1])),
+        open=tuple(entry.words for entry in solution.open_directions),
+        disagreeing=tuple(RowThatDisagrees.of(row) for row in solution.disagreeing),
+        hypotheses=tuple(HypothesisRow.of(one) for one in solution.hypotheses),
+        judged=tuple(row for run in campaign.runs for row in _judged(campaign, run, solution)),
+        residual_rms=solution.residual_rms,
+        spanned_directions=solution.spanned,
+        recordings=tuple(alone),
+        disagreements=tuple(disagreements(alone)),
+    )
+    of_runs = (
+        words for run in campaign.runs for words in (*overweight_loads(run), *reversed_sense(run), *load_doubts(run))
+    )
+    doubts = (*payload_doubts(result), *of_runs)
+    return result.model_copy(update={"warnings": doubts})
+
+
+def _vector(solution: LoadSolution) -> tuple[float, float, float]:
+    from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
+
+    x, y, z = Rotation.from_matrix(solution.mount).as_rotvec()
+    return float(x), float(y), float(z)
+
+
+def _judged(campaign: Campaign, run: SensorRun, solution: LoadSolution) -> Iterator[JudgedLoadRow]:
+    """What the loads leave of validation intervals, about the middle of each: its bias is not known."""
+    if not run.has(Use.VALIDATION) or not all(load.is_determined for load in solution.loads):
+        return
+    problem = problem_among(campaign, run, Use.VALIDATION)
+    wrench = load_wrench(problem, solution.guess) @ solution.response.T
+    left = problem.rows.wrench - wrench
+    for number, label in enumerate(problem.blocks):
+        mine = problem.rows.block == number
+        if not mine.any():
+            continue
+        about = left[mine] - np.median(left[mine], axis=0)
+        _, lasting, _ = means_over(instants(problem.rows)[mine], about, _LASTING_S)
+        force, largest = (np.linalg.norm(one[:, :3], axis=1) for one in (about, lasting))
+        weight = float(np.median(np.linalg.norm(wrench[mine, :3], axis=1)))
+        yield JudgedLoadRow(
+            interval=label,
+            rows=int(mine.sum()),
+            force_error_N=float(np.sqrt((force**2).mean())),
+            moment_error_Nm=float(np.sqrt((about[:, 3:] ** 2).sum(axis=1).mean())),
+            largest_force_N=float(largest.max()),
+            touched=bool(largest.max() > _TOUCHED * weight),
+        )

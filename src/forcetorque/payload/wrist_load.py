@@ -1,0 +1,284 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The load of a wrist sensor as a robot of two links, with the inertia that a model takes for it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.experiment.experiment import ExperimentSensor
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.payload.identification.problem import Load, LoadProblem
+from forcetorque.payload.identification.solution import LoadEstimate, LoadSolution
+from forcetorque.payload.identification.solve import solve
+from forcetorque.payload.section import Load as LoadTable
+from forcetorque.payload.wrist_samples import load_problem, samples_left_out
+from forcetorque.recording.recording import MovingSupport, Support, Use
+from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
+
+if TYPE_CHECKING:
+    from forcetorque.experiment.experiment import Experiment
+
+
+def inertia_of_stated(load: Load) -> Inertia:
+    """Give the inertia of a load of which nothing is to be estimated.
+
+    Args:
+        load: The load.
+
+    Returns:
+        Its inertia in its own frame; zero where nothing hangs, or something of it is to be estimated.
+    """
+    if not load.mass or isinstance(load.inertia, str):
+        return Inertia.zero()
+    return Inertia.about_centre_of_mass(
+        mass=load.mass,
+        centre_of_mass=np.zeros(3) if load.centre_of_mass is None else load.centre_of_mass,
+        second_moment=np.zeros((3, 3)) if load.inertia is None else load.inertia,
+    )
+
+
+def inertia_of_estimated(solution: LoadSolution, estimate: LoadEstimate) -> Inertia:
+    """Give the inertia of a load that readings told.
+
+    Args:
+        solution: What they told, with what they leave open.
+        estimate: The load.
+
+    Returns:
+        Its inertia in its own frame.
+
+    Raises:
+        ExperimentError: If they leave it open, or fit a negative mass.
+    """
+    if not estimate.is_determined:
+        words = "; ".join(entry.words for entry in solution.open_directions) or "no calibration interval has it"
+        raise ExperimentError(
+            f"load {estimate.name!r}: the calibration intervals do not determine it: {words}; `forcetorque payload` "
+            "says what they do determine, and mass_kg with centre_of_mass_m state the load"
+        )
+    if not estimate.mass >= 0.0:
+        words = "; ".join(entry.words for entry in solution.hypotheses) or "see `forcetorque payload`"
+        raise ExperimentError(
+            f"load {estimate.name!r}: the readings fit a mass of {estimate.mass:.3g} kg, beside the links of the URDF "
+            f"where there is one; expected a positive one: {words}"
+        )
+    return estimate.as_inertia()
+
+
+LOAD_LINK = "load"
+"""Link of what hangs on the sensor."""
+_JOINT = "mount"
+_ANY_LOAD = Inertia.about_centre_of_mass(mass=1.0, centre_of_mass=(0.05, 0.05, 0.05), second_moment=np.zeros((3, 3)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WristLoads:
+    """What hangs on a wrist sensor, and in which intervals; what nobody stated is estimated when it is asked for."""
+
+    loads: tuple[Load, ...]
+    """Loads in the order of the file."""
+    supports: Mapping[str, MovingSupport]
+    """Support of the intervals of each load, by its name."""
+    table: LoadTable
+    """What the file says of the sensor under them."""
+    sensor: ExperimentSensor
+    """The sensor."""
+    _known: dict[str, LoadSolution] = field(default_factory=dict, repr=False)
+
+    @property
+    def are_stated(self) -> bool:
+        """Whether nothing of any load is to be estimated."""
+        return self.table.applied is not None or all(load.is_known for load in self.loads)
+
+    @property
+    def direction(self) -> MeasureDirection:
+        """Who acts on whom in the reading; the load is the child."""
+        return self.table.measure_direction
+
+    def number_of(self, support: Support | MovingSupport | None) -> int:
+        """Say which load hangs on the sensor in an interval.
+
+        Args:
+            support: Support of the interval.
+
+        Returns:
+            Its number; 0 where there is one only.
+        """
+        supports = list(self.supports.values())
+        return next((number for number, own in enumerate(supports) if own is support), 0)
+
+    def stated_inertia(self) -> Inertia:
+        """Give what the file says of the load.
+
+        Returns:
+            Its inertia in the frame of the sensor; zero where there are several, or something is to be estimated.
+        """
+        (load, *others) = self.loads
+        return Inertia.zero() if others or not load.is_known else inertia_of_stated(load)
+
+    def nominal_model(self, stated: RobotModel) -> RobotModel:
+        """Give the robot with a load that moves the reading as the stated one does, or as any load would.
+
+        Args:
+            stated: The robot with what the file says of the load.
+
+        Returns:
+            The same; with 1 kg beside all axes of the sensor where something of the load is to be estimated, or there
+            are several.
+        """
+        if self.are_stated and len(self.loads) == 1:
+            return stated
+        return load_model(self.table, self.sensor.name, _ANY_LOAD)
+
+    def problem(self, experiment: Experiment, *, use: Use = Use.CALIBRATION) -> LoadProblem:
+        """Ask what intervals tell of the loads.
+
+        Args:
+            experiment: The experiment.
+            use: Use of the intervals.
+
+        Returns:
+            The problem.
+        """
+        return load_problem(experiment, self, use=use)
+
+    def left_out(self, experiment: Experiment) -> int:
+        """Count samples of the calibration intervals that lack a finite reading or motion.
+
+        Args:
+            experiment: The experiment.
+
+        Returns:
+            Their number.
+        """
+        return samples_left_out(experiment, self)
+
+    def solution(self, experiment: Experiment) -> LoadSolution:
+        """Estimate the loads on the calibration intervals, when it is first asked for.
+
+        Args:
+            experiment: The experiment, of which the recording and its intervals are used.
+
+        Returns:
+            Loads and biases.
+
+        Raises:
+            ExperimentError: If the wrench of the load is stated, so that there is nothing to estimate.
+        """
+        if self.table.applied is not None:
+            raise ExperimentError(
+                f"load: the wrench of {self.table.applied!r} says what the sensor must read, so there is nothing to "
+                "weigh; state motion in place of applied"
+            )
+        if "solution" not in self._known:
+            self._known["solution"] = solve(self.problem(experiment))
+        return self._known["solution"]
+
+    def model_on(self, support: Support | MovingSupport, experiment: Experiment) -> RobotModel:
+        """Give the robot with the load of an interval.
+
+        Args:
+            support: Support of the interval.
+            experiment: The experiment.
+
+        Returns:
+            The robot.
+
+        Raises:
+            ExperimentError: If the recording does not determine the load.
+        """
+        number = self.number_of(support)
+        if self.are_stated and len(self.loads) == 1:
+            return experiment.model
+        if self.table.mount is not None or self.table.tilt is not None:
+            raise ExperimentError(
+                "load: an unknown mount or tilt is for `forcetorque payload`; turn the motion streams by what it says, "
+                "then leave mount and tilt out"
+            )
+        solution = self.solution(experiment)
+        inertia = inertia_of_estimated(solution, solution.loads[number])
+        return load_model(self.table, self.sensor.name, inertia)
+
+
+def read_loads(
+    tables: Sequence[LoadTable], file: Path, supports: Mapping[str, MovingSupport], sensor: ExperimentSensor
+) -> WristLoads:
+    """Take the loads of an experiment file.
+
+    Args:
+        tables: Tables `[load]` or `[[load]]`.
+        file: The experiment file, for messages.
+        supports: Support of the intervals of each load, by its name.
+        sensor: The sensor.
+
+    Returns:
+        The loads.
+    """
+    with stated_in(f"{file}: load"):
+        loads = tuple(
+            Load(
+                name=table.name,
+                mass=table.mass_kg,
+                centre_of_mass=table.centre_of_mass_m,
+                inertia=table.inertia_kgm2,
+            )
+            for table in tables
+        )
+    return WristLoads(loads=loads, supports=supports, table=tables[0], sensor=sensor)
+
+
+def load_model(load: LoadTable, sensor: str, inertia: Inertia) -> RobotModel:
+    """Build the robot of a wrist sensor.
+
+    Args:
+        load: The `[load]` table.
+        sensor: Name of the sensor.
+        inertia: Inertia of the load in the sensor's frame.
+
+    Returns:
+        Two links, joined by a fixed joint with the sensor.
+    """
+    identity = np.eye(4)
+    return RobotModel(
+        name=f"load of {sensor}",
+        links={load.frame: Inertia.zero(), LOAD_LINK: inertia},
+        joints={
+            _JOINT: Joint(
+                name=_JOINT,
+                type=JointType.FIXED,
+                parent=load.frame,
+                child=LOAD_LINK,
+                parent_H_child=identity,
+                axis=np.array([1.0, 0.0, 0.0]),  # a fixed joint has none
+            )
+        },
+        sensors={
+            sensor: ForceTorqueSensor(
+                name=sensor,
+                joint=_JOINT,
+                frame=SensorFrame.CHILD,
+                direction=load.measure_direction,
+                child_H_sensor=identity,
+            )
+        },
+    )
+
+
+def is_wrist_load(model: RobotModel) -> bool:
+    """Tell the robot of a wrist sensor from that of a URDF file.
+
+    Args:
+        model: A robot.
+
+    Returns:
+        Whether `load_model` made it.
+    """
+    return tuple(model.joints) == (_JOINT,) and tuple(model.links)[1:] == (LOAD_LINK,)

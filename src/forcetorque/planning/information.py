@@ -1,0 +1,298 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is known of a sensor before any recording, and the information that a recording to come would add."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import FitError
+from forcetorque.base.noise.slow_noise import SlowNoise, Timeline
+from forcetorque.experiment.calibration import assumptions as expected
+from forcetorque.experiment.calibration.assumptions import LOADS, QUADRATIC, Assumptions, rows_of
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
+from forcetorque.experiment.calibration.quadratic_correction import PAIRS, quadratic_terms
+
+ASSUMED_NOISE: Final = 1e-4
+"""White noise of a mean over a second that is assumed where none was measured, as a share of full scale."""
+ASSUMED_DRIFT: Final = 5e-4
+"""Size of the slow offset that is assumed with it, or the accuracy of the reference where that is larger."""
+ASSUMED_TIME_S: Final = 15.0
+"""How long that offset is assumed to last; s."""
+
+UNKNOWN: Final = 1e5
+"""Standard deviation of what an unknown coefficient makes of the loads to come, over the noise of a reading."""
+
+
+def unfitted_posterior(
+    matrix: FloatArray, assumptions: Assumptions, variables: Sequence[LinearVariable] = ()
+) -> Posterior:
+    """Say what the generative model takes for granted before any data.
+
+    Args:
+        matrix: Prior matrix; shape (6, c); N/count, N m/count.
+        assumptions: What is known beside it.
+        variables: Linear variables that will be fitted.
+
+    Returns:
+        Prior covariance and assumed noise; its only session has an offset that is known.
+
+    Raises:
+        FitError: If nothing tells what a variable may do.
+    """
+    rows = rows_of(matrix, assumptions, in_wrench=True)
+    unit = rows.unit
+    roots = np.concatenate(
+        [expected.SENSOR.expected * rows.sensor_root, expected.FRAME.expected * rows.frame_root], axis=2
+    )
+    prior = unit[:, None, None] ** 2 * roots @ roots.transpose(0, 2, 1)
+    size = LOADS + len(variables) + 1
+    covariance = np.zeros((len(unit), size, size))
+    covariance[:, :LOADS, :LOADS] = prior + assumptions.repeatability**2 * _spread(rows.sensor_root, unit)
+    for k, variable in enumerate(variables):
+        own = [expected.variable_size(variable, row) for row in rows.from_load]
+        if None in own:
+            raise FitError(
+                f"variable {variable.name!r}: expected prior_deviation, what one {variable.unit or 'unit'} of it may "
+                "do; before any recording nothing tells, and it is no temperature"
+            )
+        covariance[:, LOADS + k, LOADS + k] = (unit * np.array(own)) ** 2
+    drift = np.maximum(ASSUMED_DRIFT, rows.accuracy)
+    in_wrench = rows.space == "wrench"
+    return Posterior(
+        space=rows.space,
+        variables=tuple(variable.name for variable in variables),
+        sessions=("none",),
+        drift=False,
+        mean=np.zeros((len(unit), size)),
+        covariance=covariance,
+        learnt_covariance=prior,
+        prior_covariance=prior,
+        to_wrench=np.eye(LOADS) if in_wrench else matrix,
+        noise=tuple(
+            RowNoise(
+                white=ASSUMED_NOISE * float(one),
+                time_constant_s=ASSUMED_TIME_S,
+                ratio=float((slow / ASSUMED_NOISE) ** 2),
+            )
+            for one, slow in zip(unit, drift, strict=True)
+        ),
+        accuracy=assumptions.reference_accuracy(matrix),
+        repeatability=assumptions.repeatability,
+        load_centre=np.zeros(6),
+    )
+
+
+def blank_posterior(noise: FloatArray, load: FloatArray) -> Posterior:
+    """Say that nothing is known of a sensor, not even a prior matrix.
+
+    Args:
+        noise: White noise of a reading, as wrench; shape (6,); N, N m.
+        load: Sizes of the loads to come, by which coefficients are said to be unknown; shape (6,); N, N m.
+
+    Returns:
+        The posterior, whose rows are components of the wrench.
+    """
+    size = LOADS + 1
+    covariance = np.zeros((LOADS, size, size))
+    unknown = (UNKNOWN * noise[:, None] / load) ** 2
+    covariance[:, range(LOADS), range(LOADS)] = unknown
+    covariance[:, LOADS, LOADS] = (UNKNOWN * noise) ** 2
+    return Posterior(
+        space="wrench",
+        variables=(),
+        sessions=("none",),
+        drift=False,
+        mean=np.zeros((LOADS, size)),
+        covariance=covariance,
+        learnt_covariance=covariance[:, :LOADS, :LOADS].copy(),
+        prior_covariance=None,
+        to_wrench=np.eye(LOADS),
+        noise=tuple(RowNoise(white=float(one), time_constant_s=0.0, ratio=0.0) for one in noise),
+        accuracy=np.zeros(LOADS),
+        repeatability=0.0,
+        load_centre=np.zeros(LOADS),
+    )
+
+
+def _spread(roots: FloatArray, unit: FloatArray) -> FloatArray:
+    scaled = roots * unit[:, None, None]
+    spread: FloatArray = scaled @ scaled.transpose(0, 2, 1)
+    return spread
+
+
+_SESSION = "planned"
+_LEAST_NOISE = 1e-9
+"""Least white noise, in the unit of the row: a posterior without noise would be taught anything by one posture."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Lesson:
+    """Loads of a recording as its means over a second see them; one power-up."""
+
+    time_s: FloatArray
+    """Instants; shape (n,); s."""
+    wrench: FloatArray
+    """Loads; shape (n, 6); N, N m."""
+    variables: FloatArray
+    """Linear variables of the posterior, less their reference values; shape (n, v)."""
+
+    def __post_init__(self) -> None:
+        n = len(np.asarray(self.time_s))
+        for field, shape in (("time_s", (n,)), ("wrench", (n, 6)), ("variables", (n, None))):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
+
+    @property
+    def columns(self) -> FloatArray:
+        """What the unknowns of a row are multiplied by, without the offset; shape (n, 6 + v)."""
+        return np.hstack([self.wrench, self.variables])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Nuisance:
+    """Quadratic terms, which a fit has to tell from the matrix."""
+
+    load_to_full_scale: FloatArray
+    """Share of full scale that a load makes of six independent readings; shape (6, 6)."""
+    deviation: FloatArray
+    """What each of the 21 products of these may add to a row, as a standard deviation; shape (rows,)."""
+
+    @classmethod
+    def of(cls, matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool) -> Nuisance:
+        """Take what the generative model takes for granted.
+
+        Args:
+            matrix: Matrix of the sensor; shape (6, c).
+            assumptions: What is known beside it.
+            with_prior: Whether the rows of the posterior are components of the wrench.
+
+        Returns:
+            The terms.
+        """
+        rows = rows_of(matrix, assumptions, in_wrench=with_prior)
+        return cls(load_to_full_scale=rows.load_to_full_scale, deviation=QUADRATIC.expected * rows.unit)
+
+    def columns(self, wrench: FloatArray, centre: FloatArray) -> FloatArray:
+        """Compute the products.
+
+        Args:
+            wrench: Loads; shape (n, 6); N, N m.
+            centre: Load about which they are taken; shape (6,).
+
+        Returns:
+            Products; shape (n, 21).
+        """
+        return quadratic_terms((wrench - centre) @ self.load_to_full_scale.T)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Knowledge:
+    """What is known of a sensor, to which recordings can be added."""
+
+    posterior: Posterior
+    """Matrix, variables, and the offset of the last recording."""
+    together: FloatArray
+    """Covariance of matrix, variables and quadratic terms without the repeatability; shape (rows, q, q)."""
+    seconds: float
+    """How much was fitted so far, which the mean load is of; s."""
+    nuisance: Nuisance | None
+    """Quadratic terms; None for a sensor that is known to have none."""
+    centre: FloatArray | None
+    """Load about which they are taken; shape (6,); N, N m; None for the mean of the first recording."""
+
+    @classmethod
+    def of(cls, posterior: Posterior, *, seconds: float = 0.0, nuisance: Nuisance | None = None) -> Knowledge:
+        """Begin with a posterior; of its quadratic terms, which it does not keep, nothing is known.
+
+        Args:
+            posterior: What is known of the sensor.
+            seconds: How much was fitted so far; s.
+            nuisance: Quadratic terms; None for a sensor that is known to have none.
+
+        Returns:
+            What is known.
+        """
+        used, terms = 6 + len(posterior.variables), 0 if nuisance is None else len(PAIRS[0])
+        together = np.zeros((len(posterior.mean), used + terms, used + terms))
+        together[:, :used, :used] = posterior.covariance[:, :used, :used]
+        together[:, :6, :6] = posterior.learnt_covariance
+        if nuisance is not None:
+            together[:, used:, used:] = nuisance.deviation[:, None, None] ** 2 * np.eye(terms)
+        return cls(
+            posterior=posterior,
+            together=together,
+            seconds=seconds,
+            nuisance=nuisance,
+            centre=None,
+        )
+
+    def taught(self, lesson: Lesson) -> Knowledge:
+        """Add a recording.
+
+        Args:
+            lesson: The recording.
+
+        Returns:
+            What would be known after it; its offset is that of the recording.
+        """
+        posterior, used = self.posterior, 6 + len(self.posterior.variables)
+        centre = lesson.wrench.mean(axis=0) if self.centre is None else self.centre
+        line, columns = Timeline.of(lesson.time_s), lesson.columns
+        if self.nuisance is not None:
+            columns = np.hstack([columns, self.nuisance.columns(lesson.wrench, centre)])
+        mean = columns.mean(axis=0)
+        products = {shape: _product(line, columns - mean, shape) for shape in set(map(_shape, posterior.noise))}
+        repeated = posterior.covariance[:, :6, :6] - posterior.learnt_covariance
+        together = np.empty_like(self.together)
+        covariance = np.zeros((len(together), used + 1, used + 1))
+        moved = np.zeros((used + 1, 6))
+        moved[:6], moved[used] = np.eye(6), -mean[:6]
+        for k, noise in enumerate(posterior.noise):
+            information, weighed, worth = products[_shape(noise)]
+            variance = max(noise.white, _LEAST_NOISE) ** 2
+            together[k] = _narrowed(self.together[k], information / variance)
+            # from the unknowns to those that are kept and the offset
+            turned = np.vstack([np.eye(used, len(mean)), -(mean + weighed)])
+            covariance[k] = turned @ together[k] @ turned.T + moved @ repeated[k] @ moved.T
+            covariance[k, used, used] += variance / worth
+        seconds = self.seconds + len(line)
+        update = {
+            "sessions": (_SESSION,),
+            "drift": False,
+            "mean": np.zeros((len(together), used + 1)),
+            "covariance": covariance,
+            "learnt_covariance": together[:, :6, :6].copy(),
+            "load_centre": (self.seconds * posterior.load_centre + len(line) * mean[:6]) / seconds,
+        }
+        after = posterior.model_copy(update=update)
+        return Knowledge(posterior=after, together=together, seconds=seconds, nuisance=self.nuisance, centre=centre)
+
+
+def _shape(noise: RowNoise) -> SlowNoise:
+    return SlowNoise(time_constant_s=noise.time_constant_s, ratio=noise.ratio)
+
+
+def _product(line: Timeline, columns: FloatArray, noise: SlowNoise) -> tuple[FloatArray, FloatArray, float]:
+    """Information of the columns without the offset, their mean as it is weighed, and that of the offset alone."""
+    size = np.abs(columns).max(axis=0, initial=0.0)
+    size[size == 0.0] = 1.0
+    product, _ = line.product(np.asfortranarray(np.column_stack([columns / size, np.ones(len(line))])), noise)
+    worth = float(product[-1, -1])
+    mean = product[-1, :-1] / worth
+    information = product[:-1, :-1] - worth * np.outer(mean, mean)
+    return information * np.outer(size, size), mean * size, worth
+
+
+def _narrowed(covariance: FloatArray, information: FloatArray) -> FloatArray:
+    """`(covariance^-1 + information)^-1`, also where the covariance has no inverse."""
+    size = np.sqrt(np.maximum(np.diag(covariance), np.finfo(float).tiny))
+    values, vectors = np.linalg.eigh(covariance / np.outer(size, size))
+    root = size[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
+    inner = np.eye(len(root)) + root.T @ information @ root
+    narrowed: FloatArray = root @ np.linalg.solve(inner, root.T)
+    return 0.5 * (narrowed + narrowed.T)

@@ -1,0 +1,315 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Records and text of a plan: recordings with the errors expected after them, postures, and assumptions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Annotated
+
+import numpy as np
+
+from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
+from forcetorque.evaluation.load_cases.load_case import LoadCase
+from forcetorque.evaluation.load_cases.prediction import PredictedError
+from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.planning.information import ASSUMED_NOISE
+from forcetorque.planning.proposal import Proposal
+from forcetorque.planning.search import HELPS, Criterion
+from forcetorque.planning.workplace import NOTHING, Workplace
+from forcetorque.results.number_text import number
+from forcetorque.results.row import FloatOrNull, Row, Shown
+from forcetorque.results.table import Table, table_of
+from forcetorque.robot.model import JointType
+from forcetorque.robot.motion import JointMotion
+
+
+class PlannedRecording(Row):
+    """One recording: a power-up, a motion, something attached or nothing; errors are those at the loads of use."""
+
+    recording: Annotated[int, Shown("recording")]
+    """Its number, from 1."""
+    support: Annotated[str, Shown("held at")]
+    """Link that holds the robot."""
+    tool: Annotated[str, Shown("tool")]
+    """What is attached; `none` for nothing."""
+    temperature_start_degC: float | None
+    """Temperature at the start; None where none was stated."""
+    temperature_end_degC: float | None
+    """Temperature at the end."""
+    postures: Annotated[int, Shown("postures")]
+    """Number of postures, rest at start and end included."""
+    seconds: Annotated[float, Shown("time", "s", digits=0)]
+    """How long it takes."""
+    force_before_N: Annotated[float, Shown("force before", "N", digits=2)]
+    """Predicted force error before it, typically: root mean square over the loads."""
+    force_before_at_most_N: float
+    """With 95 % it is no more than that."""
+    force_after_N: Annotated[float, Shown("after", "N", digits=2)]
+    """Predicted force error after it."""
+    force_after_at_most_N: Annotated[float, Shown("at most", "N", digits=2)]
+    """With 95 % it is no more than that."""
+    force_allowed_N: FloatOrNull
+    """What is allowed; infinite where it is not judged."""
+    moment_before_Nm: Annotated[float, Shown("moment before", "N m", digits=3)]
+    """Predicted moment error before it."""
+    moment_before_at_most_Nm: float
+    """With 95 % it is no more than that."""
+    moment_after_Nm: Annotated[float, Shown("after", "N m", digits=3)]
+    """Predicted moment error after it."""
+    moment_after_at_most_Nm: Annotated[float, Shown("at most", "N m", digits=3)]
+    """With 95 % it is no more than that."""
+    moment_allowed_Nm: FloatOrNull
+    """What is allowed; infinite where it is not judged."""
+    within_allowed: float
+    """Probability that both are within what is allowed after it."""
+
+
+class PlannedPosture(Row):
+    """Where the joints that move rest for a while."""
+
+    recording: int
+    """Number of the recording."""
+    posture: int
+    """Its number, from 1."""
+    arrival_s: float
+    """When it is reached."""
+    positions: dict[str, float]
+    """Positions by joint; deg, m for joints that slide."""
+
+
+def recording_row(
+    number: int, proposal: Proposal, before: PredictedError, after: PredictedError, case: LoadCase
+) -> PlannedRecording:
+    """Write a recording as a row.
+
+    Args:
+        number: Its number.
+        proposal: The recording.
+        before: Predicted error before it.
+        after: Predicted error after it.
+        case: The use.
+
+    Returns:
+        The row.
+    """
+    force, moment = case.requirement
+    start, end = (None, None) if proposal.temperature is None else proposal.temperature
+    return PlannedRecording(
+        recording=number,
+        support=proposal.place.stand.support,
+        tool=proposal.place.tool,
+        temperature_start_degC=start,
+        temperature_end_degC=end,
+        postures=len(proposal.trajectory.postures),
+        seconds=proposal.trajectory.duration_s,
+        force_before_N=before.force.typical,
+        force_before_at_most_N=before.force.at_most,
+        force_after_N=after.force.typical,
+        force_after_at_most_N=after.force.at_most,
+        force_allowed_N=force,
+        moment_before_Nm=before.moment.typical,
+        moment_before_at_most_Nm=before.moment.at_most,
+        moment_after_Nm=after.moment.typical,
+        moment_after_at_most_Nm=after.moment.at_most,
+        moment_allowed_Nm=moment,
+        within_allowed=after.within(force, moment),
+    )
+
+
+def posture_rows(number: int, proposal: Proposal) -> Iterator[PlannedPosture]:
+    """Write the postures of a recording as rows.
+
+    Args:
+        number: Number of the recording.
+        proposal: The recording.
+
+    Yields:
+        A row per posture.
+    """
+    stand, way = proposal.place.stand, proposal.trajectory
+    arrivals = np.concatenate([[0.0], way.departures_s + way.durations_s])
+    columns = stand.columns(proposal.place.moved)
+    slides = [stand.model.joints[joint].type is JointType.PRISMATIC for joint in proposal.place.moved]
+    for k, posture in enumerate(way.postures[:, columns]):
+        shown = np.where(slides, posture, np.rad2deg(posture)).tolist()
+        yield PlannedPosture(
+            recording=number,
+            posture=k + 1,
+            arrival_s=float(arrivals[k]),
+            positions=dict(zip(proposal.place.moved, shown, strict=True)),
+        )
+
+
+_STAYS = 0.7
+"""Share of the prior's uncertainty of a load direction from which it counts as not taught."""
+_MATTERS = 0.1
+"""Part that such a direction makes of what is left, or of what is allowed where that is more, to be named."""
+_SPAN = 1e-3
+"""Share of the largest change of load below which a direction counts as not loaded."""
+_SEED, _DRAWN = 3, 200
+
+
+def recordings_table(rows: Sequence[PlannedRecording]) -> Table:
+    """Lay out the recordings.
+
+    Args:
+        rows: The recordings, at least one.
+
+    Returns:
+        A line for each.
+    """
+    first = rows[0]
+    allowed = " and ".join(
+        f"{limit:.3g} {unit}"
+        for limit, unit in ((first.force_allowed_N, "N"), (first.moment_allowed_Nm, "N m"))
+        if np.isfinite(limit)
+    )
+    table = table_of(
+        rows,
+        "predicted root mean square error at the loads of use, typical, and at most with a probability of 95 %; "
+        f"{allowed} allowed",
+    )
+    if all(row.temperature_start_degC is None for row in rows):
+        return table
+    cells = [_temperature(row) for row in rows]
+    headings = (*table.headings[:3], "degC", *table.headings[3:])
+    lines = tuple((*line[:3], cell, *line[3:]) for line, cell in zip(table.rows, cells, strict=True))
+    return Table(caption=table.caption, headings=headings, rows=lines)
+
+
+def posture_tables(rows: Sequence[PlannedPosture]) -> Iterator[Table]:
+    """Lay out the postures.
+
+    Args:
+        rows: Postures of all recordings.
+
+    Yields:
+        A table for each recording.
+    """
+    for recording in dict.fromkeys(row.recording for row in rows):
+        own = [row for row in rows if row.recording == recording]
+        yield Table(
+            caption=f"recording {recording}: positions of the joints that move, deg (m where they slide)",
+            headings=("posture", "at, s", *own[0].positions),
+            rows=tuple(
+                (str(row.posture), number(row.arrival_s, 1), *(number(value, 1) for value in row.positions.values()))
+                for row in own
+            ),
+        )
+
+
+def advice(
+    rows: Sequence[PlannedRecording],
+    before: Posterior,
+    after: Posterior,
+    criterion: Criterion,
+    places: Sequence[Workplace],
+) -> str:
+    """Say what to record first and what it brings, or why nothing helps.
+
+    Args:
+        rows: The planned recordings.
+        before: What is known before.
+        after: What is known after all of them.
+        criterion: What they lower.
+        places: Where they could be made.
+
+    Returns:
+        A sentence or two.
+    """
+    first = rows[0]
+    left = _left(before, after, criterion, places)
+    helped = max(
+        1.0 - first.force_after_N / first.force_before_N if np.isfinite(first.force_allowed_N) else 0.0,
+        1.0 - first.moment_after_Nm / first.moment_before_Nm if np.isfinite(first.moment_allowed_Nm) else 0.0,
+    )
+    if helped < HELPS:
+        return (
+            f"nothing within these limits helps: the best recording of {first.seconds:.0f} s leaves "
+            f"{first.force_after_N:.3g} of {first.force_before_N:.3g} N and {first.moment_after_Nm:.3g} of "
+            f"{first.moment_before_Nm:.3g} N m{left}"
+        )
+    attached = "nothing attached" if first.tool == NOTHING else f"{first.tool} attached"
+    warm = "" if first.temperature_start_degC is None else f", {_temperature(first)} degC"
+    return (
+        f"record first {first.postures} postures in {first.seconds:.0f} s, held at {first.support}, {attached}{warm}: "
+        f"the expected error falls from {first.force_before_N:.3g} N and {first.moment_before_Nm:.3g} N m to "
+        f"{first.force_after_N:.3g} N (at most {first.force_after_at_most_N:.3g}) and {first.moment_after_Nm:.3g} N m "
+        f"(at most {first.moment_after_at_most_Nm:.3g}){_in_the_end(rows)}{left}"
+    )
+
+
+def _in_the_end(rows: Sequence[PlannedRecording]) -> str:
+    """What all recordings come to, where there are several."""
+    last = rows[-1]
+    if len(rows) == 1:
+        return ""
+    return f"; after all {len(rows)} to {last.force_after_N:.3g} N and {last.moment_after_Nm:.3g} N m"
+
+
+def limits_of(*, calibrated: bool, posterior: Posterior) -> tuple[str, ...]:
+    """Say what was taken for granted, and what was not checked.
+
+    Args:
+        calibrated: Whether a calibration is known.
+        posterior: What is known.
+
+    Returns:
+        Sentences.
+    """
+    unchecked = (
+        "not checked: whether the robot touches itself, the floor or anything else, and whether it keeps its balance; "
+        "play every motion slowly, or in a simulator, first"
+    )
+    model = (
+        "what a recording is expected to teach leaves room for quadratic terms, and none for what differentiation "
+        "flattens"
+    )
+    if calibrated:
+        return unchecked, model
+    drift = ASSUMED_NOISE * max(row.ratio for row in posterior.noise) ** 0.5
+    assumed = (
+        f"nothing was recorded: the prior matrix is taken to be off by some 6 % of each row, noise of a mean over a "
+        f"second to be {ASSUMED_NOISE:g} of full scale and slow noise {drift:.2g}"
+    )
+    return assumed, unchecked, model
+
+
+def _temperature(row: PlannedRecording) -> str:
+    start, end = row.temperature_start_degC, row.temperature_end_degC
+    if start is None or end is None:
+        return "-"
+    return f"{start:g}" if start == end else f"{start:g} to {end:g}"
+
+
+def _left(before: Posterior, after: Posterior, criterion: Criterion, places: Sequence[Workplace]) -> str:
+    """Load directions of the use that stay with the prior, and how many directions the loads span at all."""
+    shares, known = criterion.shares(after), criterion.shares(before)
+    total = max(float(shares.sum()), 1.0)
+    stays = [
+        name
+        for name, share, prior in zip(WRENCH_COMPONENTS, shares, known, strict=True)
+        if share > _MATTERS * total and np.sqrt(share / prior) > _STAYS
+    ]
+    if not stays:
+        return ""
+    verb, rank = "stays" if len(stays) == 1 else "stay", _rank(places)
+    if rank < len(WRENCH_COMPONENTS):
+        return (
+            f"; {', '.join(stays)} {verb} with the prior: the loads within these limits span {rank} of 6 directions, a "
+            "tool with its centre of mass elsewhere would load what is left"
+        )
+    return f"; {', '.join(stays)} {verb} with the prior: a heavier tool, or more recordings, would tell"
+
+
+def _rank(places: Sequence[Workplace]) -> int:
+    """Number of load directions that change at all."""
+    moved = []
+    for place in places:
+        drawn = place.postures(_DRAWN, np.random.default_rng(_SEED))
+        loads = place.loads(JointMotion.at_rest(place.stand.joints, drawn))
+        moved.append(loads - loads.mean(axis=0))
+    changes = np.concatenate(moved)
+    sizes = np.repeat([np.sqrt((changes[:, part] ** 2).mean()) for part in FORCE_AND_MOMENT], 3)
+    strengths = np.linalg.svd(changes / sizes, compute_uv=False)
+    return int((strengths > _SPAN * strengths[0]).sum())

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque report`: everything about sensors in one document, verdict first."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from forcetorque.results.terminal.options import ForceOption, FormatOption, PopulationOption
+from forcetorque.results.terminal.output import Format, say, show, start_logging
+
+if TYPE_CHECKING:
+    from forcetorque.results.document.content import Section
+
+
+def report(
+    results: Annotated[
+        list[Path],
+        typer.Argument(
+            help="Experiment files, calibrations, an acceptance file, and JSON results of other commands, in any order."
+        ),
+    ],
+    output: Annotated[
+        list[Path],
+        typer.Option("--output", "-o", help="File to write, .html or .pdf; repeat for both. A .json goes beside it."),
+    ],
+    title: Annotated[str | None, typer.Option("--title", help="Title. Default: names of the experiments.")] = None,
+    population: PopulationOption = None,
+    viewer: Annotated[
+        bool, typer.Option("--viewer", help="Put the viewer of each experiment into the HTML; some 1 MB and more.")
+    ] = False,
+    force: ForceOption = False,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Write everything about sensors into one document, verdict first.
+
+    Example: forcetorque report experiment.toml right_leg.json -o report.html
+    """
+    from importlib.metadata import version
+
+    from forcetorque.base.output_file import declare_outputs
+    from forcetorque.experiment.applicability import read_population
+    from forcetorque.report.assessment.assessment import Demands
+    from forcetorque.report.report import report, require_writable
+    from forcetorque.report.sections import viewer_section
+    from forcetorque.report.sources import assign_calibrations, sort_sources
+    from forcetorque.results.created import created_now
+    from forcetorque.results.terminal.reading import read_shown
+
+    log = start_logging()
+    require_writable(output)
+    files = [*output, output[0].with_suffix(".numbers.json")]
+    declare_outputs(*files, force=force)
+    sources = sort_sources(results)
+    demands = Demands(acceptance=sources.acceptance, population=read_population(population) if population else None)
+    experiments = [(str(path), read_shown(path, log)) for path in sources.experiments]
+    groups = assign_calibrations([experiment for _, experiment in experiments], sources.calibrations)
+
+    def section(place: int) -> Section:
+        log.info("building the viewer")
+        own = {file: calibration for group in groups[place].values() for file, calibration in group.items()}
+        return viewer_section(sources.experiments[place], experiments[place][1], own)
+
+    written = report(
+        experiments,
+        groups,
+        created=created_now(),
+        code_version=version("forcetorque"),
+        title=title,
+        demands=demands,
+        results=sources.results,
+        viewer=section if viewer else None,
+        progress=log.info,
+    )
+    log.info("drawing")
+    written.save(*files)
+    show(written, output_format)
+    say(f"written: {', '.join(map(str, files))}", output_format)

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a document is made of, before anyone decides how it looks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import datetime
+from enum import StrEnum
+
+from forcetorque.base.errors import FormatError
+from forcetorque.results.document.picture import Picture
+from forcetorque.results.table import Table
+
+NO_ROWS = "no rows"
+"""What stands below the headings of a table without rows."""
+
+
+class Tone(StrEnum):
+    """How good a verdict is; a word and a sign say it too, so that it does not hang on a colour."""
+
+    GOOD = "good"
+    CAUTION = "caution"
+    BAD = "bad"
+    UNKNOWN = "unknown"
+    NOTE = "note"
+
+    @property
+    def sign(self) -> str:
+        """A sign that stands before the verdict."""
+        return {Tone.GOOD: "✓", Tone.CAUTION: "!", Tone.BAD: "✗", Tone.UNKNOWN: "?", Tone.NOTE: "·"}[self]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Verdict:
+    """One sentence that matters more than what follows."""
+
+    tone: Tone
+    """How good it is."""
+    text: str
+    """The sentence."""
+    word: str | None = None
+    """The word beside the sign, such as `do not use`; that of the tone if left out."""
+
+    @property
+    def sign(self) -> str:
+        """Sign and word that say what the colour says."""
+        return f"{self.tone.sign} {self.word or self.tone.value}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Text:
+    """A paragraph."""
+
+    text: str
+    """Its words."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class List:
+    """Points one below the other."""
+
+    points: tuple[str, ...]
+    """The points."""
+    numbered: bool = False
+    """Whether they come one after the other, and have numbers."""
+
+    @property
+    def marks(self) -> tuple[str, ...]:
+        """What stands before each."""
+        return tuple(f"{k}." if self.numbered else "•" for k in range(1, len(self.points) + 1))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Figure:
+    """A picture."""
+
+    picture: Picture
+    """The picture."""
+    caption: str
+    """What stands below it."""
+    description: str
+    """What it shows, for who cannot see it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Page:
+    """A page of its own inside the document, to be worked with; only where a document can hold one."""
+
+    html: bytes
+    """The page, which needs nothing else."""
+    title: str
+    """What it is."""
+    instead: str
+    """What stands in its place where no page can be."""
+
+
+Block = Verdict | Text | List | Table | Figure | Page
+"""Anything that stands in a section."""
+
+
+class Place(StrEnum):
+    """Where a section stands on paper."""
+
+    FLOW = "flow"
+    """Below what comes before it."""
+    PAGE = "page"
+    """On a page of its own, which its first picture is made small enough for."""
+    SPARE = "spare"
+    """In a section with a page of its own: there if it is room enough, else behind these pages."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Section:
+    """A heading and what stands below it."""
+
+    title: str
+    """The heading."""
+    blocks: tuple[Block, ...] = ()
+    """What stands below it."""
+    sections: tuple[Section, ...] = ()
+    """Sections inside it."""
+    place: Place = Place.FLOW
+    """Where it stands on paper."""
+    folded: bool = False
+    """Whether a screen shows its heading alone until it is opened; paper shows everything."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Document:
+    """A document."""
+
+    title: str
+    """Its title."""
+    subtitle: str
+    """A line below the title."""
+    created: str
+    """When it was made, ISO 8601 with time zone."""
+    sections: tuple[Section, ...]
+    """Its sections."""
+
+    def __post_init__(self) -> None:
+        try:
+            instant = datetime.fromisoformat(self.created)
+        except ValueError:
+            instant = None
+        if instant is None or instant.tzinfo is None:
+            raise FormatError(f"document: expected `created` as ISO 8601 with a time zone, got {self.created!r}")
+
+    @property
+    def instant(self) -> datetime:
+        """When it was made."""
+        return datetime.fromisoformat(self.created)

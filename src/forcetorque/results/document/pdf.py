@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Documents as PDF, with text that can be searched, tables that go on over pages, and numbers on these."""
+
+from __future__ import annotations
+
+from datetime import UTC
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from forcetorque.base.errors import MissingExtraError
+from forcetorque.results.document.content import Document, Figure, Place, Section
+from forcetorque.results.document.pdf_blocks import (
+    BODY_POINTS,
+    CAPTION_POINTS,
+    FAINT,
+    FONT,
+    LINE_MM,
+    block_mm,
+    draw_block,
+    draw_line,
+    figure_size_mm,
+    paragraph_mm,
+)
+from forcetorque.results.document.pdf_table import first_rows_mm
+from forcetorque.results.document.pdf_text import spelled_document
+from forcetorque.results.document.undrawn import without_undrawn
+from forcetorque.results.table import Table
+
+if TYPE_CHECKING:
+    from fpdf import FPDF
+
+
+MISSING_LETTERS = (
+    "Letters that the font of this file lacks stand here by their number, as \\u and four digits or letters."
+)
+"""What is said once where a document has such letters."""
+
+_MARGIN_MM = 15.0
+_NUMBER_MM = 10.0
+"""Height above the lower edge at which the number of the page stands."""
+_TITLE_POINTS, _HEADING_POINTS = 18.0, (14.0, 11.0, 9.5)
+_FULL = 0.5
+"""A section begins on a new page if more than this part of the page is full."""
+_LEAST_FIGURE = 0.2
+"""Part of a page below which no picture is made smaller to fit."""
+
+
+def pdf_bytes(document: Document) -> bytes:
+    """Write a document as PDF, A4 upright.
+
+    Args:
+        document: The document.
+
+    Returns:
+        The file.
+
+    Raises:
+        MissingExtraError: If fpdf2 or matplotlib, whose letters it takes, is not installed.
+    """
+    try:
+        import matplotlib as mpl
+    except ImportError as error:
+        raise MissingExtraError("PDF is written by fpdf2: pip install forcetorque[report]") from error
+    page = _numbered_pages()
+    fonts = Path(mpl.get_data_path()) / "fonts" / "ttf"
+    try:
+        page.add_font(FONT, "", str(fonts / "DejaVuSans.ttf"))
+        page.add_font(FONT, "B", str(fonts / "DejaVuSans-Bold.ttf"))
+        _draw(page, document)
+        return bytes(page.output())
+    finally:
+        _close_fonts(page)
+
+
+def _numbered_pages() -> FPDF:
+    """An empty file that says on every page which of how many it is."""
+    try:
+        from fpdf import FPDF
+    except ImportError as error:
+        raise MissingExtraError("PDF is written by fpdf2: pip install forcetorque[report]") from error
+
+    class Numbered(FPDF):
+        """Pages with their number at the foot."""
+
+        def footer(self) -> None:
+            self.set_y(-_NUMBER_MM)
+            self.set_font(FONT, "", CAPTION_POINTS)
+            self.set_text_color(*FAINT)
+            self.cell(0, LINE_MM, f"page {self.page_no()} of {self.str_alias_nb_pages}", align="R")
+
+    return Numbered(format="A4")
+
+
+def _draw(page: FPDF, document: Document) -> None:
+    page.set_margin(_MARGIN_MM)
+    page.c_margin = 0.0  # words begin where tables and pictures do
+    page.set_auto_page_break(True, margin=_MARGIN_MM)
+    page.set_title(document.title)
+    page.set_lang("en")
+    page.set_creation_date(document.instant.astimezone(UTC))
+    drawn = without_undrawn(document)
+    spelled = spelled_document(drawn, _letters(page))
+    page.add_page()
+    draw_line(page, spelled.title, _TITLE_POINTS, bold=True)
+    draw_line(page, spelled.subtitle, BODY_POINTS, colour=FAINT)
+    draw_line(page, f"made {document.created}", BODY_POINTS, colour=FAINT)
+    if spelled != drawn:
+        draw_line(page, MISSING_LETTERS, BODY_POINTS, colour=FAINT)
+    later: list[Section] = []
+    for k, section in enumerate(spelled.sections):
+        if section.place is Place.PAGE:
+            if k:
+                page.add_page()
+            later += _whole_page(page, section)
+            continue
+        for part in (*later, section):
+            if k and page.y > _FULL * page.eph:
+                page.add_page()
+            _section(page, part, level=0)
+        later = []
+    for part in later:
+        _section(page, part, level=0)
+
+
+def _whole_page(page: FPDF, section: Section) -> list[Section]:
+    """Draw a section on this page, its picture as large as the rest leaves it.
+
+    Returns:
+        Parts for which there is no room, each with the title of the section.
+    """
+    parts = [part for part in section.sections if part.place is not Place.SPARE]
+    pictures = [block for block in section.blocks if isinstance(block, Figure)]
+    # the picture is what gives way
+    words = _section_mm(page, section, 0, parts=parts) - sum(block_mm(page, block) for block in pictures[:1])
+    left = page.page_break_trigger - page.y
+    figure_mm = max(left - words - LINE_MM, _LEAST_FIGURE * page.eph)
+    _heading(page, section, 0)
+    for block in section.blocks:
+        draw_block(page, block, figure_mm=figure_mm if block in pictures[:1] else None)
+    for part in parts:
+        _section(page, part, level=1, fits=words + figure_mm <= left)
+    later: list[Section] = []
+    for part in section.sections:
+        if part.place is Place.SPARE and not page.will_page_break(_section_mm(page, part, 1)):
+            _section(page, part, level=1, fits=True)
+        elif part.place is Place.SPARE:
+            later.append(Section(title=f"{section.title}: {part.title}", blocks=part.blocks, sections=part.sections))
+    return later
+
+
+def _section_mm(page: FPDF, section: Section, level: int, *, parts: list[Section] | None = None) -> float:
+    """Height of a section that is drawn on one page."""
+    below = section.sections if parts is None else parts
+    return (
+        LINE_MM
+        + paragraph_mm(page, section.title, _heading_points(level), bold=True)
+        + sum(block_mm(page, block) for block in section.blocks)
+        + sum(_section_mm(page, part, level + 1) for part in below)
+    )
+
+
+def _letters(page: FPDF) -> set[int]:
+    """Code points of the letters that the upright and the bold font have."""
+    from fpdf.fonts import TTFFont
+
+    known = [set(font.cmap) for font in page.fonts.values() if isinstance(font, TTFFont)]
+    return set.intersection(*known)
+
+
+def _close_fonts(page: FPDF) -> None:
+    """Close the files of the fonts, which stay open where a document could not be written."""
+    from fpdf.fonts import TTFFont
+
+    for font in page.fonts.values():
+        if isinstance(font, TTFFont):
+            font.ttfont.close()
+
+
+def _section(page: FPDF, section: Section, *, level: int, fits: bool = False) -> None:
+    # a heading does not stand alone at the end of a page
+    least = LINE_MM + _least_mm(page, section)
+    if not fits and page.will_page_break(min(least, page.eph)) and page.y > 2.0 * page.t_margin:
+        page.add_page()
+    _heading(page, section, level)
+    for block in section.blocks:
+        draw_block(page, block)
+    for part in section.sections:
+        _section(page, part, level=level + 1)
+
+
+def _heading(page: FPDF, section: Section, level: int) -> None:
+    page.ln(LINE_MM)
+    page.start_section(section.title, level=level)
+    draw_line(page, section.title, _heading_points(level), bold=True)
+
+
+def _heading_points(level: int) -> float:
+    return _HEADING_POINTS[min(level, len(_HEADING_POINTS) - 1)]
+
+
+def _least_mm(page: FPDF, section: Section) -> float:
+    """Height of a heading and of what must stand on the same page below it."""
+    heading = 3.0 * LINE_MM
+    if not section.blocks:
+        return heading + (_least_mm(page, section.sections[0]) if section.sections else 0.0)
+    match section.blocks[0]:
+        case Table() as table:
+            return heading + 2.0 * LINE_MM + first_rows_mm(page, table, FONT)
+        case Figure() as figure:
+            return heading + figure_size_mm(page, figure)[1]
+        case _:
+            return heading + 3.0 * LINE_MM

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The one form of an answer: a frozen model from which JSON, CSV, text, page, schema and `repr` come."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, ClassVar, Self
+
+from pydantic import Field
+
+from forcetorque.base.errors import ShapeError
+from forcetorque.results.html import html_table, html_text, html_warnings
+from forcetorque.results.row import Row
+from forcetorque.results.table import Table, table_of
+from forcetorque.results.text import table_text, wrapped
+from forcetorque.results.unusable_samples import UnusableSamples
+
+_UNUSABLE = "unusable_samples"
+NOTEBOOK_WIDTH = 100
+"""Characters of a line where nobody says how wide the page is."""
+
+
+class Result(Row):
+    """What a question gave. A class of its own for every question adds a field `schema`, rows and tables."""
+
+    of_several: ClassVar[tuple[str, ...]] = ()
+    """Fields that are not in the JSON where they are empty, such as those about each of several recordings."""
+
+    interval_uses: ClassVar[tuple[str, ...] | None] = None
+    """Uses of the intervals whose samples it is made from, all but ignored ones where it is empty; None for no samples,
+    or where it does not count what it leaves out."""
+
+    warnings: tuple[str, ...] = Field(default=(), exclude=True)
+    """What makes the answer doubtful, in sentences; messages, not part of the JSON."""
+
+    unusable_samples: tuple[UnusableSamples, ...] = Field(default=(), exclude=True)
+    """Samples that are left out because they say nothing of the load; in the JSON where there are any."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give what people read, in its order; every class has its own.
+
+        Yields:
+            Tables and sentences.
+        """
+        yield from ()
+
+    def records(self) -> list[dict[str, object]]:
+        """Give the answer as flat lines of numbers, for CSV.
+
+        Returns:
+            One line per row of the first list of rows; classes that hold several say what each line is.
+        """
+        for name in type(self).model_fields:
+            value = getattr(self, name)
+            if name == _UNUSABLE:
+                continue
+            if isinstance(value, tuple) and value and all(isinstance(entry, Row) for entry in value):
+                return [entry.flat() for entry in value]
+        return []
+
+    def columns(self) -> list[str]:
+        """Name the columns of the CSV.
+
+        Returns:
+            The keys of all records in the order in which they come; of the rows that there might be, where there are
+            none.
+        """
+        return list(dict.fromkeys(name for record in self.records() for name in record))
+
+    def text(self, width: int = NOTEBOOK_WIDTH) -> str:
+        """Write the answer for people.
+
+        Args:
+            width: Characters of a line; narrow ones get tables on their side, never a folded number.
+
+        Returns:
+            Lines, each with its end.
+        """
+        return "".join(
+            f"{wrapped(block, width)}\n" if isinstance(block, str) else table_text(block, width)
+            for block in self._shown()
+        )
+
+    def json_text(self) -> str:
+        """Write the answer as JSON.
+
+        Returns:
+            One object with stable keys.
+        """
+        content = self.model_dump(mode="json", by_alias=True)
+        stated = {name: value for name, value in content.items() if value or name not in self.of_several}
+        if self.unusable_samples:
+            stated[_UNUSABLE] = [row.model_dump(mode="json", by_alias=True) for row in self.unusable_samples]
+        return json.dumps(stated, indent=2, allow_nan=False)
+
+    def cautions(self) -> Iterator[str]:
+        """Say what makes the answer doubtful.
+
+        Yields:
+            Every warning once, with how often it comes.
+        """
+        for sentence, count in Counter(self.warnings).items():
+            yield sentence if count == 1 else f"{sentence} ({count} times)"
+
+    def __str__(self) -> str:
+        # the command line has standard error for what is doubtful; a script that prints an answer has no other place
+        doubtful = "".join(f"{wrapped(f'warning: {sentence}', NOTEBOOK_WIDTH)}\n" for sentence in self.cautions())
+        return f"{doubtful}\n{self.text()}" if doubtful else self.text()
+
+    def _repr_html_(self) -> str:
+        return html_warnings(self.cautions()) + "".join(
+            f"<p>{html_text(block)}</p>" if isinstance(block, str) else html_table(block) for block in self._shown()
+        )
+
+    def _shown(self) -> Iterator[Table | str]:
+        """What people read, and what is left out."""
+        yield from self.blocks()
+        if self.unusable_samples:
+            yield table_of(self.unusable_samples, "unusable samples, which are left out")
+
+    @classmethod
+    def described(cls) -> dict[str, Any]:
+        """Describe the JSON.
+
+        Returns:
+            Its JSON schema.
+        """
+        schema = cls.model_json_schema(mode="serialization")
+        schema["required"] = [name for name in schema.get("required", ()) if name not in cls.of_several]
+        if cls.interval_uses is not None:
+            rows = {"type": "array", "items": UnusableSamples.model_json_schema(mode="serialization")}
+            schema["properties"][_UNUSABLE] = rows | {"description": cls.model_fields[_UNUSABLE].description or ""}
+        return schema
+
+    @classmethod
+    def together(cls, results: Iterable[Self]) -> Self:
+        """Put the answers for several sensors of one experiment together.
+
+        Args:
+            results: Answers of one kind, at least one.
+
+        Returns:
+            One with the rows and warnings of all; what is no list is that of the first.
+
+        Raises:
+            ShapeError: If there is none.
+        """
+        parts: Sequence[Self] = tuple(results)
+        if not parts:
+            raise ShapeError(f"{cls.__name__}: expected at least one result to put together, got none")
+        joined: dict[str, Any] = {}
+        for name in cls.model_fields:
+            values = [getattr(part, name) for part in parts]
+            if isinstance(values[0], tuple):
+                # a warning or a sentence that several sensors share is said once
+                entries = [entry for value in values for entry in value]
+                once = name == _UNUSABLE or _are_words(entries)
+                joined[name] = tuple(dict.fromkeys(entries)) if once else tuple(entries)
+        return parts[0].model_copy(update=joined)
+
+
+def _are_words(entries: Sequence[Any]) -> bool:
+    return all(isinstance(entry, str) for entry in entries)

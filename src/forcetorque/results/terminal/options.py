@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arguments and options that several commands share."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from forcetorque.results.terminal.output import Format
+
+ExperimentArgument = Annotated[Path, typer.Argument(help="Experiment file (TOML); see docs/recording.md.")]
+ExperimentsArgument = Annotated[
+    list[Path], typer.Argument(help="Experiment files (TOML) with the same sensors; see docs/recording.md.")
+]
+FormatOption = Annotated[Format, typer.Option("--format", help="Form of the result on standard output.")]
+ForceOption = Annotated[
+    bool,
+    typer.Option(
+        "--force", help="Replace a file that is neither a result nor a figure. An input of the command never is."
+    ),
+]
+SensorOption = Annotated[
+    list[str] | None, typer.Option("--sensor", help="Sensor of the experiment; repeat for more. Default: all.")
+]
+CalibrationsOption = Annotated[
+    list[Path] | None,
+    typer.Option("--calibration", "-c", help="Calibration file; repeat for more. Default: the priors."),
+]
+OffsetOption = Annotated[
+    str,
+    typer.Option(
+        "--offset",
+        help="Where offsets come from: fitted (the calibration's own), one-link-imu:LABEL, one-link-fixed-frame:LABEL, "
+        "tare:LABEL, first-second, judged-mean or none; see docs/coherence.md.",
+    ),
+]
+PopulationOption = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--population", help="Matrix file or calibration of another sensor, or a folder of them; repeat for more."
+    ),
+]
+ComparedCalibrationsOption = Annotated[
+    list[Path] | None,
+    typer.Option("--calibration", "-c", help="Calibration file to compare with the prior; repeat for more."),
+]
+SphereIntervalOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--interval",
+        help="Label or kind of an interval whose motion draws a sphere; repeat for more. Default: the sphere "
+        "intervals of each file, else all.",
+    ),
+]

@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where results, figures and messages go: results to standard output, everything else to standard error."""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import logging
+import sys
+from collections.abc import Sequence
+from enum import StrEnum
+from io import TextIOWrapper
+from pathlib import Path
+from shutil import get_terminal_size
+from typing import TYPE_CHECKING
+
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.files import STANDARD_OUTPUT, refuse_existing
+from forcetorque.base.output_file import declare_outputs
+
+if TYPE_CHECKING:
+    from forcetorque.results.result import Result
+
+
+_PIPE_WIDTH = 120
+"""Columns of a table that goes to a file or a pipe."""
+
+
+class Format(StrEnum):
+    """Form of a result on standard output."""
+
+    TABLE = "table"
+    JSON = "json"
+    CSV = "csv"
+
+
+class TrialsChoice(StrEnum):
+    """What one trial of a sensor is."""
+
+    FILES = "files"
+    INTERVALS = "intervals"
+
+
+class OtherSensorsChoice(StrEnum):
+    """What the other sensors of a sub-model are taken to read."""
+
+    MODEL = "model"
+    MEASURED = "measured"
+
+
+def start_logging() -> logging.Logger:
+    """Send the library's and the command's messages to standard error.
+
+    Returns:
+        The logger of the command line.
+    """
+    logger = logging.getLogger("forcetorque")
+    if not logger.handlers:
+        handler = logging.StreamHandler(sys.stderr)
+        handler.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
+        logger.addHandler(handler)
+        logger.setLevel(logging.INFO)
+    return logger
+
+
+def report_error(error: Exception) -> None:
+    """Say on standard error, in one line, what was refused.
+
+    Args:
+        error: A known error.
+    """
+    sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
+
+
+def show(result: Result, output_format: Format) -> None:
+    """Print a result in the form that was asked for, and its warnings, each once, to standard error.
+
+    Args:
+        result: The result.
+        output_format: Form.
+    """
+    show_warnings(result)
+    if output_format is Format.JSON:
+        sys.stdout.write(result.json_text() + "\n")
+    elif output_format is Format.CSV:
+        columns = result.columns()
+        writer = csv.DictWriter(sys.stdout, fieldnames=columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(result.records())
+    else:
+        sys.stdout.write(result.text(width()))
+
+
+def show_warnings(result: Result) -> None:
+    """Print the warnings of a result, each once, to standard error.
+
+    Args:
+        result: The result.
+    """
+    log = start_logging()
+    for sentence in result.cautions():
+        log.warning("%s", sentence)
+
+
+def say(sentence: str, output_format: Format) -> None:
+    """Print a sentence below a result for people; the other forms hold the result alone.
+
+    Args:
+        sentence: The sentence.
+        output_format: Form of the result.
+    """
+    from forcetorque.results.text import wrapped
+
+    if output_format is Format.TABLE:
+        sys.stdout.write(wrapped(sentence, width()) + "\n")
+
+
+def stop_at_failures(failures: Sequence[object]) -> None:
+    """End a command whose result is shown, but lacks something.
+
+    Args:
+        failures: What failed; none where nothing did.
+
+    Raises:
+        typer.Exit: With code 1 if there is any.
+    """
+    import typer
+
+    if failures:
+        raise typer.Exit(1)
+
+
+def width() -> int:
+    """Tell how wide a line may be.
+
+    Returns:
+        Characters of the terminal, or of the variable COLUMNS; of the widest table where there is neither.
+    """
+    return get_terminal_size((_PIPE_WIDTH, 24)).columns
+
+
+def refuse_standard_output(option: str, path: Path | None) -> None:
+    """Refuse `-` in place of a file or folder that does not go to standard output, which is for the result.
+
+    Args:
+        option: Option that names it.
+        path: The file or folder; None if the option was not given.
+
+    Raises:
+        ForceTorqueError: If it is `-`.
+    """
+    if path == STANDARD_OUTPUT:
+        raise ForceTorqueError(f"{option} -: expected a name, standard output takes the result only; see --format")
+
+
+def refuse_output_folder(output: Path) -> None:
+    """Refuse a folder of results that cannot be made anew, before any work is done.
+
+    Args:
+        output: Folder to make.
+
+    Raises:
+        ForceTorqueError: If it is there already, or is `-`.
+    """
+    refuse_standard_output("--output", output)
+    refuse_existing(output, where="--output ")
+
+
+def refuse_two_on_standard_output(output: Path | None, output_format: Format) -> None:
+    """Refuse a file and a result on one standard output.
+
+    Args:
+        output: File to write; None for none.
+        output_format: Form of the result; a table gives way to the file.
+
+    Raises:
+        ForceTorqueError: If the file goes to standard output, and the result is to be read by a program.
+    """
+    if output == STANDARD_OUTPUT and output_format is not Format.TABLE:
+        raise ForceTorqueError(
+            f"--output -: expected a file name beside --format {output_format}, got standard output for both; name a "
+            "file, or leave out --format"
+        )
+
+
+_SPELLED = {"±": "+-", "─": "-", "²": "2", "°": "deg", "≤": "<=", "≥": ">=", "·": "*", "✓": "ok", "✗": "x"}
+_HANDLER = "forcetorque.spelled"
+
+
+def spell_missing_letters() -> None:
+    """Let standard output and standard error spell what their encoding lacks, as under `LC_ALL=C`."""
+    codecs.register_error(_HANDLER, _spelled)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # not where a test or a notebook has put something else
+            stream.reconfigure(errors=_HANDLER)
+
+
+def _spelled(error: UnicodeError) -> tuple[str, int]:
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    letters = error.object[error.start : error.end]
+    # a name that is not text in the file system's encoding holds surrogates
+    return "".join(_SPELLED.get(letter, f"\\x{ord(letter):x}") for letter in letters), error.end
+
+
+def refuse_figure(figure: Path | None, *, force: bool | None = None) -> None:
+    """Say what is wrong with the figure before hours are spent on what it is to show.
+
+    Args:
+        figure: PNG file to draw; None for none.
+        force: As of `declare_outputs`.
+
+    Raises:
+        ForceTorqueError: If it is not called so, or has no folder to go to; MissingExtraError if nothing can draw it.
+    """
+    if figure is None:
+        return
+    from forcetorque.results.figures.canvas import new_figure
+
+    if figure.suffix.lower() != ".png":
+        raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")
+    if not figure.parent.is_dir():
+        raise ForceTorqueError(f"--figure {figure}: expected an existing folder to write to, there is none")
+    declare_outputs(figure, force=force)
+    new_figure(1.0)

@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What several commands read: an experiment, calibrations, and which sensors are meant."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Collection, Iterable, Mapping
+from contextlib import nullcontext
+from pathlib import Path
+
+from forcetorque.base.errors import ExperimentError
+from forcetorque.experiment.additions import ADDED
+from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.calibration.stored_moments import RecordingMoments, read_moments
+from forcetorque.experiment.campaign import Campaign
+from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.loading import load_experiment, load_shown, load_touched_robot
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.planning.planned_experiment import load_planned
+
+
+def read_experiment(path: Path, log: logging.Logger) -> Experiment:
+    """Read an experiment and warn of what is known to be wrong with its recording.
+
+    What the file adds to its log is said by the results.
+
+    Args:
+        path: Experiment file.
+        log: Where messages go.
+
+    Returns:
+        The experiment.
+    """
+    return _with_findings(load_experiment, path, log)
+
+
+def read_touched_robot(path: Path, log: logging.Logger) -> Experiment:
+    """Read an experiment whose robot may have skin in place of sensors, and warn as `read_experiment` does.
+
+    Args:
+        path: Experiment file.
+        log: Where messages go.
+
+    Returns:
+        The experiment.
+    """
+    return _with_findings(load_touched_robot, path, log)
+
+
+def read_shown(path: Path, log: logging.Logger) -> Experiment:
+    """Read an experiment to show it, also one of skin alone, and warn as `read_experiment` does.
+
+    Args:
+        path: Experiment file.
+        log: Where messages go.
+
+    Returns:
+        The experiment.
+    """
+    return _with_findings(load_shown, path, log)
+
+
+def _with_findings(load: Callable[[Path], Experiment], path: Path, log: logging.Logger) -> Experiment:
+    log.info("reading %s", path)
+    experiment = load(path)
+    for finding in experiment.recording.findings:
+        if finding.kind not in ADDED:
+            log.warning("%s: %s", finding.stream, finding.message)
+    return experiment
+
+
+def read_experiments(paths: Iterable[Path], log: logging.Logger) -> dict[Path, Experiment]:
+    """Read experiments and warn of what is known to be wrong with their recordings.
+
+    Args:
+        paths: Experiment files.
+        log: Where messages go.
+
+    Returns:
+        Experiments by file.
+
+    Raises:
+        ExperimentError: If a file comes twice.
+    """
+    files = list(paths)
+    refuse_a_file_twice(files)
+    return {path: read_experiment(path, log) for path in files}
+
+
+def planned_experiments(paths: Iterable[Path], log: logging.Logger) -> list[Experiment]:
+    """Read experiments that may lack what was recorded.
+
+    Args:
+        paths: Experiment files.
+        log: Where messages go.
+
+    Returns:
+        Experiments in the order of the files.
+
+    Raises:
+        ExperimentError: If a file comes twice.
+    """
+    files = list(paths)
+    refuse_a_file_twice(files)
+    contents = []
+    for path in files:
+        log.info("reading %s", path)
+        contents.append(load_planned(path))
+    return contents
+
+
+def planned_sensor(experiment: Experiment, wanted: str | None, calibration: Calibration | None) -> str:
+    """Find the one sensor that is meant.
+
+    Args:
+        experiment: The experiment.
+        wanted: Its name, if it was given.
+        calibration: A calibration of it, if there is one.
+
+    Returns:
+        Its name in the robot.
+
+    Raises:
+        ExperimentError: If there are several and nobody says which, or the calibration is of another one.
+    """
+    name = wanted or (None if calibration is None else calibration.sensor.name)
+    if name is None and len(experiment.sensors) > 1:
+        known = ", ".join(sensor.name for sensor in experiment.sensors)
+        raise ExperimentError(f"expected --sensor, as the experiment has several: {known}")
+    sensor = experiment.sensors[0] if name is None else experiment.sensor(name)
+    if calibration is not None:
+        refuse_left_out(experiment, [sensor], {"--calibration": calibration})
+    return sensor.name
+
+
+def campaign_of(experiments: Mapping[Path, Experiment], sensor: str) -> Campaign:
+    """Pool what several files hold of a sensor.
+
+    Args:
+        experiments: Experiments by file.
+        sensor: Name of the sensor.
+
+    Returns:
+        The sensor in all of them.
+
+    Raises:
+        ExperimentError: If a file lacks it, or has another one of that name.
+    """
+    runs = []
+    for path, experiment in experiments.items():
+        with stated_in(str(path)) if len(experiments) > 1 else nullcontext():
+            runs.append(SensorRun(experiment, sensor))
+    return Campaign(runs)
+
+
+def stored_moments(paths: Iterable[Path]) -> dict[Path, RecordingMoments]:
+    """Read the files of moments among files that are to be fitted.
+
+    Args:
+        paths: Experiment files, and files of moments, which end in .json.
+
+    Returns:
+        The moments by file.
+    """
+    return {path: read_moments(path) for path in paths if path.suffix == ".json"}
+
+
+def read_calibrations(paths: Iterable[Path] | None) -> dict[str, Calibration]:
+    """Read calibration files.
+
+    Args:
+        paths: The files; None for none.
+
+    Returns:
+        Calibrations by name of their file.
+    """
+    return {str(path): read_calibration(path) for path in paths or ()}
+
+
+def sensors_named(experiment: Experiment, names: Collection[str] | None) -> list[ExperimentSensor]:
+    """Find the sensors that are meant.
+
+    Args:
+        experiment: The experiment.
+        names: Their names, one of them possibly twice; None or none for all.
+
+    Returns:
+        Each of them once.
+    """
+    return list(dict.fromkeys(experiment.sensor(name) for name in names) if names else experiment.sensors)
+
+
+def refuse_left_out(
+    experiment: Experiment, chosen: Collection[ExperimentSensor], loaded: dict[str, Calibration]
+) -> None:
+    """Refuse calibrations of sensors that are not meant.
+
+    Args:
+        experiment: The experiment.
+        chosen: The sensors that are meant.
+        loaded: Calibrations by name of their file.
+
+    Raises:
+        ExperimentError: If one is of a sensor that was left out.
+    """
+    names = {sensor.name for sensor in chosen}
+    for file, calibration in loaded.items():
+        name = experiment.sensor(calibration.sensor.name).name
+        if name not in names:
+            raise ExperimentError(f"{file}: calibrates {name!r}, which --sensor leaves out")

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Answer a question for all samples: with the readable evaluator, or with the compiled one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from forcetorque.base.errors import ShapeError
+from forcetorque.robot.contacts import Wrenches
+from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.inputs import Inputs, checked_inputs, refuse_infinite
+from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.mechanics.readable import Block, evaluate_block
+from forcetorque.robot.motion import JointMotion, RootMotion
+
+_FEW = 20000
+"""Fewer samples than this take the readable evaluator no longer than loading the compiled one."""
+
+_BLOCK = 4096
+"""Samples per pass of the readable evaluator: its working arrays stay in the processor's cache."""
+
+
+class Evaluator(StrEnum):
+    """Who computes; both give the same numbers but for rounding."""
+
+    READABLE = "readable"
+    """NumPy, one equation after the other."""
+    COMPILED = "compiled"
+    """Blocks of samples in compiled code, on several threads."""
+
+
+def evaluator_of_samples(samples: int) -> Evaluator:
+    """Choose who computes so many samples.
+
+    Args:
+        samples: Number of samples, of all calls of `estimate` together.
+
+    Returns:
+        The readable evaluator for few.
+    """
+    return Evaluator.READABLE if samples < _FEW else Evaluator.COMPILED
+
+
+def estimate(
+    question: Question,
+    joints: JointMotion,
+    root: RootMotion,
+    *,
+    measured: Wrenches | None = None,
+    known: Wrenches | None = None,
+    active: Mapping[str, Any] | None = None,
+    out: Estimates | None = None,
+    evaluator: Evaluator | None = None,
+    threads: int | None = None,
+    progress: Callable[[int], None] | None = None,
+) -> Estimates:
+    """Estimate what a question asks for.
+
+    NaN in a sample is a gap: it makes NaN of what depends on it, in that sample and in no other.
+    Arrays that are read-only, such as mapped files, are not copied, so that with `out` in mapped
+    files any number of samples runs in little memory.
+
+    Args:
+        question: What is asked.
+        joints: Motion of at least the joints that it depends on (`required_joints_of`); n samples.
+        root: Motion of the root link's frame; one sample or n.
+        measured: Readings of at least the sensors that the tree is cut at, in their frames and directions.
+        known: Wrenches of at least the known contacts, in their contact frames.
+        active: By the name of an unknown contact, whether it is there; shape (n,), bool; others always are.
+        out: Where the answer goes; made if None.
+        evaluator: Who computes; by the number of samples if None.
+        threads: Threads of the compiled evaluator; as many as there are processors if None.
+        progress: Called with the number of samples done so far.
+
+    Returns:
+        The answer; `out` if it was given.
+
+    Raises:
+        RobotError: If a joint that is needed is not in `joints`.
+        EstimationError: If readings or known wrenches are missing, a sub-model has more than six unknowns at once
+            and the question no `minimum_norm`, or an input is infinite.
+        ShapeError: If numbers of samples differ.
+    """
+    n = len(joints)
+    inputs = checked_inputs(question, joints, root, measured, known, active)
+    answer = Estimates.empty(question.layout, n) if out is None else out
+    if len(answer) != n or answer.layout != question.layout:
+        raise ShapeError(f"out: expected {n} samples of {question.layout}, got {len(answer)} of {answer.layout}")
+    if evaluator is None:
+        evaluator = evaluator_of_samples(n)
+    if Evaluator(evaluator) is Evaluator.READABLE:
+        _run_readable(question, inputs, answer, progress)
+    else:
+        # imported here: it loads the compiler
+        from forcetorque.robot.mechanics.block.run import run_compiled
+
+        run_compiled(question, inputs, answer, threads=threads, progress=progress)
+    return answer
+
+
+def _run_readable(question: Question, inputs: Inputs, out: Estimates, progress: Callable[[int], None] | None) -> None:
+    for start in range(0, len(out), _BLOCK):
+        block = slice(start, min(start + _BLOCK, len(out)))
+        refuse_infinite(inputs, block)
+        count = block.stop - start
+        root = [np.broadcast_to(v if len(v) == 1 else v[block], (count, 3)) for v in inputs.root]
+        evaluate_block(
+            question,
+            inputs.needs,
+            Block(
+                joints=inputs.joints.samples(block),
+                root=np.stack(root),
+                measured=inputs.measured.values[block][:, inputs.measured_columns],
+                known=inputs.known.values[block][:, inputs.known_columns],
+                active=inputs.active[block].astype(np.float64),
+            ),
+            out.samples(block),
+        )
+        if progress is not None:
+            progress(block.stop)

@@ -1,0 +1,431 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Samples of one sensor over an interval: the measured and the expected wrench, and the samples that filters need."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.errors import RecordingError
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.recording.alignment import interpolate, require_overlap, usable_samples
+from forcetorque.recording.column import ScalarSource
+from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
+from forcetorque.recording.sample_quality import SampleQuality, UnusableCounts, repeated_samples
+from forcetorque.recording.smoothing import EvenGrid, SavitzkyGolay, smooth
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.joint_motion import joint_motion_at
+from forcetorque.robot.mechanics.estimate import Evaluator, estimate
+from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.root_motion import joints_to_support, support_motion_at
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion, require_joints_in_radians
+from forcetorque.robot.tree import build_tree
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PaddedSamples:
+    """Samples of an interval with those around it, so that its ends are filtered as its middle is."""
+
+    rows: IntArray
+    """Indices into the stream, in the order of time; shape (n,)."""
+    stamp_ns: IntArray
+    """Their stamps; shape (n,); ns."""
+    inside: BoolArray
+    """Which of them lie in the interval; shape (n,)."""
+    among: BoolArray
+    """Which samples of the stream lie in the interval and are not to be ignored, also those whose stamps do not step
+    forward; shape (N,)."""
+    window: SavitzkyGolay | None
+    """The filter; None for none, and then nothing lies around the interval."""
+    grid: EvenGrid | None
+    """Grid of the stream; None for a stream of a single sample."""
+
+    def smoothed(self, values: FloatArray) -> FloatArray:
+        """Filter what was computed at all instants, and keep that of the interval.
+
+        Args:
+            values: Values, NaN where one is missing; shape (n, k).
+
+        Returns:
+            Filtered values inside the interval; shape (m, k).
+        """
+        if self.window is not None:
+            values = smooth(self.stamp_ns, values, self.window, grid=self.grid)
+        kept: FloatArray = values[self.inside]
+        return kept
+
+
+def padded_samples(
+    recording: Recording,
+    source: Stream,
+    interval: Interval,
+    window: SavitzkyGolay | None,
+    *,
+    apart: Collection[str] = (),
+) -> PaddedSamples:
+    """Find the samples of an interval that are not to be ignored, and those around it that its filter takes.
+
+    What lies around it is taken as if the interval were longer. So nothing comes from an interval that is to be
+    ignored or has another support, where what the interval says does not hold.
+
+    Args:
+        recording: The recording.
+        source: One of its streams.
+        interval: The interval.
+        window: The filter; None for none.
+        apart: Labels of further intervals that nothing is to be taken from.
+
+    Returns:
+        The samples.
+
+    Raises:
+        RecordingError: If it lies outside the log, no sample is left, or the window holds too few samples.
+    """
+    picked, among = pick_samples(recording, source, interval)
+    stamps, rows, grid = source.stamp_ns, picked, None
+    if window is not None:
+        held = np.zeros(len(stamps), dtype=bool)
+        held[picked] = True
+        usable = usable_samples(stamps)
+        rows = usable[(held | ~_elsewhere(recording, interval, stamps, apart))[usable]]
+    if window is not None and len(rows) > 1:
+        grid = EvenGrid.of(stamps[rows])
+        # a whole window and not half of it: where the log ends, the last whole window is used
+        margin = round((grid.length_of(window) + 1) * grid.period_s * 1e9) + grid.gap_ns
+        rows = rows[(stamps[rows] >= stamps[picked[0]] - margin) & (stamps[rows] <= stamps[picked[-1]] + margin)]
+    return PaddedSamples(
+        rows=rows,
+        stamp_ns=stamps[rows],
+        inside=np.isin(rows, picked),
+        among=among,
+        window=window,
+        grid=grid,
+    )
+
+
+def _elsewhere(recording: Recording, interval: Interval, stamps: IntArray, apart: Collection[str]) -> BoolArray:
+    """Samples of intervals that nothing may come from; shape (n,)."""
+    marks = np.zeros(len(stamps), dtype=bool)
+    for other in recording.intervals:
+        if other.use is Use.IGNORE or other.label in apart or not _same(other.support, interval.support):
+            marks |= other.holds(stamps)
+    return marks
+
+
+def _same(first: Support | MovingSupport | None, second: Support | MovingSupport | None) -> bool:
+    if isinstance(first, Support) and isinstance(second, Support):
+        return first.frame == second.frame and np.array_equal(first.gravity_direction, second.gravity_direction)
+    if isinstance(first, MovingSupport) and isinstance(second, MovingSupport):
+        return first.frame == second.frame and first.motion_streams == second.motion_streams
+    return False
+
+
+def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tuple[IntArray, BoolArray]:
+    """Find the samples of an interval that are not to be ignored.
+
+    Args:
+        recording: The recording.
+        source: One of its streams.
+        interval: The interval.
+
+    Returns:
+        Indices of its samples with increasing stamps, shape (k,), and which samples of the stream are its at all,
+        shape (N,).
+
+    Raises:
+        RecordingError: If it lies outside the log, or no sample is left.
+    """
+    start, end = recording.span_ns
+    if interval.start_ns < start or interval.end_ns > end + 1:
+        first, last = ((t - start) * 1e-9 for t in (interval.start_ns, interval.end_ns))
+        raise RecordingError(
+            f"interval {interval.label!r}: expected a span inside the log, 0 to {(end - start) * 1e-9:.3f} s, "
+            f"got {first:.3f} to {last:.3f} s"
+        )
+    stamps = source.stamp_ns
+    inside = interval.holds(stamps)
+    for other in recording.intervals:
+        if other.use is Use.IGNORE:
+            inside &= ~other.holds(stamps)
+    usable = usable_samples(stamps)
+    picked = usable[inside[usable]]
+    if not len(picked):
+        raise RecordingError(f"interval {interval.label!r}: stream {source.name!r} has no sample in it to use")
+    return picked, inside
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Processing:
+    """How logged samples become reading and reference."""
+
+    derivative_window: SavitzkyGolay = SavitzkyGolay(window_s=0.3, order=3)
+    """Filter that differentiates joint positions."""
+    logged_derivatives: bool = False
+    """Whether joint velocities and accelerations are taken from the log instead."""
+    smoothing: SavitzkyGolay | None = None
+    """Filter of reading and reference alike; None leaves both as they are.
+
+    It takes samples around an interval too, as `padded_samples` has it. The same linear filter on both keeps
+    `reference = matrix reading + offset` exact, and takes out vibration that joint encoders do not see.
+    """
+    gravity: float = STANDARD_GRAVITY
+    """Magnitude of gravity; m/s2."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SensorSamples:
+    """Reading and reference of one sensor at the same n instants."""
+
+    label: str
+    """Label of the interval."""
+    stamp_ns: IntArray
+    """Instants; shape (n,); ns."""
+    reading: Signal
+    """What the sensor read, `raw` or `wrench`; n samples."""
+    reference: FloatArray
+    """Expected wrench in the sensor's frame and direction; shape (n, 6); N, N m."""
+    flattening: FloatArray
+    """What a derivative window of twice the length would take from it; shape (n, 6); N, N m.
+
+    The window that is used has flattened the accelerations already, by about a third of that where motions are smooth.
+    """
+    variables: FloatArray
+    """Linear variables, in the order asked for; shape (n, v)."""
+    dropped: int
+    """Samples of the interval left out: missing values, gaps in a joint, those that are unusable, and what a filter
+    would make of these."""
+    unusable: UnusableCounts
+    """Samples of the interval that say nothing of the load."""
+
+    def __post_init__(self) -> None:
+        stamps = np.array(self.stamp_ns, dtype=np.int64)
+        stamps.setflags(write=False)
+        object.__setattr__(self, "stamp_ns", stamps)
+        for field in ("reference", "flattening"):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(len(stamps), 6)))
+        require_shape(self.reading.values, name="reading", shape=(len(stamps), None))
+        object.__setattr__(self, "variables", read_only(self.variables, name="variables", shape=(len(stamps), None)))
+
+    def __len__(self) -> int:
+        return len(self.stamp_ns)
+
+
+def sensor_samples(
+    recording: Recording,
+    model: RobotModel,
+    *,
+    sensor: str,
+    stream: str,
+    quantity: str,
+    interval: Interval,
+    processing: Processing,
+    variables: Sequence[ScalarSource] = (),
+    apart: Collection[str] = (),
+    evaluator: Evaluator | None = None,
+    applied: str | None = None,
+    quality: SampleQuality | None = None,
+) -> SensorSamples:
+    """Pair the readings of a sensor in an interval with the wrenches expected from the robot model.
+
+    The support frame is taken to be fixed and the only link that touches the world.
+
+    Args:
+        recording: Streams of the sensor and of the joints, on one clock.
+        model: The robot.
+        sensor: Name of the sensor.
+        stream: Stream that holds its reading.
+        quantity: `raw` or `wrench`.
+        interval: Interval with a support frame.
+        processing: Filters and gravity.
+        variables: Where linear variables, such as the temperature, come from.
+        apart: Labels of intervals in which other links touch: the filter takes nothing from them.
+        evaluator: Who computes the reference; by the number of samples of the interval if None.
+        applied: Stream with the `applied_wrench`, which is the reference in place of the model's; none if None.
+        quality: What is wrong with each sample of the stream; what the board and the stamps say if None.
+
+    Returns:
+        Samples of the interval that lie in no ignored interval and have a finite reading, reference and variables.
+
+    Raises:
+        RecordingError: If the interval has no support or lies outside the log, a needed joint is in no
+            stream, streams do not overlap, or no sample is left.
+    """
+    if interval.support is None:
+        raise RecordingError(f"interval {interval.label!r}: expected a support frame, got none")
+    source = recording.stream(stream)
+    padded = padded_samples(recording, source, interval, processing.smoothing, apart=apart)
+    at_ns = padded.stamp_ns
+    reference, flattening, joints = (
+        _reference(recording, model, sensor, source, interval.support, at_ns, processing, evaluator)
+        if applied is None
+        else _applied(recording, source, applied, at_ns)
+    )
+    reading = source.signal(quantity)
+    if quality is None:
+        nothing = np.zeros(len(source), dtype=bool)
+        quality = SampleQuality(frozen=nothing, saturated=source.held, repeated=repeated_samples(source.stamp_ns))
+    values = np.where(quality.unusable[padded.rows, None], np.nan, reading.values[padded.rows])
+    extra = _variables(recording, source, variables, at_ns)
+    # together, because a sample that only one of them lacks would give them different filters
+    whole = padded.smoothed(np.hstack([values, reference, flattening, extra]))
+    values, reference, flattening, extra = np.split(whole, values.shape[1] + np.array([0, 6, 12]), axis=1)
+    complete = np.isfinite(whole).all(axis=1)
+    unusable = quality.counted(padded.among)
+    if not complete.any():
+        needed = ", ".join((*joints, *(f"{v.stream} {v.column}" for v in variables))) or "motion of the support"
+        raise RecordingError(
+            f"interval {interval.label!r}: none of {len(whole)} samples of {stream!r} has both a reading and the "
+            f"joint(s) {needed}; the streams have gaps or missing values all over it, or samples that say nothing "
+            f"of the load: {unusable}"
+        )
+    return SensorSamples(
+        label=interval.label,
+        stamp_ns=at_ns[padded.inside][complete],
+        reading=replace(reading, values=values[complete]),
+        reference=reference[complete],
+        flattening=flattening[complete],
+        variables=extra[complete],
+        dropped=int(np.count_nonzero(padded.among)) - int(np.count_nonzero(complete)),
+        unusable=unusable,
+    )
+
+
+def expected_wrench(
+    recording: Recording,
+    model: RobotModel,
+    *,
+    sensor: str,
+    stream: str,
+    interval: Interval,
+    at_ns: IntArray,
+    processing: Processing,
+    applied: str | None = None,
+) -> FloatArray:
+    """Give the wrench that a sensor is expected to read, whatever it read.
+
+    Args:
+        recording: As of `sensor_samples`.
+        model: As of `sensor_samples`.
+        sensor: As of `sensor_samples`.
+        stream: As of `sensor_samples`.
+        interval: As of `sensor_samples`.
+        at_ns: Instants; shape (n,); ns.
+        processing: As of `sensor_samples`.
+        applied: As of `sensor_samples`.
+
+    Returns:
+        Wrenches in the sensor's frame and direction; shape (n, 6); N, N m; NaN in gaps.
+
+    Raises:
+        RecordingError: If the interval has no support, a needed joint is in no stream, or streams do not overlap.
+    """
+    source = recording.stream(stream)
+    if applied is not None:
+        return _applied(recording, source, applied, at_ns)[0]
+    if interval.support is None:
+        raise RecordingError(f"interval {interval.label!r}: expected a support frame, got none")
+    return _expected(recording, model, sensor, source, interval.support, at_ns, processing, None)[0]
+
+
+def _variables(recording: Recording, source: Stream, variables: Sequence[ScalarSource], at_ns: IntArray) -> FloatArray:
+    for variable in variables:
+        require_overlap(source, recording.stream(variable.stream))
+    return np.column_stack([np.empty((len(at_ns), 0)), *(variable.at(recording, at_ns) for variable in variables)])
+
+
+def _applied(
+    recording: Recording, source: Stream, applied: str, at_ns: IntArray
+) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
+    """Known wrench at given instants, which no filter has flattened, and no joints."""
+    stream = recording.stream(applied)
+    require_overlap(source, stream)
+    wrench = interpolate(stream, stream.signal("applied_wrench").values, at_ns)
+    return wrench, np.zeros_like(wrench), ()
+
+
+def _reference(
+    recording: Recording,
+    model: RobotModel,
+    sensor: str,
+    source: Stream,
+    support: Support | MovingSupport,
+    at_ns: IntArray,
+    processing: Processing,
+    evaluator: Evaluator | None,
+) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
+    """Expected wrench of a sensor at given instants, what a longer window takes from it, and the joints it needed."""
+
+    def expected(how: Processing) -> tuple[FloatArray, tuple[str, ...]]:
+        return _expected(recording, model, sensor, source, support, at_ns, how, evaluator)
+
+    reference, names = expected(processing)
+    if processing.logged_derivatives:
+        return reference, np.zeros_like(reference), names
+    window = processing.derivative_window
+    longer = replace(processing, derivative_window=replace(window, window_s=2.0 * window.window_s))
+    # near the end of a log there may be no room for the longer window
+    return reference, np.nan_to_num(reference - expected(longer)[0]), names
+
+
+def _expected(
+    recording: Recording,
+    model: RobotModel,
+    sensor: str,
+    source: Stream,
+    support: Support | MovingSupport,
+    at_ns: IntArray,
+    processing: Processing,
+    evaluator: Evaluator | None,
+) -> tuple[FloatArray, tuple[str, ...]]:
+    """Expected wrench of a sensor at given instants, and the joints it needed."""
+    name = model.sensor(sensor).name
+    question = Question(tree=build_tree(model, support.frame), expected=(name,), equations=())
+    needed = required_joints_of(question)
+    joints, root = robot_motion_at(recording, model, support, needed, source, at_ns, processing=processing)
+    return estimate(question, joints, root, evaluator=evaluator).expected_of(name), joints.names
+
+
+def robot_motion_at(
+    recording: Recording,
+    model: RobotModel,
+    support: Support | MovingSupport,
+    joints: Sequence[str],
+    source: Stream,
+    at_ns: IntArray,
+    *,
+    processing: Processing,
+) -> tuple[JointMotion, RootMotion]:
+    """Give the motion of joints and support at instants of a stream.
+
+    Args:
+        recording: Streams of the joints and of the IMU, on the clock of `source`.
+        model: The robot.
+        support: The support.
+        joints: Joints whose motion is wanted.
+        source: Stream that the instants are of.
+        at_ns: Instants; shape (n,); ns.
+        processing: Filters and gravity.
+
+    Returns:
+        Motion of the joints, and of those between an IMU and the support; motion of the support frame.
+
+    Raises:
+        RecordingError: If positions are far beyond the limits of the robot, and within them as degrees.
+    """
+    needed = tuple(dict.fromkeys((*joints, *joints_to_support(model, recording, support))))
+    for used in ("position", "velocity", "acceleration") if processing.logged_derivatives else ("position",):
+        holders = recording.joint_signals(used)
+        for holder in dict.fromkeys(holders[joint][0].name for joint in needed if joint in holders):
+            require_overlap(source, recording.stream(holder))
+    if isinstance(support, MovingSupport):
+        for stream in support.motion_streams:
+            require_overlap(source, recording.stream(stream))
+    window = processing.derivative_window
+    motion = joint_motion_at(recording, needed, at_ns, window=window, logged_derivatives=processing.logged_derivatives)
+    require_joints_in_radians(model, motion)
+    root = support_motion_at(model, recording, support, motion, at_ns, window=window, gravity=processing.gravity)
+    return motion, root

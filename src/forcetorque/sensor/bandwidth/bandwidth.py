@@ -1,0 +1,324 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a sensor with its mounting does to fast forces: bandwidth, resonance, damping, and a filter that undoes it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterator, Sequence
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, FitError, known_names
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.results.result import Result
+from forcetorque.results.table import Table, table_of
+from forcetorque.sensor.bandwidth.decays import Decays, free_decays, numbers
+from forcetorque.sensor.bandwidth.frequency_response import FrequencyResponse
+from forcetorque.sensor.bandwidth.measured_force import driven_response
+from forcetorque.sensor.bandwidth.records import ExcitationKind, ExcitedRecord, component_index, excited_records
+from forcetorque.sensor.bandwidth.result import DecayCurve, EventRow, InverseRow, ResponseCurve, ResponseNumber
+from forcetorque.sensor.bandwidth.second_order import MISFIT, InverseFilter, SecondOrder, inverse_filter
+
+LEAST_SWING = 0.02
+"""Share of a vibration that may be left at the end of a segment."""
+
+FOLDED_SHARE = 0.35
+"""Part of the rate from which on a vibration may well be one from above half of it, folded back."""
+
+
+class Response(Result):
+    """What a sensor does to fast forces."""
+
+    schema_name: Literal["forcetorque/response/1"] = Field(default="forcetorque/response/1", alias="schema")
+    """Form of the result."""
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    reading: str
+    """What makes a wrench of its reading."""
+    excitation: ExcitationKind
+    """What was done to it."""
+    signal: str
+    """Component whose response it is, or the force along the step."""
+    force: str | None
+    """Stream of the measured force; null where none was."""
+    rate_hz: float
+    """Rate of the reading; Hz."""
+    samples: int
+    """Samples."""
+    events: tuple[EventRow, ...]
+    """Impacts or releases in the order of time."""
+    numbers: tuple[ResponseNumber, ...]
+    """Natural frequency, damping, gain, bandwidth, by what tells them."""
+    curve: ResponseCurve | None = Field(repr=False)
+    """Frequency response; null where it is not told."""
+    inverse: InverseRow | None = Field(repr=False)
+    """Filter that undoes the response; null where it is not told well enough."""
+    refused: tuple[str, ...]
+    """What is not told, and why."""
+    figure: str | None = None
+    """File of the figure."""
+    decays: tuple[DecayCurve, ...] = Field(default=(), repr=False)
+    """Decays and their fits, for the figure."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give events, numbers and filter.
+
+        Yields:
+            Tables and sentences.
+        """
+        what = f"{self.sensor} ({self.serial}), {self.reading}: {self.excitation}, {self.signal}"
+        if self.events:
+            yield table_of(self.events, f"{what}: {len(self.events)} events")
+        if self.numbers:
+            yield table_of(self.numbers, f"{what}, sampled at {self.rate_hz:.5g} Hz")
+        if self.curve is not None:
+            yield (
+                f"the measured force explains {100 * self.curve.explained_share:.1f} % of the power of the reading "
+                f"({self.curve.averages:.3g} averages)"
+            )
+        if self.inverse is not None:
+            yield table_of([self.inverse], "filter that undoes it")
+        yield from self.refused
+        yield (
+            "±: half a 95 % interval. It is the response of the sensor with all that is mounted on and under it; "
+            f"vibrations above {0.5 * self.rate_hz:.5g} Hz, half of the rate, are not seen, or folded below it"
+        )
+        if self.figure is not None:
+            yield f"drawn to {self.figure}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give the numbers as flat lines.
+
+        Returns:
+            One line per number.
+        """
+        return [{"sensor": self.sensor, "serial": self.serial, **row.flat()} for row in self.numbers]
+
+    def corrected(self, reading: FloatArray) -> FloatArray:
+        """Undo the response in a reading: `run.response("impact", force="hammer").corrected(stream)`.
+
+        Args:
+            reading: Samples of the component at `rate_hz`, without missing values; shape (n,) or (n, k).
+
+        Returns:
+            Force; the same shape.
+
+        Raises:
+            FitError: If the response is not told well enough to be undone.
+        """
+        if self.inverse is None:
+            raise FitError(f"{self.sensor}: expected a filter that undoes its response, got none: {self.refused[-1]}")
+        return self.inverse.apply(reading)
+
+
+@with_recording_notes
+def response(
+    runs: SensorRun | Sequence[SensorRun],
+    excitation: ExcitationKind | str,
+    *,
+    component: str | None = None,
+    force: str | None = None,
+    mass_kg: float | None = None,
+    cut_off_hz: float | None = None,
+    intervals: Collection[str] = (),
+    name: str | None = None,
+    calibration: Calibration | None = None,
+) -> Response:
+    """Tell what a sensor does to fast forces.
+
+    Args:
+        runs: The sensor, in one or several recordings.
+        excitation: What was done to it: impact, release or pendulum.
+        component: Component of the wrench; if None that in which most impacts stand out most, or the force
+            along the step of a release.
+        force: Stream with the force that was measured: an `applied_wrench`, or a `proper_acceleration`.
+        mass_kg: Mass that was let go, or that moves with the acceleration; kg.
+        cut_off_hz: Cut-off of the filter; Hz; the natural frequency if None.
+        intervals: Labels of the intervals that are taken; all that are not to be ignored if none is named.
+        name: Name of the calibration; None if there is none.
+        calibration: Reads the sensor; its prior or the logged wrench if None.
+
+    Returns:
+        Events with their decays, and where a force is known the response, its fit, and a filter that undoes it.
+
+    Raises:
+        ExperimentError: If something is asked for that the experiment or the excitation does not have.
+        FitError: If nothing at all is told.
+    """
+    several = [runs] if isinstance(runs, SensorRun) else list(runs)
+    run, kind = several[0], _excitation(excitation)
+    place = None if component is None else component_index(component)
+    _refuse_lacking(kind, place, component, force, mass_kg)
+    correction = run.read_by(name, calibration)
+    records = excited_records(several, correction, intervals=intervals, force=force)
+    weight = None if mass_kg is None or kind is not ExcitationKind.RELEASE else mass_kg * STANDARD_GRAVITY
+    decays = None if kind is ExcitationKind.PENDULUM else free_decays(records, kind, place, weight_N=weight)
+    refused: list[str] = []
+    transfer, fit = None, None if decays is None else decays.second_order
+    if force is not None:
+        try:
+            transfer, fit = driven_response(records, decays, kind, place, mass_kg)
+        except FitError as error:
+            if decays is None:
+                raise
+            refused.append(str(error))
+    elif fit is None:
+        refused.append(
+            "no transfer function: the force was not measured; name its stream by --force, from Python force"
+        )
+    rate = records[0].wrench.rate_hz
+    inverse = None
+    try:
+        inverse = None if fit is None else inverse_filter(fit, rate, cut_off_hz=cut_off_hz, name=run.sensor.name)
+    except FitError as error:
+        refused.append(str(error))
+    answer = Response(
+        sensor=run.sensor.name,
+        serial=run.sensor.serial,
+        reading=correction.source,
+        excitation=kind,
+        signal=component or _signal(kind, decays),
+        force=force,
+        rate_hz=rate,
+        samples=sum(len(record.wrench) for record in records),
+        events=() if decays is None else decays.rows,
+        numbers=tuple(numbers(decays, fit if transfer is not None else None, _gain_unit(records, mass_kg))),
+        curve=None if transfer is None else _curve(transfer, fit),
+        inverse=None if inverse is None else _inverse(inverse, decays),
+        refused=tuple(refused),
+        decays=() if decays is None else decays.curves,
+    )
+    return answer.model_copy(update={"warnings": tuple(_doubts(answer, fit, transfer, decays))})
+
+
+def _excitation(name: ExcitationKind | str) -> ExcitationKind:
+    if name not in tuple(ExcitationKind):
+        raise ExperimentError(f"no excitation {name!r}; {known_names(str(name), ExcitationKind)}")
+    return ExcitationKind(name)
+
+
+def _refuse_lacking(
+    kind: ExcitationKind, component: int | None, component_name: str | None, force: str | None, mass_kg: float | None
+) -> None:
+    if mass_kg is not None and not mass_kg > 0.0:
+        raise ExperimentError(f"mass: expected more than 0 kg, got {mass_kg:g}")
+    if kind is ExcitationKind.PENDULUM and (force is None or component is None):
+        raise ExperimentError(
+            "pendulum: expected the stream of the measured force or acceleration, --force, and the component that it "
+            f"excites, --component, from Python force and component, got {force!r} and {component_name!r}: a swing is "
+            "no event that could tell them"
+        )
+    if kind is ExcitationKind.RELEASE and mass_kg is not None and component is not None and component > 2:
+        raise ExperimentError(
+            f"release: a weight of known mass is a force; expected fx, fy or fz, got {component_name!r}"
+        )
+    if kind is ExcitationKind.IMPACT and mass_kg is not None and force is None:
+        raise ExperimentError(
+            "impact: a mass says nothing of a tap without its acceleration; name its stream by --force, "
+            "from Python force"
+        )
+
+
+def _signal(kind: ExcitationKind, decays: Decays | None) -> str:
+    if decays is None or kind is ExcitationKind.RELEASE:
+        return "force along the step"
+    return WRENCH_COMPONENTS[int(decays.direction.argmax())]
+
+
+def _gain_unit(records: Sequence[ExcitedRecord], mass_kg: float | None) -> str:
+    force = records[0].force
+    return "kg" if force is not None and force.signals.shape[1] == 3 and mass_kg is None else "1"
+
+
+def _curve(transfer: FrequencyResponse, fit: SecondOrder | None) -> ResponseCurve:
+    fitted = None if fit is None else fit.response(transfer.frequency_hz)
+    return ResponseCurve(
+        frequency_hz=transfer.frequency_hz,
+        real=transfer.real,
+        imaginary=transfer.imaginary,
+        fitted_real=None if fitted is None else fitted.real,
+        fitted_imaginary=None if fitted is None else fitted.imag,
+        radius_95=transfer.radius,
+        coherence=transfer.coherence,
+        chance=transfer.chance,
+        driven=transfer.driven.astype(np.float64),
+        explained_share=transfer.explained,
+        averages=transfer.averages,
+    )
+
+
+def _inverse(inverse: InverseFilter, decays: Decays | None) -> InverseRow:
+    quiet = None if decays is None else decays.quiet
+    at_rest = float(inverse.numerator.sum() / inverse.denominator.sum())
+    ratio = None
+    if quiet is not None and quiet.std() > 0.0:
+        ratio = float(inverse.apply(quiet).std() / quiet.std() / abs(at_rest))
+    return InverseRow(
+        rate_hz=inverse.rate_hz,
+        cut_off_hz=inverse.cut_off_hz,
+        noise_gain=inverse.noise_gain / abs(at_rest),
+        quiet_gain=ratio,
+        numerator=inverse.numerator,
+        denominator=inverse.denominator,
+    )
+
+
+def _doubts(
+    answer: Response, fit: SecondOrder | None, transfer: FrequencyResponse | None, decays: Decays | None
+) -> Iterator[str]:
+    yield from (row.untold for row in answer.events if row.untold is not None)
+    for row in answer.events:
+        if row.frequency_hz is not None and row.frequency_hz > FOLDED_SHARE * answer.rate_hz:
+            yield (
+                f"{row.recording}: at {row.time_s:.3f} s it rings at {row.frequency_hz:.4g} Hz, near half of the rate, "
+                f"{0.5 * answer.rate_hz:.4g} Hz: it may be one from above, folded back; sample faster"
+            )
+    if decays is not None and decays.ring_downs:
+        frequency = decays.frequency
+        if frequency.scatter is not None and frequency.scatter > 0.1 * frequency.mean:
+            frequencies = [ring_down.frequency_hz for ring_down in decays.ring_downs]
+            yield (
+                f"{answer.sensor}: events ring at {min(frequencies):.3g} to {max(frequencies):.3g} Hz: they are not "
+                "one vibration; strike one place in one posture, or choose another component"
+            )
+    if fit is None or transfer is None:
+        return
+    if fit.misfit is not None and fit.misfit > MISFIT:
+        yield (
+            f"{answer.sensor}: one resonance leaves {fit.misfit:.2g} times the noise: there are more, or a delay; "
+            "intervals are widened for it"
+        )
+    reached = float(transfer.frequency_hz[transfer.driven].max())
+    if fit.natural_frequency_hz > reached:
+        yield (
+            f"{answer.sensor}: its natural frequency, {fit.natural_frequency_hz:.4g} Hz, lies above what the force "
+            f"drove, {reached:.4g} Hz: it is extrapolated by the form of the fit; confirm it by taps"
+        )
+    if decays is not None and kept_swing(fit, transfer) > LEAST_SWING:
+        yield (
+            f"{answer.sensor}: {100 * kept_swing(fit, transfer):.0f} % of a vibration is left when its segment ends, "
+            "which makes damping look larger; leave more time between events"
+        )
+
+
+def kept_swing(fit: SecondOrder, transfer: FrequencyResponse) -> float:
+    """Tell how much of a vibration is left at the end of a segment.
+
+    Args:
+        fit: The sensor.
+        transfer: Its response, whose steps of frequency are one by the length of a segment.
+
+    Returns:
+        Share of its height.
+    """
+    length = 1.0 / float(np.diff(transfer.frequency_hz[:2])[0])
+    return math.exp(-2.0 * math.pi * fit.damping * fit.natural_frequency_hz * length)

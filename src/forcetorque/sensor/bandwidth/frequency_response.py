@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Frequency response of a sensor to a force that was measured, with coherence and 95 % intervals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.errors import FitError, ShapeError
+from forcetorque.base.noise.regression import CONFIDENCE
+
+LEAST_AVERAGES = 4
+"""Averages of a spectrum; of one the coherence is 1, whatever was measured."""
+LEAST_EXPLAINED = 0.8
+"""Share of the power of the reading that the measured force must explain, of all and of the middle frequency up to
+where its slope is largest: slow motion of an arm may be all of the power, and explained, where taps are not."""
+DRIVEN = 1e-4
+"""Part of the largest power of the force from which on a frequency is driven."""
+HIGHEST_SHARE = 0.4
+"""Part of the rate up to which spectra are read: above, what lies beyond half of the rate may be folded back."""
+
+_HANN_OVERLAP = 1.0 / 36.0
+"""Squared correlation of the spectra of Hann windows that overlap by half."""
+_ONE_SIDED = 1.645
+"""Deviations that 95 % of normal numbers do not fall short of."""
+_BINS = 3
+"""Frequencies on either side over which the noise is averaged."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class FrequencyResponse:
+    """Response at m frequencies, `reading = response force`."""
+
+    frequency_hz: FloatArray
+    """Shape (m,); Hz."""
+    real: FloatArray
+    """Real part of H1; shape (m,); unit of the reading by unit of the force."""
+    imaginary: FloatArray
+    """Imaginary part; shape (m,)."""
+    radius: FloatArray
+    """Radius of the circle about H1 that holds the response with 95 %; shape (m,)."""
+    coherence: FloatArray
+    """Shape (m,)."""
+    chance: float
+    """Coherence that nothing but chance exceeds in 5 % of the frequencies."""
+    force_power: FloatArray
+    """Power density of the force; shape (m,)."""
+    reading_power: FloatArray
+    """The same of the reading; shape (m,)."""
+    averages: float
+    """Independent averages."""
+
+    def __post_init__(self) -> None:
+        m = len(self.frequency_hz)
+        names = ("frequency_hz", "real", "imaginary", "radius", "coherence", "force_power", "reading_power")
+        for field in names:
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(m,)))
+
+    @property
+    def value(self) -> np.ndarray[tuple[int], np.dtype[np.complex128]]:
+        """H1; shape (m,)."""
+        return self.real + 1j * self.imaginary
+
+    @property
+    def driven(self) -> BoolArray:
+        """Which frequencies the force drives; shape (m,)."""
+        driven: BoolArray = self.force_power >= DRIVEN * self.force_power.max()
+        return driven
+
+    @property
+    def liveliest_hz(self) -> float:
+        """Driven frequency at which the slope of the reading has most power; Hz: the resonance, where there is one."""
+        slope = np.where(self.driven, self.frequency_hz**2 * self.reading_power, 0.0)
+        return float(self.frequency_hz[int(slope.argmax())])
+
+    @property
+    def explained(self) -> float:
+        """Share of the power of the reading that the force explains, chance taken off."""
+        shared = (self.coherence * self.reading_power)[self.driven].sum() / self.reading_power[self.driven].sum()
+        return float((shared - 1.0 / self.averages) / (1.0 - 1.0 / self.averages))
+
+    @property
+    def noise_power(self) -> FloatArray:
+        """Power density of what the force does not explain of the reading; shape (m,)."""
+        return _noise(self.coherence, self.reading_power, self.averages)
+
+    @property
+    def smooth_noise(self) -> FloatArray:
+        """Noise averaged over neighbouring frequencies; shape (m,)."""
+        from scipy.ndimage import uniform_filter1d
+
+        smooth: FloatArray = uniform_filter1d(self.noise_power, 2 * _BINS + 1, mode="nearest")
+        return smooth
+
+
+def overlapping(series: FloatArray, segment: int) -> FloatArray:
+    """Cut a series into segments that overlap by half.
+
+    Args:
+        series: Shape (n,).
+        segment: Samples of a segment.
+
+    Returns:
+        Shape (k, segment).
+    """
+    step = segment - segment // 2
+    segments: FloatArray = np.lib.stride_tricks.sliding_window_view(series, segment)[::step]
+    return segments
+
+
+def frequency_response(
+    force: FloatArray, reading: FloatArray, rate_hz: float, *, events: bool, highest_hz: float
+) -> FrequencyResponse:
+    """Estimate the response to a measured force (H1).
+
+    Args:
+        force: Force in each of k segments; shape (k, n).
+        reading: Reading at the same instants; shape (k, n).
+        rate_hz: Rate; Hz.
+        events: Whether each segment holds an event from quiet to quiet, and is taken as it is; else the force goes on,
+            segments are those of `overlapping`, and under a Hann window.
+        highest_hz: Highest frequency that is read; Hz; `HIGHEST_SHARE` of the rate or less.
+
+    Returns:
+        Response, coherence and intervals [1].
+
+    Raises:
+        FitError: If there are fewer than `LEAST_AVERAGES - 1` segments, or nothing drives the sensor.
+        ShapeError: If force and reading do not have one shape.
+
+    References:
+        [1] J. S. Bendat, A. G. Piersol, Random data, 4th ed. (2010), chapter 9.
+    """
+    from scipy.signal import csd, welch
+    from scipy.special import fdtri
+
+    if force.shape != reading.shape:
+        raise ShapeError(f"expected force and reading of one shape, got {force.shape} and {reading.shape}")
+    count, segment = force.shape
+    if count < LEAST_AVERAGES - 1:  # one may be left out, to see what it tells
+        raise FitError(f"expected at least {LEAST_AVERAGES - 1} segments for a coherence, got {count}")
+    if not np.ptp(force) > 0.0:
+        raise FitError("expected a force that changes, got one that stays: nothing drives the sensor")
+    averages = float(count) if events else count / (1.0 + 2.0 * (count - 1) / count * _HANN_OVERLAP)
+    options = {
+        "fs": rate_hz,
+        "window": "boxcar" if events else "hann",
+        "nperseg": segment,
+        "noverlap": 0,
+        "detrend": "constant",
+    }
+    frequency, force_power = welch(force.ravel(), **options)
+    reading_power, cross = welch(reading.ravel(), **options)[1], csd(force.ravel(), reading.ravel(), **options)[1]
+    kept = (frequency > (0.0 if events else 2.5 * rate_hz / segment)) & (frequency <= highest_hz)
+    kept &= force_power > 0.0
+    force_power, reading_power, cross = force_power[kept], reading_power[kept], cross[kept]
+    shared = np.abs(cross) ** 2 / force_power
+    coherence = np.clip(shared / np.maximum(reading_power, np.finfo(np.float64).tiny), 0.0, 1.0)
+    noise = _noise(coherence, reading_power, averages)
+    circle = fdtri(2.0, 2.0 * averages - 2.0, CONFIDENCE) / averages * noise / force_power
+    return FrequencyResponse(
+        frequency_hz=frequency[kept],
+        real=(cross / force_power).real,
+        imaginary=(cross / force_power).imag,
+        radius=np.sqrt(circle),
+        coherence=coherence,
+        chance=1.0 - (1.0 - CONFIDENCE) ** (1.0 / (averages - 1.0)),
+        force_power=force_power,
+        reading_power=reading_power,
+        averages=averages,
+    )
+
+
+def _noise(coherence: FloatArray, reading_power: FloatArray, averages: float) -> FloatArray:
+    """What the force does not explain, for the response has taken some of the noise; shape (m,)."""
+    noise: FloatArray = (1.0 - coherence) * reading_power * averages / (averages - 1.0)
+    return noise
+
+
+def require_coherence(response: FrequencyResponse, *, name: str) -> None:
+    """Refuse a response that the measured force does not explain.
+
+    Args:
+        response: The response.
+        name: What was recorded, for messages.
+
+    Raises:
+        FitError: If the force explains less than `LEAST_EXPLAINED` of the power of the reading, or the coherence of the
+            middle frequency up to the liveliest is not surely as much.
+    """
+    top = response.liveliest_hz
+    coherence = response.coherence[response.driven & (response.frequency_hz <= top)]
+    sure = _sure(float(np.median(coherence)), response.averages)
+    if response.explained >= LEAST_EXPLAINED and sure >= LEAST_EXPLAINED:
+        return
+    low, high = np.quantile(coherence, [0.25, 0.75])
+    raise FitError(
+        f"{name}: no transfer function: the measured force explains {100 * max(response.explained, 0.0):.0f} % of "
+        f"the power of the reading, and the coherence is {low:.2f} to {high:.2f} (middle half of the frequencies up to "
+        f"{top:.3g} Hz, {response.averages:.3g} averages, of which chance alone gives {1.0 / response.averages:.2f}), "
+        f"surely {sure:.2f}; expected {100 * LEAST_EXPLAINED:.0f} % and {LEAST_EXPLAINED:g} at least: measure the "
+        "force itself, at the place and in the direction in which it acts, or record more events"
+    )
+
+
+def _sure(coherence: float, averages: float) -> float:
+    """The coherence that is exceeded with 95 %, by Fisher's transform of its root without its bias."""
+    root = float(np.arctanh(min(np.sqrt(coherence), 1.0 - 1e-12)))
+    lower = root - 1.0 / (2.0 * averages - 2.0) - _ONE_SIDED / np.sqrt(2.0 * averages)
+    return float(np.tanh(max(lower, 0.0)) ** 2)

@@ -1,0 +1,362 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From resistance to counts: Wheatstone bridge, amplifier, analogue-to-digital converter, saturation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_last_axis, require_shape
+from forcetorque.base.errors import SensorError, ShapeError
+from forcetorque.sensor.gauge.resistive import ResistiveGauge
+from forcetorque.sensor.require import require_positive
+
+
+def bridge_ratio(resistances: Any) -> FloatArray:
+    """Give the output voltage of a bridge per input voltage, exactly [1].
+
+    Balanced, with output 0, where `R1 R3 = R2 R4`, so `R1 / R2 = R4 / R3`.
+
+    Args:
+        resistances: R1 to R4 around the bridge, each above zero; shape (..., 4); ohm.
+
+    Returns:
+        Output per input voltage; shape (...).
+
+    Raises:
+        ShapeError: If there are not four resistances.
+        SensorError: If a resistance is not above zero.
+
+    References:
+        [1] Thesis (1.11); its text prints the balance as R1 / R2 = R3 / R4.
+    """
+    ohms = np.asarray(resistances, dtype=np.float64)
+    require_last_axis(ohms, name="resistances", length=4)
+    if not (ohms > 0.0).all():
+        raise SensorError(f"resistances: expected numbers above 0 ohm, got {ohms.min():g}")
+    r1, r2, r3, r4 = np.moveaxis(ohms, -1, 0)
+    ratio: FloatArray = (r1 * r3 - r2 * r4) / ((r1 + r2) * (r3 + r4))
+    return ratio
+
+
+def linearised_bridge_ratio(relative_changes: Any) -> FloatArray:
+    """Give the output per input voltage of four resistors that are equal without load, to first order.
+
+    `(c1 - c2 + c3 - c4) / 4`: changes of neighbours subtract, changes of opposite arms add.
+
+    Args:
+        relative_changes: `dR / R` of each arm; shape (..., 4).
+
+    Returns:
+        Output per input voltage; shape (...); wrong by terms of the square of the changes.
+
+    Raises:
+        ShapeError: If there are not four changes.
+    """
+    changes = np.asarray(relative_changes, dtype=np.float64)
+    require_last_axis(changes, name="relative_changes", length=4)
+    ratio: FloatArray = 0.25 * (changes @ np.array([1.0, -1.0, 1.0, -1.0]))
+    return ratio
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bridge:
+    """Which arms of a bridge of equal resistors are gauges, and what strain each of them sees.
+
+    Temperature is compensated where the gauges of neighbouring arms warm up alike. That needs equal
+    gauges at one temperature (thesis 1.3.1); for gauges at different ones, give the changes of each arm
+    to `bridge_ratio`.
+    """
+
+    strain_shares: tuple[float, float, float, float]
+    """Strain of each arm per strain at the bridge; 1 and -1 on the two faces of a bent beam."""
+    is_gauge: tuple[bool, bool, bool, bool]
+    """Whether the arm is a gauge, which warms up with the others, or a fixed resistor, which does not change."""
+
+    def __post_init__(self) -> None:
+        if len(self.strain_shares) != 4 or len(self.is_gauge) != 4:
+            raise ShapeError(f"Bridge: expected four arms, got {len(self.strain_shares)} and {len(self.is_gauge)}")
+        for arm, (share, gauge) in enumerate(zip(self.strain_shares, self.is_gauge, strict=True), start=1):
+            if share != 0.0 and not gauge:
+                raise SensorError(f"Bridge: arm {arm} is a fixed resistor but sees strain; make it a gauge")
+        if self.factor == 0.0:
+            raise SensorError("Bridge: the strains of the arms cancel; expected neighbours with opposite strain")
+
+    @property
+    def factor(self) -> float:
+        """Output per that of a single gauge: 1 for a quarter, 2 for a half, 4 for a full bridge in bending."""
+        s1, s2, s3, s4 = self.strain_shares
+        return s1 - s2 + s3 - s4
+
+    @property
+    def is_temperature_compensated(self) -> bool:
+        """Whether a common temperature leaves a bridge without strain in balance: R1 R3 and R2 R4 grow alike."""
+        g1, g2, g3, g4 = self.is_gauge
+        return g1 + g3 == g2 + g4
+
+    def relative_changes(self, gauge: ResistiveGauge, strain: Any, temperature_change: Any = 0.0) -> FloatArray:
+        """Give the relative change of resistance of each arm.
+
+        Args:
+            gauge: What each gauge of the bridge is.
+            strain: Strains at the bridge; any shape.
+            temperature_change: Temperature of all gauges above the reference; broadcast against `strain`; degC.
+
+        Returns:
+            `dR / R`; broadcast shape, then 4.
+        """
+        strains, warming = np.broadcast_arrays(
+            np.asarray(strain, dtype=np.float64), np.asarray(temperature_change, dtype=np.float64)
+        )
+        changes = gauge.relative_change(strains[..., None] * np.array(self.strain_shares), warming[..., None])
+        return np.where(self.is_gauge, changes, 0.0)
+
+    def ratio(self, gauge: ResistiveGauge, strain: Any, temperature_change: Any = 0.0) -> FloatArray:
+        """Give the output voltage per input voltage, exactly.
+
+        Args:
+            gauge: What each gauge of the bridge is; fixed resistors have its resistance without load.
+            strain: Strains at the bridge; any shape.
+            temperature_change: Temperature of all gauges above the reference; broadcast against `strain`; degC.
+
+        Returns:
+            Output per input voltage; broadcast shape.
+        """
+        return bridge_ratio(gauge.resistance * (1.0 + self.relative_changes(gauge, strain, temperature_change)))
+
+
+QUARTER_BRIDGE = Bridge(strain_shares=(1.0, 0.0, 0.0, 0.0), is_gauge=(True, False, False, False))
+"""One gauge and three resistors: temperature looks like strain."""
+
+QUARTER_BRIDGE_WITH_DUMMY = Bridge(strain_shares=(1.0, 0.0, 0.0, 0.0), is_gauge=(True, True, False, False))
+"""One gauge with a second, unstrained one beside it that only feels the temperature: compensated."""
+
+HALF_BRIDGE = Bridge(strain_shares=(1.0, -1.0, 0.0, 0.0), is_gauge=(True, True, False, False))
+"""Gauges on both faces of a bent beam in neighbouring arms: twice the output, compensated."""
+
+OPPOSITE_HALF_BRIDGE = Bridge(strain_shares=(1.0, 0.0, 1.0, 0.0), is_gauge=(True, False, True, False))
+"""Gauges with equal strain in opposite arms: twice the output, but twice the temperature too."""
+
+FULL_BRIDGE = Bridge(strain_shares=(1.0, -1.0, 1.0, -1.0), is_gauge=(True, True, True, True))
+"""Two gauges on each face of a bent beam: four times the output, compensated, and linear without approximation."""
+
+
+_SAME_GAIN = 1e-6
+"""Relative difference up to which a gain is one of the allowed ones: lists print a few digits."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Amplifier:
+    """`output = amplifier_gain input + offset`, channel by channel; limits are those of what follows."""
+
+    amplifier_gain: FloatArray
+    """Gain of each channel, above zero; shape (c,)."""
+    offset: FloatArray
+    """Output without input; shape (c,); V."""
+    allowed_gains: tuple[float, ...] | None = None
+    """Gains that the electronics can be set to; any if left out."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "amplifier_gain", read_only(self.amplifier_gain, name="amplifier_gain", shape=(None,)))
+        object.__setattr__(self, "offset", read_only(self.offset, name="offset", shape=(None,)))
+        if self.offset.shape != self.amplifier_gain.shape:
+            raise ShapeError(
+                f"Amplifier: expected one offset per gain, got {len(self.offset)} and {len(self.amplifier_gain)}"
+            )
+        if not (np.isfinite(self.offset).all() and np.isfinite(self.amplifier_gain).all()):
+            raise SensorError("Amplifier: expected finite gains and offsets in V")
+        for channel, gain in enumerate(self.amplifier_gain):
+            if not gain > 0.0:
+                raise SensorError(f"Amplifier: channel {channel}: expected a gain above 0, got {gain:g}")
+            if (
+                self.allowed_gains is not None
+                and not np.isclose(gain, self.allowed_gains, rtol=_SAME_GAIN, atol=0).any()
+            ):
+                known = ", ".join(f"{allowed:g}" for allowed in sorted(self.allowed_gains))
+                raise SensorError(f"Amplifier: channel {channel}: gain {gain:g} is not one of {known}")
+
+    def output(self, voltage: Any) -> FloatArray:
+        """Amplify.
+
+        Args:
+            voltage: Voltages at the input; shape (..., c); V.
+
+        Returns:
+            Voltages at the output; same shape; V.
+
+        Raises:
+            ShapeError: If there is not one voltage per channel.
+        """
+        volts = np.asarray(voltage, dtype=np.float64)
+        require_last_axis(volts, name="voltage", length=len(self.amplifier_gain))
+        amplified: FloatArray = self.amplifier_gain * volts + self.offset
+        return amplified
+
+    def input(self, output: Any) -> FloatArray:
+        """Give the input that an output tells.
+
+        Args:
+            output: Voltages at the output; shape (..., c); V.
+
+        Returns:
+            Voltages at the input; same shape; V.
+
+        Raises:
+            ShapeError: If there is not one voltage per channel.
+        """
+        volts = np.asarray(output, dtype=np.float64)
+        require_last_axis(volts, name="output", length=len(self.amplifier_gain))
+        before: FloatArray = (volts - self.offset) / self.amplifier_gain
+        return before
+
+
+_MOST_BITS = 32
+"""More bits than any converter of a force sensor has; below the 53 of a float64, so counts stay exact."""
+
+
+class Rounding(StrEnum):
+    """What becomes of a voltage between two counts."""
+
+    NEAREST = "nearest"
+    """The nearest count: errors of up to half a step each way."""
+    DOWN = "down"
+    """The count below: errors of up to a step, always to one side."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Adc:
+    """A converter of `bits` bits; signed ones convert -reference to reference, others 0 to reference."""
+
+    bits: int
+    """Number of bits."""
+    reference: float
+    """Reference voltage; V."""
+    signed: bool
+    """Whether counts run from -2^(bits-1) to 2^(bits-1) - 1 (two's complement), or from 0 to 2^bits - 1."""
+    rounding: Rounding = Rounding.NEAREST
+    """What becomes of a voltage between two counts."""
+
+    def __post_init__(self) -> None:
+        require_positive(self.reference, name="Adc: reference", unit="V")
+        if not 1 <= self.bits <= _MOST_BITS:
+            raise SensorError(f"Adc: expected 1 to {_MOST_BITS} bits, got {self.bits}")
+
+    @property
+    def lowest(self) -> int:
+        """Lowest count."""
+        return -(1 << (self.bits - 1)) if self.signed else 0
+
+    @property
+    def highest(self) -> int:
+        """Highest count: one less in magnitude than the lowest of a signed converter."""
+        return self.lowest + (1 << self.bits) - 1
+
+    @property
+    def step(self) -> float:
+        """Voltage of one count, the range over 2^bits, thesis (3.13) as the errata correct it; V/count."""
+        return (2.0 if self.signed else 1.0) * self.reference / (1 << self.bits)
+
+    def counts(self, voltage: Any) -> FloatArray:
+        """Convert to counts; beyond the range the count stays at the limit.
+
+        Args:
+            voltage: Voltages; any shape; V.
+
+        Returns:
+            Whole counts from `lowest` to `highest`; same shape.
+
+        Raises:
+            SensorError: If a voltage is not a number.
+        """
+        steps = np.asarray(voltage, dtype=np.float64) / self.step
+        if np.isnan(steps).any():
+            raise SensorError("Adc: expected voltages that are numbers, got NaN")
+        whole = np.rint(steps) if self.rounding is Rounding.NEAREST else np.floor(steps)
+        clipped: FloatArray = np.clip(whole, self.lowest, self.highest)
+        return clipped
+
+    def voltage(self, counts: Any) -> FloatArray:
+        """Give the voltage in the middle of those that convert to a count.
+
+        Args:
+            counts: Counts from `lowest` to `highest`; any shape.
+
+        Returns:
+            Voltages; same shape; V.
+
+        Raises:
+            SensorError: If a count is beyond the limits.
+        """
+        whole = np.asarray(counts, dtype=np.float64)
+        if not ((whole >= self.lowest) & (whole <= self.highest)).all():
+            raise SensorError(
+                f"Adc: expected counts from {self.lowest} to {self.highest}, got {whole.min():g} to {whole.max():g}"
+            )
+        middle = 0.5 if self.rounding is Rounding.DOWN else 0.0
+        volts: FloatArray = self.step * (whole + middle)
+        return volts
+
+    def at_limit(self, counts: Any) -> BoolArray:
+        """Say which counts cannot be told from a voltage beyond the range: that is saturation.
+
+        Args:
+            counts: Counts; any shape.
+
+        Returns:
+            Whether each is at the lowest or the highest count; same shape.
+        """
+        whole = np.asarray(counts, dtype=np.float64)
+        limits: BoolArray = (whole <= self.lowest) | (whole >= self.highest)
+        return limits
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class HeldCounts:
+    """The stream of a board that holds its last valid sample."""
+
+    counts: FloatArray
+    """Streamed counts; shape (n, c); NaN before the first valid sample, as there is nothing to hold."""
+    saturated: BoolArray
+    """Status of each sample, true while any channel is saturated; shape (n,)."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "counts", read_only(self.counts, name="counts", shape=(None, None)))
+        status = np.array(self.saturated, dtype=np.bool_)
+        require_shape(status, name="saturated", shape=(len(self.counts),))
+        status.setflags(write=False)
+        object.__setattr__(self, "saturated", status)
+
+
+def hold_on_saturation(counts: Any, *, lowest: Any, highest: Any) -> HeldCounts:
+    """Hold the last valid sample of all channels while any channel is at a limit, thesis 4.3.2.
+
+    Args:
+        counts: Counts of the converter in the order of time; shape (n, c).
+        lowest: Count at which a channel is saturated, and below; a number, or shape (c,).
+        highest: Count at which a channel is saturated, and above; a number, or shape (c,).
+
+    Returns:
+        What the board streams, with its status.
+
+    Raises:
+        ShapeError: If the counts are not samples by channels, or the limits do not fit them.
+        SensorError: If a lower limit is not below its upper one, or a count is not a number.
+    """
+    raw = np.asarray(counts, dtype=np.float64)
+    require_shape(raw, name="counts", shape=(None, None))
+    low, high = np.asarray(lowest, dtype=np.float64), np.asarray(highest, dtype=np.float64)
+    for name, limit in (("lowest", low), ("highest", high)):
+        if limit.shape not in {(), raw.shape[1:]}:
+            raise ShapeError(f"{name}: expected a number or one per channel, {raw.shape[1]}, got shape {limit.shape}")
+    if not (low < high).all():
+        raise SensorError(f"expected limits with lowest below highest, got {low.tolist()} and {high.tolist()}")
+    if np.isnan(raw).any():
+        raise SensorError("counts: expected numbers, got NaN; a converter always gives a count")
+    saturated: BoolArray = np.any((raw <= low) | (raw >= high), axis=1)
+    # index of the last valid sample up to each one; -1 before the first
+    last_valid = np.maximum.accumulate(np.where(saturated, -1, np.arange(len(raw))))
+    held = np.where((last_valid < 0)[:, None], np.nan, raw[last_valid])
+    return HeldCounts(counts=held, saturated=saturated)

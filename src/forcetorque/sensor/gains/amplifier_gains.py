@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Amplifier gains: how far the channels are from their limits, and which gains would use the range better.
+
+Counts are taken to be proportional to the gain of their channel, offset included: the counts that a
+recording would have had with another gain are `counts * gain / present gain`. The limits are
+symmetric, but an offset moves a channel towards one of them, so that head-room is given towards
+each [1].
+
+References:
+    [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), 5.5.1 and 4.3.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.errors import ForceTorqueError, ShapeError
+from forcetorque.recording.quality import saturation_findings
+from forcetorque.recording.stream import Stream
+from forcetorque.sensor.full_scale import axis_resolution as largest_step
+
+MARGIN = 0.2
+"""Share of the limit that is kept free for forces that the recording does not hold."""
+
+_ROUNDING = 1e-12
+"""A gain this close above the largest that keeps the margin is that one."""
+
+
+class GainChange(StrEnum):
+    """What to do with the gain of a channel."""
+
+    KEEP = "keep"
+    """It is the best there is."""
+    RAISE = "raise"
+    """The channel stays far from its limits."""
+    LOWER = "lower"
+    """The channel comes closer to a limit than the margin."""
+    LOWER_AND_REPEAT = "lower_and_repeat"
+    """The channel saturates, so that nobody knows how far it would have gone: repeat the motion with less gain."""
+    UNKNOWN = "unknown"
+    """The load did not move, so that nothing tells how far the channel goes in use."""
+    NONE_FITS = "none_fits"
+    """The channel saturates or lacks the margin, and no lower gain is allowed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChannelRange:
+    """What a channel read over a recording."""
+
+    channel: str
+    """Name of the channel."""
+    samples: int
+    """Number of samples."""
+    smallest_counts: float
+    """Smallest reading; counts."""
+    largest_counts: float
+    """Largest reading; counts."""
+    limit_counts: float
+    """Largest magnitude of a reading; counts."""
+    saturated_samples: int
+    """Samples at the limit, as `saturation_findings` has it."""
+    moved: bool = True
+    """Whether the recording shows a load in this channel that moves."""
+
+    @property
+    def headroom_below(self) -> float:
+        """What is left towards the negative limit; share of the limit."""
+        return 1.0 + self.smallest_counts / self.limit_counts
+
+    @property
+    def headroom_above(self) -> float:
+        """What is left towards the positive limit; share of the limit."""
+        return 1.0 - self.largest_counts / self.limit_counts
+
+    @property
+    def peak_counts(self) -> float:
+        """Largest magnitude of a reading; counts."""
+        return max(abs(self.smallest_counts), abs(self.largest_counts))
+
+    @property
+    def saturated_share(self) -> float:
+        """Share of samples at the limit."""
+        return self.saturated_samples / self.samples
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GainAdvice:
+    """Which gain a channel should have, and what it would then read."""
+
+    channel: str
+    """Name of the channel."""
+    present: float | None
+    """Gain with which the recording was made; None if it is not known."""
+    recommended: float | None
+    """Allowed gain to set; None if no gains are known, none fits, or the load did not move."""
+    largest_factor: float | None
+    """Factor on the gain that would leave just the margin; where the channel saturates, an upper bound;
+    None for a channel that reads zero throughout, or whose load did not move."""
+    factor: float
+    """Factor on the counts that the expected readings are made with: that of the recommended gain, else the largest."""
+    change: GainChange
+    """What to do."""
+    expected: ChannelRange
+    """What the channel would have read; where it saturated, at least this far."""
+    keeps_margin: bool
+    """Whether that leaves the margin, as far as the recording can tell."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class AxisResolution:
+    """What one count is worth along each axis of the wrench."""
+
+    worst: FloatArray
+    """Change of a component when every channel is off by one count with the worst signs, the sum of the
+    magnitudes of its row of the matrix; shape (6,); N, N m."""
+    rms: FloatArray
+    """Standard deviation of a component when the channels err independently with a standard deviation of one
+    count each, the Euclidean norm of its row; shape (6,); N, N m."""
+
+    def __post_init__(self) -> None:
+        for name in ("worst", "rms"):
+            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(6,)))
+
+
+def channel_ranges(
+    stream: Stream, counts: FloatArray, channels: Sequence[str], *, limit_counts: float, recovered: bool
+) -> tuple[ChannelRange, ...]:
+    """Find how far the channels of a sensor went.
+
+    Args:
+        stream: Stream that the counts belong to.
+        counts: Raw readings, finite; shape (n, c); counts.
+        channels: Names of the c channels.
+        limit_counts: Largest magnitude that the converter gives; counts.
+        recovered: Whether the counts came through an inverse matrix.
+
+    Returns:
+        One range per channel.
+
+    Raises:
+        ShapeError: If there is no sample, or a value is missing.
+    """
+    require_shape(counts, name="counts", shape=(len(stream), len(channels)))
+    if not len(counts) or not np.isfinite(counts).all():
+        raise ShapeError(f"counts: expected at least one sample and no missing value, got {len(counts)} samples")
+    findings = saturation_findings(stream, counts, limit_counts=limit_counts, recovered=recovered)
+    return tuple(
+        ChannelRange(
+            channel=channel,
+            samples=len(column),
+            smallest_counts=float(column.min()),
+            largest_counts=float(column.max()),
+            limit_counts=limit_counts,
+            saturated_samples=sum(finding.count for finding in findings if finding.channel == f"ch{k}"),
+        )
+        for k, (channel, column) in enumerate(zip(channels, counts.T, strict=True))
+    )
+
+
+def advise_gains(
+    ranges: Sequence[ChannelRange],
+    *,
+    margin: float = MARGIN,
+    present: Sequence[float] | None = None,
+    allowed: Sequence[float] | None = None,
+) -> tuple[GainAdvice, ...]:
+    """Choose for each channel the largest gain that keeps the margin to both limits.
+
+    A channel that saturates gets a lower gain in any case, and is to be recorded again. Where no gain
+    keeps the margin, the lowest one is taken if it is below the present one. Where present or allowed
+    gains are not known, the largest factor takes the place of a gain. A channel in which no load moves and that
+    keeps the margin gets no advice.
+
+    Args:
+        ranges: What each channel read.
+        margin: Share of the limit to keep free, 0 or more and below 1.
+        present: Gain of each channel with which it was read.
+        allowed: Gains that can be set; the present ones can.
+
+    Returns:
+        Advice for each channel.
+
+    Raises:
+        ForceTorqueError: If the margin is not below 1, or a gain not above 0.
+        ShapeError: If there is not one present gain per channel.
+    """
+    if not 0.0 <= margin < 1.0:
+        raise ForceTorqueError(f"margin: expected a share of the limit, 0 or more and below 1, got {margin:g}")
+    if present is not None and len(present) != len(ranges):
+        raise ShapeError(f"present gains: expected one for each of {len(ranges)} channels, got {len(present)}")
+    if any(not (gain > 0.0 and np.isfinite(gain)) for gain in (*(present or ()), *(allowed or ()))):
+        raise ForceTorqueError("gains: expected finite numbers above 0")
+    gains: Sequence[float | None] = [None] * len(ranges) if present is None else present
+    return tuple(_advice(channel, gain, allowed, margin) for channel, gain in zip(ranges, gains, strict=True))
+
+
+def axis_resolution(matrix: FloatArray, *, factors: Sequence[float] | None = None) -> AxisResolution:
+    """Tell what one count is worth.
+
+    Args:
+        matrix: Matrix for the present gains; shape (6, c); N/count, N m/count.
+        factors: Factors on the gain of each channel; a count is then worth less by as much. None for the present.
+
+    Returns:
+        The resolution of each axis.
+    """
+    per_count = matrix if factors is None else matrix / np.asarray(factors, dtype=np.float64)
+    return AxisResolution(worst=largest_step(per_count), rms=np.linalg.norm(per_count, axis=1))
+
+
+def strongest_samples(counts: FloatArray) -> tuple[IntArray, int]:
+    """Find the samples that come closest to the limits, offsets included.
+
+    Args:
+        counts: Raw readings; shape (n, c); counts.
+
+    Returns:
+        Row of the largest magnitude of each channel, shape (c,), and the row of the largest
+        Euclidean norm over all channels; the first one where several are equal.
+    """
+    magnitudes = np.abs(counts)
+    return magnitudes.argmax(axis=0).astype(np.int64), int(np.linalg.norm(magnitudes, axis=1).argmax())
+
+
+def _advice(channel: ChannelRange, present: float | None, allowed: Sequence[float] | None, margin: float) -> GainAdvice:
+    free = (1.0 - margin) * channel.limit_counts
+    largest = free / channel.peak_counts if channel.peak_counts > 0.0 else None
+    recommended = None
+    if not channel.moved and not channel.saturated_samples and channel.peak_counts <= free:
+        return GainAdvice(
+            channel=channel.channel,
+            present=present,
+            recommended=None,
+            largest_factor=None,
+            factor=1.0,
+            change=GainChange.UNKNOWN,
+            expected=channel,
+            keeps_margin=True,
+        )
+    if present is not None and allowed:
+        recommended = _choose(channel, present, allowed, largest)
+        factor = 1.0 if recommended is None else recommended / present
+        change = GainChange.NONE_FITS if recommended is None else _change(channel, recommended, present)
+    else:
+        factor = 1.0 if largest is None else largest
+        change = _change(channel, factor, 1.0)
+    expected = ChannelRange(
+        channel=channel.channel,
+        samples=channel.samples,
+        smallest_counts=channel.smallest_counts * factor,
+        largest_counts=channel.largest_counts * factor,
+        limit_counts=channel.limit_counts,
+        saturated_samples=0 if factor < 1.0 else channel.saturated_samples,
+    )
+    return GainAdvice(
+        channel=channel.channel,
+        present=present,
+        recommended=recommended,
+        largest_factor=largest,
+        factor=factor,
+        change=change,
+        expected=expected,
+        keeps_margin=expected.peak_counts <= free * (1.0 + _ROUNDING),
+    )
+
+
+def _choose(channel: ChannelRange, present: float, allowed: Sequence[float], largest: float | None) -> float | None:
+    """The largest gain that keeps the margin, else the lowest if that helps."""
+    if largest is None:
+        return present  # a channel that reads nothing says nothing about its gain
+    lower = [gain for gain in allowed if gain < present]
+    candidates = lower if channel.saturated_samples else [*allowed, present]
+    fitting = [gain for gain in candidates if gain <= present * largest * (1.0 + _ROUNDING)]
+    return max(fitting) if fitting else min(lower, default=None)
+
+
+def _change(channel: ChannelRange, recommended: float, present: float) -> GainChange:
+    if channel.saturated_samples:
+        return GainChange.LOWER_AND_REPEAT
+    if recommended == present:
+        return GainChange.KEEP
+    return GainChange.RAISE if recommended > present else GainChange.LOWER

@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Gain selection from the recording of an experiment: ranges, advice, and the postures that load a sensor most."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.raw_counts import RawCounts, raw_counts
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.alignment import seconds_since
+from forcetorque.results.result import Result
+from forcetorque.results.table import Table
+from forcetorque.sensor.gains.amplifier_gains import (
+    MARGIN,
+    ChannelRange,
+    GainAdvice,
+    GainChange,
+    advise_gains,
+    axis_resolution,
+    channel_ranges,
+)
+from forcetorque.sensor.gains.movement import has_contact, moved_channels
+from forcetorque.sensor.gains.result import ChannelRow, ResolutionRow, SensorRow, strongest_rows
+
+
+class Gains(Result):
+    """How far the channels of sensors are from saturation, and which amplifier gains would suit them."""
+
+    schema_name: Literal["forcetorque/gains/1"] = Field(default="forcetorque/gains/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    margin: float
+    """Share of the limit that is kept free."""
+    figure: str | None = None
+    """File of the figure."""
+    sensors: tuple[SensorRow, ...]
+    """Sensors in the order of the file."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give the tables of every sensor.
+
+        Yields:
+            Tables and sentences.
+        """
+        for row in self.sensors:
+            yield from row.blocks()
+        yield f"left: share of the limit, to be kept above {100.0 * self.margin:g} %"
+        if self.figure is not None:
+            yield f"drawn to {self.figure}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give the channels as flat lines.
+
+        Returns:
+            One line per sensor and channel.
+        """
+        return [
+            {"sensor": row.sensor, "serial": row.serial, **channel.flat()}
+            for row in self.sensors
+            for channel in row.channels
+        ]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SensorGains:
+    """The channels of a sensor against their limits, as a figure draws them."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    margin: float
+    """Share of the limit to keep free."""
+    limit_counts: float
+    """Largest magnitude of a reading; counts."""
+    time_s: FloatArray
+    """Instants from the earliest stamp over all streams; shape (n,); s."""
+    counts: FloatArray
+    """Raw readings over all intervals that are not ignored; shape (n, c); counts."""
+    advice: tuple[GainAdvice, ...]
+    """Which gain each channel should have."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "time_s", read_only(self.time_s, name="time_s", shape=(None,)))
+        shape = (len(self.time_s), len(self.advice))
+        object.__setattr__(self, "counts", read_only(self.counts, name="counts", shape=shape))
+
+    @property
+    def factors(self) -> FloatArray:
+        """Factor on the counts of each channel; shape (c,)."""
+        return np.array([advised.factor for advised in self.advice])
+
+
+@with_recording_notes
+def select_gains(
+    run: SensorRun, *, margin: float = MARGIN, calibration: tuple[str, Calibration] | None = None
+) -> Gains:
+    """Look how a sensor uses its range over all intervals that are not ignored.
+
+    Args:
+        run: The sensor, with its present and allowed gains if they are known.
+        margin: Share of the limit to keep free.
+        calibration: Name and calibration whose matrix tells what a count is worth; the prior's if left out.
+
+    Returns:
+        Ranges, advice and resolution.
+
+    Raises:
+        ExperimentError: If all intervals are ignored, the counts are not known, or no sample has a reading.
+        ShapeError: If the matrix does not have a column per channel.
+    """
+    counts = raw_counts(run)
+    ranges, advice = _advised(run, counts, margin)
+    matrix, source = _matrix(run, calibration)
+    if matrix is not None:
+        require_shape(matrix, name=f"{source}: matrix", shape=(6, len(ranges)))
+    row = SensorRow(
+        sensor=run.sensor.name,
+        serial=run.sensor.serial,
+        samples=len(counts.stream),
+        missing=counts.missing,
+        frozen=counts.frozen,
+        recovered=counts.recovered,
+        limit_counts=run.sensor.limit_counts,
+        contact_stated=has_contact(run),
+        repeat=counts.frozen > 0 or any(channel.saturated_samples for channel in ranges),
+        channels=tuple(_channel_row(channel, advised) for channel, advised in zip(ranges, advice, strict=True)),
+        matrix=source,
+        resolution=() if matrix is None else _resolution_rows(matrix, advice),
+        strongest=strongest_rows(run.experiment.recording, counts),
+    )
+    return Gains(
+        experiment=run.experiment.name,
+        margin=margin,
+        sensors=(row,),
+        warnings=tuple(_doubts(row, run.sensor.prior_source)),
+    )
+
+
+def sensor_gains(run: SensorRun, *, margin: float = MARGIN) -> SensorGains:
+    """Give the samples that `select_gains` looks at, with its advice, for a figure.
+
+    Args:
+        run: The sensor, with its present and allowed gains if they are known.
+        margin: Share of the limit to keep free.
+
+    Returns:
+        Samples and advice.
+    """
+    counts = raw_counts(run)
+    _, advice = _advised(run, counts, margin)
+    return SensorGains(
+        sensor=run.sensor.name,
+        serial=run.sensor.serial,
+        margin=margin,
+        limit_counts=run.sensor.limit_counts,
+        time_s=seconds_since(counts.stream.stamp_ns, run.experiment.recording.start_ns),
+        counts=counts.values,
+        advice=advice,
+    )
+
+
+def _advised(
+    run: SensorRun, counts: RawCounts, margin: float
+) -> tuple[tuple[ChannelRange, ...], tuple[GainAdvice, ...]]:
+    sensor = run.sensor
+    ranges = channel_ranges(
+        counts.stream,
+        counts.values,
+        counts.channels,
+        limit_counts=sensor.limit_counts,
+        recovered=counts.recovered,
+    )
+    moved = moved_channels(run, counts)
+    ranges = tuple(replace(channel, moved=bool(one)) for channel, one in zip(ranges, moved, strict=True))
+    return ranges, advise_gains(ranges, margin=margin, present=sensor.amplifier_gain, allowed=sensor.allowed_gains)
+
+
+def _matrix(run: SensorRun, calibration: tuple[str, Calibration] | None) -> tuple[FloatArray | None, str | None]:
+    if calibration is not None:
+        name, fitted = calibration
+        run.require_fit(name, fitted)
+        return fitted.matrix, name
+    if run.sensor.prior is None or run.sensor.prior_source == "identity":
+        return None, None
+    return run.sensor.prior, run.sensor.prior_source
+
+
+def _channel_row(channel: ChannelRange, advice: GainAdvice) -> ChannelRow:
+    return ChannelRow(
+        channel=channel.channel,
+        smallest_counts=channel.smallest_counts,
+        largest_counts=channel.largest_counts,
+        headroom_below=channel.headroom_below,
+        headroom_above=channel.headroom_above,
+        saturated_share=channel.saturated_share,
+        present_gain=advice.present,
+        recommended_gain=advice.recommended,
+        largest_factor=advice.largest_factor,
+        change=advice.change,
+        keeps_margin=advice.keeps_margin,
+        expected_smallest_counts=advice.expected.smallest_counts,
+        expected_largest_counts=advice.expected.largest_counts,
+        expected_headroom_below=advice.expected.headroom_below,
+        expected_headroom_above=advice.expected.headroom_above,
+    )
+
+
+def _resolution_rows(matrix: FloatArray, advice: Sequence[GainAdvice]) -> tuple[ResolutionRow, ...]:
+    present = axis_resolution(matrix)
+    expected = axis_resolution(matrix, factors=[advised.factor for advised in advice])
+    return tuple(
+        ResolutionRow(
+            component=component,
+            unit=f"{unit}/count",
+            worst=float(present.worst[k]),
+            rms=float(present.rms[k]),
+            expected_worst=float(expected.worst[k]),
+            expected_rms=float(expected.rms[k]),
+        )
+        for k, (component, unit) in enumerate(zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True))
+    )
+
+
+def _doubts(row: SensorRow, prior: str | None) -> Iterator[str]:
+    """What the recording cannot tell."""
+    if row.recovered:
+        yield (
+            f"{row.sensor}: counts were recovered through {prior}; an offset that the electronics took off is not in "
+            "them"
+        )
+    if row.frozen:
+        yield (
+            f"{row.sensor}: {row.frozen} samples repeat one reading, as a board does that saturates; its range may be "
+            "larger, repeat the motion with less gain"
+        )
+    still = [channel.channel for channel in row.channels if channel.change is GainChange.UNKNOWN]
+    if still:
+        yield (
+            f"{row.sensor}: the load of {', '.join(still)} did not move, so that nothing tells how far they go in use, "
+            "and no gain is advised; record the motions and contacts of use"
+        )
+    for channel in row.channels:
+        if channel.saturated_share > 0.0:
+            yield (
+                f"{row.sensor}: {channel.channel} saturates in {100.0 * channel.saturated_share:.2g} % of the samples, "
+                "so its range is not known; lower its gain and repeat the motion"
+            )
+        if channel.change is GainChange.NONE_FITS:
+            yield f"{row.sensor}: {channel.channel} has too little head-room, and no lower gain is allowed"

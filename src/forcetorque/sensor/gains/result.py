@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How a sensor uses its range, by channel and axis, and the samples that load it most."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from forcetorque.base.arrays import IntArray
+from forcetorque.experiment.raw_counts import RawCounts
+from forcetorque.recording.alignment import interpolate, seconds_since, usable_samples
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.stream import Stream
+from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.row import Row, Values
+from forcetorque.results.table import Table
+from forcetorque.sensor.gains.amplifier_gains import GainChange, strongest_samples
+
+
+class JointRow(Row):
+    """Where a joint stood."""
+
+    joint: str
+    """Name of the joint."""
+    position: float | None
+    """Its position; nothing where its stream has a gap."""
+    unit: str
+    """rad or m."""
+
+
+class StrongestRow(Row):
+    """A sample to repeat after a change of gains."""
+
+    channel: str | None
+    """Channel that is closest to its limit in it; nothing for the largest norm over all channels."""
+    time_s: float
+    """Time from the earliest stamp of the recording."""
+    stamp_ns: int
+    """Stamp."""
+    counts: Values
+    """What all channels read."""
+    joints: tuple[JointRow, ...]
+    """Where the joints stood; those that were logged on the sensor's clock."""
+
+
+def strongest_rows(recording: Recording, counts: RawCounts) -> tuple[StrongestRow, ...]:
+    """Find the sample closest to the limit of each channel, then the one of the largest norm.
+
+    Args:
+        recording: Recording that holds the joints.
+        counts: Raw readings of a sensor.
+
+    Returns:
+        A row per channel, and one for all of them.
+    """
+    stream = counts.stream
+    rows, overall = strongest_samples(counts.values)
+    chosen = np.append(rows, overall)
+    postures = _postures(recording, stream, stream.stamp_ns[chosen])
+    return tuple(
+        StrongestRow(
+            channel=channel,
+            time_s=float(seconds_since(stream.stamp_ns[row : row + 1], recording.start_ns)[0]),
+            stamp_ns=int(stream.stamp_ns[row]),
+            counts=counts.values[row],
+            joints=posture,
+        )
+        for channel, row, posture in zip((*counts.channels, None), chosen.tolist(), postures, strict=True)
+    )
+
+
+def _postures(recording: Recording, source: Stream, at_ns: IntArray) -> list[tuple[JointRow, ...]]:
+    """Positions of all logged joints at given instants; joints of another clock cannot be placed and are left out."""
+    postures: list[list[JointRow]] = [[] for _ in at_ns]
+    for joint, (stream, signal) in recording.joint_signals("position").items():
+        if stream.clock != source.clock or len(usable_samples(stream.stamp_ns)) < 2:
+            continue
+        positions = interpolate(stream, signal.column(joint)[:, None], at_ns)[:, 0]
+        unit = signal.units[signal.columns.index(joint)]
+        for posture, position in zip(postures, positions.tolist(), strict=True):
+            posture.append(JointRow(joint=joint, position=finite_or_none(position), unit=unit))
+    return [tuple(posture) for posture in postures]
+
+
+class ChannelRow(Row):
+    """One channel of a sensor."""
+
+    channel: str
+    """Name of the channel."""
+    smallest_counts: float
+    """Smallest reading."""
+    largest_counts: float
+    """Largest reading."""
+    headroom_below: float
+    """What is left towards the negative limit; share of the limit."""
+    headroom_above: float
+    """What is left towards the positive limit; share of the limit."""
+    saturated_share: float
+    """Share of samples at a limit."""
+    present_gain: float | None
+    """Gain with which it was recorded."""
+    recommended_gain: float | None
+    """Largest allowed gain that keeps the margin; where none does, the lowest below the present one."""
+    largest_factor: float | None
+    """Factor on the gain that would leave just the margin; an upper bound where the channel saturates."""
+    change: GainChange
+    """What to do."""
+    keeps_margin: bool
+    """Whether that leaves the margin, as far as the recording can tell."""
+    expected_smallest_counts: float
+    """Smallest reading with the recommended gain, else with the largest factor."""
+    expected_largest_counts: float
+    """Largest reading likewise."""
+    expected_headroom_below: float
+    """What would be left towards the negative limit; share of the limit."""
+    expected_headroom_above: float
+    """What would be left towards the positive limit; share of the limit."""
+
+    @property
+    def advice(self) -> str:
+        """What to do, in a word or two."""
+        if self.change is GainChange.UNKNOWN:
+            return "none: still"
+        words = self.change.value.replace("_", " ")
+        if self.change in {GainChange.KEEP, GainChange.NONE_FITS}:
+            return words
+        is_repeated = self.change is GainChange.LOWER_AND_REPEAT
+        verb = "repeat" if is_repeated else words
+        if self.recommended_gain is not None:
+            return f"{verb} {'at' if is_repeated else 'to'} {self.recommended_gain:g}"
+        return verb if self.largest_factor is None else f"{verb} x {self.largest_factor:.3g}"
+
+
+class ResolutionRow(Row):
+    """What one count is worth along an axis."""
+
+    component: str
+    """Component of the wrench."""
+    unit: str
+    """N/count or N m/count."""
+    worst: float
+    """Every channel off by one count with the worst signs: sum of the magnitudes of the matrix's row."""
+    rms: float
+    """Independent errors of one count standard deviation in every channel: Euclidean norm of the row."""
+    expected_worst: float
+    """The first with the recommended gains."""
+    expected_rms: float
+    """The second with the recommended gains."""
+
+
+class SensorRow(Row):
+    """One sensor."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    samples: int
+    """Number of samples in all intervals that are not ignored."""
+    missing: int
+    """Samples without a reading."""
+    frozen: int
+    """Samples that a saturated board held, by its status; without one, samples in long stretches of one reading."""
+    recovered: bool
+    """Whether counts came through the inverse of the prior; an offset of the electronics is not in them."""
+    limit_counts: float
+    """Largest magnitude of a reading."""
+    contact_stated: bool
+    """Whether the file says of any interval that something touches the robot beyond the sensor."""
+    repeat: bool
+    """Whether the motion is to be repeated because a channel saturated or the reading froze."""
+    channels: tuple[ChannelRow, ...]
+    """Channels in the order of the electronics."""
+    matrix: str | None
+    """Where the matrix for the resolution comes from."""
+    resolution: tuple[ResolutionRow, ...]
+    """One per component of the wrench; empty without a matrix."""
+    strongest: tuple[StrongestRow, ...]
+    """One per channel, then the one of the largest norm."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give channels, resolution and the posture of the highest excitation.
+
+        Yields:
+            Tables and sentences.
+        """
+        yield _channel_table(self)
+        if not self.contact_stated and any(channel.change is GainChange.RAISE for channel in self.channels):
+            yield (
+                "no contact is stated beyond the sensor: whether loads of use were recorded, and the head-room under "
+                "contact, is unknown; raise a gain only if nothing will touch the limb, or record the contacts of use "
+                "and state them as [[contact]]"
+            )
+        if self.resolution:
+            yield _resolution_table(self.resolution)
+            yield (
+                f"by the matrix of {self.matrix}; worst: all channels off by one with the worst signs; "
+                "rms: each by itself"
+            )
+        overall = self.strongest[-1]
+        joints = ", ".join(
+            f"{joint.joint} {'-' if joint.position is None else f'{joint.position:.3f}'} {joint.unit}"
+            for joint in overall.joints
+        )
+        yield f"highest excitation at {overall.time_s:.2f} s: {joints or 'no joint was logged'}"
+
+
+def _channel_table(row: SensorRow) -> Table:
+    return Table(
+        caption=f"{row.sensor} ({row.serial}), {row.samples} samples, limit {row.limit_counts:g} counts",
+        headings=(
+            *("channel", "counts", "left -", "left +", "saturated"),
+            *("gain", "advice", "counts then", "left -", "left +"),
+        ),
+        rows=tuple(_channel_line(channel) for channel in row.channels),
+    )
+
+
+def _channel_line(channel: ChannelRow) -> tuple[str, ...]:
+    return (
+        channel.channel,
+        f"{channel.smallest_counts:.0f} to {channel.largest_counts:.0f}",
+        _percent(channel.headroom_below),
+        _percent(channel.headroom_above),
+        f"{100.0 * channel.saturated_share:.2g} %",
+        "-" if channel.present_gain is None else f"{channel.present_gain:g}",
+        channel.advice,
+        f"{channel.expected_smallest_counts:.0f} to {channel.expected_largest_counts:.0f}",
+        _percent(channel.expected_headroom_below),
+        _percent(channel.expected_headroom_above),
+    )
+
+
+def _resolution_table(resolution: tuple[ResolutionRow, ...]) -> Table:
+    lines = (
+        ("worst, now", [row.worst for row in resolution]),
+        ("worst, after", [row.expected_worst for row in resolution]),
+        ("rms, now", [row.rms for row in resolution]),
+        ("rms, after", [row.expected_rms for row in resolution]),
+    )
+    return Table(
+        caption="",
+        headings=("one count is", *(f"{row.component}, m{row.unit.partition('/')[0]}" for row in resolution)),
+        rows=tuple((name, *(f"{1e3 * value:.3g}" for value in values)) for name, values in lines),
+    )
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.1f} %"

@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Drift of a sensor with its temperature, from cycles of heating and cooling at a load that stays."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Collection, Iterator, Sequence
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.units import NORMAL_95
+from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.experiment import SensorVariable
+from forcetorque.experiment.raw_counts import chosen_intervals
+from forcetorque.experiment.sensor_reading import Correction, readings_at
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.alignment import seconds_since
+from forcetorque.recording.recording import Interval
+from forcetorque.results.result import Result
+from forcetorque.results.table import Table
+from forcetorque.robot.mechanics.samples import padded_samples
+from forcetorque.sensor.temperature.cycles import Cycles, cycles_of
+from forcetorque.sensor.temperature.drift import (
+    LAG_UNTOLD_S,
+    LEAST_RANGE_DEGC,
+    MIXED_WITH_TIME,
+    DriftFit,
+    LoadStep,
+    find_load_step,
+    fit_drift,
+)
+from forcetorque.sensor.temperature.result import SensorThermal, ThermalCurve, ThermalDriftRow
+
+
+class Thermal(Result):
+    """What temperature does to sensors at constant load."""
+
+    interval_uses = ()
+
+    schema_name: Literal["forcetorque/thermal/1"] = Field(default="forcetorque/thermal/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    figure: str | None = None
+    """File of the figure."""
+    sensors: tuple[SensorThermal, ...]
+    """Sensors in the order of the file."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give the drift of every sensor.
+
+        Yields:
+            Tables and sentences.
+        """
+        for sensor in self.sensors:
+            yield from sensor.blocks()
+        if self.figure is not None:
+            yield f"drawn to {self.figure}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give components and channels as flat lines.
+
+        Returns:
+            One line per sensor and signal.
+        """
+        return [
+            {"sensor": sensor.sensor, "serial": sensor.serial, **row.flat()}
+            for sensor in self.sensors
+            for row in (*sensor.components, *sensor.channels)
+        ]
+
+
+@with_recording_notes
+def thermal(
+    run: SensorRun,
+    *,
+    intervals: Collection[str] = (),
+    variable: str | None = None,
+    name: str | None = None,
+    calibration: Calibration | None = None,
+) -> Thermal:
+    """Find how a reading drifts with temperature and time, and how heating and cooling differ.
+
+    Args:
+        run: The sensor, with a linear variable that is its temperature, at a load that does not change.
+        intervals: Labels of the intervals that are taken; all that are not to be ignored if none is named.
+        variable: Name of the variable; None where only one is a temperature.
+        name: Name of the calibration; None if there is none.
+        calibration: Reads the sensor; its prior or the logged wrench if None. One that knows the temperature gives the
+            drift that it leaves.
+
+    Returns:
+        Coefficients with intervals.
+
+    Raises:
+        ExperimentError: If there is no temperature, or no such interval.
+    """
+    temperature = _temperature(run, variable)
+    correction = run.read_by(name, calibration)
+    sessions = _sessions(run, [one for _, one in chosen_intervals([run], intervals)], temperature, correction)
+    cycles = cycles_of(sessions)
+    settled = cycles.on_branches()
+    fit = fit_drift(settled)
+    names = [*zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)]
+    channels = [(f"ch{k}", "counts") for k in range(fit.coefficient.shape[0] - len(names))]
+    rows = [_row(k, signal, unit, fit) for k, (signal, unit) in enumerate([*names, *channels])]
+    degrees = np.concatenate([session[1] for session in sessions])
+    sensor = SensorThermal(
+        sensor=run.sensor.name,
+        serial=run.sensor.serial,
+        reading=correction.source,
+        variable=temperature.linear.name,
+        samples=len(degrees),
+        sessions=len(sessions),
+        lowest_degC=float(degrees.min()),
+        highest_degC=float(degrees.max()),
+        reference_degC=fit.reference_degC,
+        cycles=cycles.cycles,
+        told_from_time=fit.told_from_time,
+        components=tuple(rows[: len(names)]),
+        channels=tuple(rows[len(names) :]),
+        thermometer_lag_s=fit.lag_s if fit.lag_error_s else None,
+        thermometer_lag_half_width_95_s=NORMAL_95 * fit.lag_error_s or None,
+        corrected=temperature.linear.name in correction.variables,
+        curve=ThermalCurve(
+            signals=tuple(f"{signal}, {unit}" for signal, unit in names),
+            temperature_degC=settled.temperature_degC,
+            heating=settled.heating,
+            reading=fit.at_temperature[:, : len(names)],
+            reference_degC=fit.reference_degC,
+        ),
+    )
+    step = find_load_step(settled, fit.residual)
+    doubts = _doubts(sensor, settled, fit, step)
+    return Thermal(experiment=run.experiment.name, sensors=(sensor,), warnings=tuple(doubts))
+
+
+def _temperature(run: SensorRun, wanted: str | None) -> SensorVariable:
+    known = {v.linear.name: v for v in run.sensor.variables if v.linear.unit == "degC"}
+    if wanted is not None and wanted not in known:
+        raise ExperimentError(
+            f"sensor {run.sensor.name!r}: no variable {wanted!r} in degC; {known_names(wanted, known)}"
+        )
+    if wanted is None and len(known) != 1:
+        got = (
+            f"{', '.join(known)}; choose one by --variable, from Python variable"
+            if known
+            else "none; an experiment file states its thermometer; leave out a sensor that has none"
+        )
+        raise ExperimentError(f"sensor {run.sensor.name!r}: expected one [[sensor.variable]] in degC, got {got}")
+    return known[wanted] if wanted is not None else next(iter(known.values()))
+
+
+def _sessions(
+    run: SensorRun, intervals: Sequence[Interval], temperature: SensorVariable, correction: Correction
+) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
+    """Instants, temperatures and signals of each power-up: the wrench without offset, then raw channels."""
+    experiment, name = run.experiment, temperature.linear.name
+    parts: dict[str, list[FloatArray]] = defaultdict(list)
+    for interval in intervals:
+        at_ns = padded_samples(experiment.recording, run.stream, interval, None).stamp_ns
+        readings = readings_at(experiment, run.sensor, list(dict.fromkeys([name, *correction.variables])), at_ns)
+        raw = readings.raw if run.sensor.quantity == "raw" else np.empty((len(at_ns), 0))
+        time_s = seconds_since(at_ns, experiment.recording.start_ns)
+        columns = np.column_stack([time_s, readings.variables[name], readings.wrench(correction.bare), raw])
+        parts[experiment.session_names(interval.label)[0]].append(columns[np.isfinite(columns).all(axis=1)])
+    joined = [np.concatenate(rows) for rows in parts.values()]
+    return [(rows[:, 0], rows[:, 1], rows[:, 2:]) for rows in joined if len(rows)]
+
+
+def _row(k: int, signal: str, unit: str, fit: DriftFit) -> ThermalDriftRow:
+    def of(values: FloatArray | None) -> float | None:
+        return None if values is None else float(values[k])
+
+    return ThermalDriftRow(
+        signal=signal,
+        unit=unit,
+        drift_per_degC=float(fit.coefficient[k]),
+        drift_standard_error_per_degC=float(fit.coefficient_error[k]),
+        drift_half_width_95_per_degC=float(fit.coefficient_half_width[k]),
+        hysteresis=of(fit.hysteresis),
+        hysteresis_half_width_95=of(fit.hysteresis_half_width),
+        drift_per_hour=of(fit.drift_per_hour),
+        drift_half_width_95_per_hour=of(fit.drift_half_width),
+        residual_rms=float(np.sqrt((fit.residual[:, k] ** 2).mean())),
+    )
+
+
+def _doubts(sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: LoadStep | None) -> Iterator[str]:
+    if cycles.range_degC < LEAST_RANGE_DEGC:
+        yield (
+            f"{sensor.sensor}: its temperature went through {cycles.range_degC:.2g} degC only: coefficients are worth "
+            f"their intervals; heat it through what it will see, at least {LEAST_RANGE_DEGC:g} degC"
+        )
+    if not fit.told_from_time:
+        yield (
+            f"{sensor.sensor}: its temperature went with time alone, so that drift with temperature and drift in time "
+            "are one: what is given per degC is both; record heating and cooling"
+        )
+    if fit.hysteresis is None:
+        yield f"{sensor.sensor}: heating and cooling were not both recorded over the same range: no hysteresis is told"
+    elif fit.hysteresis_share > MIXED_WITH_TIME:
+        yield (
+            f"{sensor.sensor}: heating against cooling is hardly told from a drift in time by what was recorded, which "
+            "makes their intervals wide; record at least two cycles without switching off"
+        )
+    if fit.lag_error_s > LAG_UNTOLD_S:
+        yield (
+            f"{sensor.sensor}: heating and cooling slowed down alike, so that a late thermometer looks like another "
+            f"drift per degC, whose intervals allow for {NORMAL_95 * fit.lag_error_s:.0f} s; heat and cool it evenly"
+        )
+    if step is not None:
+        signal = [*sensor.components, *sensor.channels][step.signal]
+        yield (
+            f"{sensor.sensor}: {signal.signal} steps by {step.size:.3g} {signal.unit} at {step.time_s:.0f} s, which no "
+            "temperature does: expected a load that stays; leave out what lies before or after"
+        )

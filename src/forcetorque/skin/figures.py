@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of layouts, of calibrations of taxels, of contacts on skin, and of events of a skinManager."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, require_shape
+from forcetorque.base.errors import ShapeError
+from forcetorque.results.figures.canvas import (
+    COLOURS,
+    PLANES,
+    REFERENCE_COLOUR,
+    ROW_INCHES,
+    SMALL_PANEL_POINTS,
+    SMALL_POINTS,
+    TITLE_POINTS,
+    legend_below,
+    look,
+    new_figure,
+    shown_name,
+)
+from forcetorque.results.figures.curves import draw_over_time, drawable, instants, thinned_cloud, thinned_line
+from forcetorque.skin.taxels.figure_data import TaxelPicture
+from forcetorque.skin.wrench.result import SkinEventPicture, SkinWrenchPicture
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+_TAXEL, _NORMAL = look(1), look(0)
+_ARROW_MM = 10.0
+
+
+def skin_layout_figure(positions: FloatArray, normals: Mapping[str, FloatArray]) -> Figure:
+    """Draw where taxels are and which way they look: in space, and as seen along the axes of the link [1].
+
+    Args:
+        positions: Taxels in the link frame; shape (n, 3); m.
+        normals: Normals by what they are, such as `as written` and `rebuilt`; shape (n, 3) each. Those that are not of
+            length 1 are drawn as long as they are.
+
+    Returns:
+        The figure, a row for each.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+        ShapeError: If there are no normals, or of another shape.
+
+    References:
+        [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figure 7.8.
+    """
+    if not normals:
+        raise ShapeError("normals: expected at least one set to draw, got none")
+    require_shape(positions, name="positions", shape=(None, 3))
+    figure = new_figure(1.1 * ROW_INCHES[1] * len(normals))
+    # the narrow column keeps the label of the third axis clear of the next panel
+    grid = figure.add_gridspec(len(normals), 5, width_ratios=(1.5, 0.1, 1.0, 1.0, 1.0))
+    places = 1e3 * positions
+    for row, (name, vectors) in enumerate(normals.items()):
+        require_shape(vectors, name=f"normals {name}", shape=(len(positions), 3))
+        arrows = _ARROW_MM * vectors
+        _draw_space(figure.add_subplot(grid[row, 0], projection="3d"), places, arrows, title=name)
+        for column, plane in enumerate(PLANES):
+            _draw_plane(figure.add_subplot(grid[row, column + 2]), places[:, plane], arrows[:, plane], plane)
+    normal_key = {"color": _NORMAL.colour, "linestyle": "-"}
+    taxel_key = {"color": _TAXEL.colour, "linestyle": "none", "marker": "o", "markerfacecolor": "none"}
+    legend_below(figure, [("taxels", taxel_key), (f"normals, {_ARROW_MM:g} mm long", normal_key)])
+    return figure
+
+
+def _draw_space(panel: Any, places: FloatArray, arrows: FloatArray, *, title: str) -> None:
+    panel.plot(*places.T, "o", color=_TAXEL.colour, markersize=2.2, markeredgewidth=0.6, markerfacecolor="none")
+    if arrows.any():
+        panel.quiver(*places.T, *arrows.T, color=_NORMAL.colour, linewidth=0.6, arrow_length_ratio=0.3)
+    panel.set_title(shown_name(title), fontsize=TITLE_POINTS)
+    panel.set_box_aspect(np.maximum(np.ptp(places, axis=0), 2.0 * _ARROW_MM), zoom=0.9)
+    panel.locator_params(nbins=4)
+    for axis in "xyz":
+        getattr(panel, f"set_{axis}label")(f"{axis}, mm")
+        panel.tick_params(axis=axis, labelsize=SMALL_PANEL_POINTS)
+
+
+def _draw_plane(panel: Axes, places: FloatArray, arrows: FloatArray, plane: tuple[int, int]) -> None:
+    panel.plot(*places.T, "o", color=_TAXEL.colour, markersize=2.5, markeredgewidth=0.6, markerfacecolor="none")
+    panel.quiver(
+        *places.T, *arrows.T, color=_NORMAL.colour, angles="xy", scale_units="xy", scale=1.0, width=0.003, zorder=3.0
+    )
+    # an arrow is no data: without the margin those at the rim would be cut
+    panel.update_datalim(np.concatenate([places - _ARROW_MM, places + _ARROW_MM]))
+    panel.autoscale_view()
+    panel.set_xlabel(f"{'xyz'[plane[0]]}, mm")
+    panel.set_ylabel(f"{'xyz'[plane[1]]}, mm", labelpad=0.0)
+    panel.set_aspect("equal", adjustable="datalim")
+    panel.tick_params(labelsize=SMALL_PANEL_POINTS)
+    panel.grid(visible=True, color="0.9", linewidth=0.6)
+    panel.set_axisbelow(True)
+
+
+_SAMPLES: dict[str, Any] = {"color": COLOURS[1], "marker": "o", "markersize": 2.5, "markerfacecolor": "none"}
+"""Samples of the one taxel: red circles, as in the thesis."""
+_POINTS = 800
+"""Points of one taxel that are drawn."""
+_FORMS = (0, 2, 3, 4)
+"""Looks of the curves: the second is that of the samples."""
+
+
+def taxel_figure(picture: TaxelPicture) -> Figure:
+    """Draw what taxels were calibrated with, and their curves.
+
+    From the left: pressure and mean fall of the counts over time [1], the pressure of some taxels over their own fall
+    [2], and the samples of one taxel with every form of curve [3].
+
+    Args:
+        picture: Samples of one recording, and curves of the first of its taxels.
+
+    Returns:
+        The figure, one row.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+
+    References:
+        F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019): [1] figure 7.5; [2] figure 7.2;
+        [3] figure 7.6.
+    """
+    figure = new_figure(ROW_INCHES[1])
+    over_time, taxels, one = figure.subplots(1, 3)
+    _draw_time(over_time, picture)
+    _draw_taxels(taxels, picture)
+    _draw_curves(one, picture)
+    for panel, title in (
+        (over_time, picture.recording),
+        (taxels, f"{len(picture.names)} taxels"),
+        (one, picture.names[0]),
+    ):
+        panel.set_title(shown_name(title), fontsize=TITLE_POINTS, loc="left")
+        panel.tick_params(labelsize=SMALL_POINTS)
+    legend_below(
+        figure,
+        [
+            ("pressure", {"color": REFERENCE_COLOUR, "linestyle": "-"}),
+            ("mean counts below rest", {"color": COLOURS[0], "linestyle": "--"}),
+            (f"samples of {picture.names[0]}", _SAMPLES | {"linestyle": "none"}),
+            *((form, _line(k)) for k, form in enumerate(picture.curves)),
+            ("highest that was fitted", {"color": REFERENCE_COLOUR, "linestyle": ":"}),
+        ],
+    )
+    return figure
+
+
+def _draw_time(panel: Axes, picture: TaxelPicture) -> None:
+    time, drawn = thinned_line(picture.seconds, np.column_stack([1e-3 * picture.pressure, picture.mean_fall]))
+    panel.plot(time, drawn[:, 0], color=REFERENCE_COLOUR, linewidth=1.0)
+    counts = panel.twinx()
+    counts.plot(time, drawn[:, 1], color=COLOURS[0], linestyle="--", linewidth=1.0)
+    counts.set_ylabel("mean fall, counts", fontsize=TITLE_POINTS)
+    counts.tick_params(labelsize=SMALL_POINTS)
+    panel.set_xlabel("time, s", fontsize=TITLE_POINTS)
+    panel.set_ylabel("pressure, kPa", fontsize=TITLE_POINTS)
+
+
+def _draw_taxels(panel: Axes, picture: TaxelPicture) -> None:
+    for k in range(len(picture.names)):
+        cloud = thinned_cloud(np.column_stack([picture.fall[:, k], 1e-3 * picture.pressure]), _POINTS)
+        style = look(k)
+        panel.plot(cloud[:, 0], cloud[:, 1], linestyle="none", color=style.colour, marker=style.marker, markersize=1.5)
+    panel.set_xlabel("counts below rest", fontsize=TITLE_POINTS)
+    panel.set_ylabel("pressure, kPa", fontsize=TITLE_POINTS)
+
+
+def _draw_curves(panel: Axes, picture: TaxelPicture) -> None:
+    cloud = thinned_cloud(np.column_stack([picture.fall[:, 0], 1e-3 * picture.pressure]), _POINTS)
+    panel.plot(cloud[:, 0], cloud[:, 1], linestyle="none", **_SAMPLES)
+    for k, curve in enumerate(picture.curves.values()):
+        panel.plot(picture.levels, 1e-3 * curve, linewidth=1.4, **_line(k))
+    panel.axhline(1e-3 * picture.highest, color=REFERENCE_COLOUR, linestyle=":", linewidth=1.0)
+    # a polynomial beyond its range would else leave nothing to see of the samples
+    highest = 1e-3 * float(picture.pressure.max())
+    panel.set_ylim(-0.1 * highest, 1.2 * highest)
+    panel.set_xlabel("counts below rest", fontsize=TITLE_POINTS)
+    panel.set_ylabel("pressure, kPa", fontsize=TITLE_POINTS)
+
+
+def _line(k: int) -> dict[str, Any]:
+    style = look(_FORMS[k % len(_FORMS)])
+    return {"color": style.colour, "linestyle": style.dashes}
+
+
+_REFERENCE: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": "-"}
+
+
+def skin_wrench_figure(picture: SkinWrenchPicture, reference: FloatArray | None = None) -> Figure:
+    """Draw the pressures of a patch, laid flat, when the force was largest [1], and forces over time [2].
+
+    Args:
+        picture: Forces over time, and one field of pressure.
+        reference: What the force truly is, where that is known; shape (k,); N.
+
+    Returns:
+        The figure, one row.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+
+    References:
+        F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019): [1] figure 7.9; [2] figure 7.11.
+    """
+    figure = new_figure(ROW_INCHES[1])
+    field, lines = figure.subplots(1, 2, width_ratios=(2.0, 3.0))
+    _draw_field(figure, field, picture)
+    _draw_forces(lines, picture, reference)
+    keys = [(shown_name(name), _style(k)) for k, name in enumerate(picture.forces)]
+    legend_below(figure, [*keys, *([] if reference is None else [("true force", _REFERENCE)])])
+    return figure
+
+
+def _draw_field(figure: Figure, panel: Axes, picture: SkinWrenchPicture) -> None:
+    from matplotlib.tri import Triangulation
+
+    across, along = 1e3 * picture.places.T
+    facets = Triangulation(across, along, picture.triangles)
+    drawn = panel.tripcolor(facets, picture.pressed_kPa, shading="gouraud", cmap="cividis")
+    panel.plot(across, along, linestyle="none", marker=".", markersize=1.5, color="#FFFFFF")
+    bar = figure.colorbar(drawn, ax=panel)
+    bar.set_label("pressure, kPa", fontsize=TITLE_POINTS)
+    bar.ax.tick_params(labelsize=SMALL_POINTS)
+    panel.set_aspect("equal")
+    panel.set_xlabel("around, mm", fontsize=TITLE_POINTS)
+    panel.set_ylabel("along, mm", fontsize=TITLE_POINTS)
+    panel.set_title(f"{shown_name(picture.patch)} at {picture.pressed_s:.1f} s", fontsize=TITLE_POINTS, loc="left")
+    panel.tick_params(labelsize=SMALL_POINTS)
+
+
+def _draw_forces(panel: Axes, picture: SkinWrenchPicture, reference: FloatArray | None) -> None:
+    if reference is not None:
+        time, drawn = thinned_line(picture.seconds, np.asarray(reference)[:, None])
+        panel.plot(time, drawn[:, 0], linewidth=1.4, **_REFERENCE)
+    for k, force in enumerate(picture.forces.values()):
+        time, drawn = thinned_line(picture.seconds, force[:, None])
+        panel.plot(time, drawn[:, 0], linewidth=1.4, **_style(k))
+    panel.set_xlabel("time, s", fontsize=TITLE_POINTS)
+    panel.set_ylabel("force, N", fontsize=TITLE_POINTS)
+    panel.tick_params(labelsize=SMALL_POINTS)
+
+
+def _style(k: int) -> dict[str, Any]:
+    return {"color": look(k).colour, "linestyle": look(k).dashes}
+
+
+def skin_event_figure(pictures: Sequence[SkinEventPicture]) -> Figure:
+    """Draw the heuristic of every stream of contacts over time.
+
+    Args:
+        pictures: The streams, at least one.
+
+    Returns:
+        The figure, one panel.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+        ShapeError: If there is no stream, or the shapes of one differ.
+    """
+    if not pictures:
+        raise ShapeError("pictures: expected at least one stream of contacts, got none")
+    figure = new_figure(0.8 * ROW_INCHES[1])
+    panel = figure.subplots()
+    for k, picture in enumerate(pictures):
+        seconds = instants(picture.seconds, name=f"{picture.stream}: seconds")
+        sizes = drawable(picture.heuristic, name=f"{picture.stream}: heuristic", shape=(len(seconds),))
+        time, lines = thinned_line(seconds, sizes[:, None])
+        draw_over_time(panel, time, lines[:, 0], look(k), turn=k, count=len(pictures))
+    panel.set_xlabel("time, s", fontsize=TITLE_POINTS)
+    panel.set_ylabel("heuristic, not newtons", fontsize=TITLE_POINTS)
+    panel.set_ylim(bottom=0.0)
+    legend_below(figure, [(shown_name(one.stream), look(k).key | {"linestyle": "-"}) for k, one in enumerate(pictures)])
+    return figure

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Check a layout of skin: what is wrong with it, on which taxels, and what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.results.result import Result
+from forcetorque.results.row import Row, Shown
+from forcetorque.results.table import Table
+from forcetorque.skin.layout.findings import shape_findings
+from forcetorque.skin.layout.findings.finding import LayoutFinding, counted
+from forcetorque.skin.layout.findings.shape import shape_of
+from forcetorque.skin.layout.formats.registry import describe_patch
+from forcetorque.skin.layout.layout import PatchDescription
+
+_MOST = 6
+"""Stretches of numbers that a table has; JSON and CSV have all numbers."""
+
+
+class LayoutFindingRow(Row):
+    """One finding."""
+
+    defect: Annotated[str, Shown("finding")]
+    """What is wrong."""
+    taxels: tuple[int, ...]
+    """Columns of the taxels that have it; none where it is of the whole file."""
+    lines: tuple[int, ...]
+    """Lines of the file that state these taxels."""
+    modules: tuple[int, ...]
+    """Modules that have it."""
+    message: str
+    """What was found."""
+    remedy: str
+    """What to do."""
+
+    def flat(self) -> dict[str, object]:
+        """Give the row as one line of a table, with a cell for each list of numbers.
+
+        Returns:
+            Values by key.
+        """
+        lists = {name: " ".join(map(str, getattr(self, name))) for name in ("taxels", "lines", "modules")}
+        return {"defect": self.defect, **lists, "message": self.message, "remedy": self.remedy}
+
+
+class SkinCheck(Result):
+    """What is wrong with a layout of skin."""
+
+    schema_name: Literal["forcetorque/skin_check/1"] = Field(default="forcetorque/skin_check/1", alias="schema")
+    """Form of the result."""
+    source: str
+    """File."""
+    patch: str
+    """Patch."""
+    frame: str
+    """Frame of positions and normals."""
+    message_columns: int
+    """Numbers in one message of counts."""
+    taxels: int
+    """Pressure taxels."""
+    modules: int
+    """Modules with taxels."""
+    thermal_pads: int
+    """Thermal pads."""
+    figure: str | None = None
+    """File of the figure."""
+    findings: tuple[LayoutFindingRow, ...]
+    """What is wrong."""
+    positions: Annotated[FloatArray, ArrayField((None, 3))] = Field(exclude=True)
+    """Taxels; shape (n, 3); m. For the figure."""
+    normals: dict[str, Annotated[FloatArray, ArrayField((None, 3))]] = Field(exclude=True)
+    """Normals `as written` and `rebuilt`, as far as there are any; shape (n, 3) each. For the figure."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give a table of findings, and a sentence for each.
+
+        Yields:
+            The table and sentences.
+        """
+        if self.findings:
+            yield Table(
+                caption=self.source,
+                headings=("finding", "taxels", "which", "modules"),
+                rows=tuple(
+                    (row.defect, str(len(row.taxels)), _stretches(row.taxels), _stretches(row.modules))
+                    for row in self.findings
+                ),
+            )
+        for row in self.findings:
+            yield f"{row.defect}: {row.message}. {row.remedy[:1].upper()}{row.remedy[1:]}."
+        yield (
+            f"{self.patch} in {self.frame}: {self.taxels} taxels on {self.modules} modules, {self.thermal_pads} "
+            f"thermal pads, {self.message_columns} numbers in a message; {counted(len(self.findings), 'finding')}"
+        )
+        if self.figure is not None:
+            yield f"drawn to {self.figure}"
+
+    def columns(self) -> list[str]:
+        """Name the columns of the CSV.
+
+        Returns:
+            The keys of a finding, also where there is none.
+        """
+        return list(LayoutFindingRow.model_fields)
+
+
+def check_skin(path: Path | str) -> SkinCheck:
+    """Check the layout in a file of any known form.
+
+    Args:
+        path: File.
+
+    Returns:
+        What is wrong with it.
+    """
+    return check_patch(describe_patch(path))
+
+
+def check_patch(patch: PatchDescription) -> SkinCheck:
+    """Check what a file says of a patch.
+
+    Args:
+        patch: Patch.
+
+    Returns:
+        What is wrong with it.
+    """
+    shape = shape_of(patch)
+    normals = {"as written": patch.normals, "rebuilt": shape.normals}
+    return SkinCheck(
+        source=patch.source,
+        patch=patch.name,
+        frame=patch.frame,
+        message_columns=patch.columns,
+        taxels=len(patch),
+        modules=len(set(patch.modules.tolist())),
+        thermal_pads=len(patch.thermal_pads),
+        findings=tuple(_row(finding) for finding in shape_findings(shape)),
+        positions=patch.positions,
+        normals={name: values for name, values in normals.items() if values is not None},
+    )
+
+
+def _row(finding: LayoutFinding) -> LayoutFindingRow:
+    return LayoutFindingRow(
+        defect=finding.defect,
+        taxels=tuple(finding.taxels.tolist()),
+        lines=tuple(finding.lines.tolist()),
+        modules=tuple(finding.modules.tolist()),
+        message=finding.message,
+        remedy=finding.remedy,
+    )
+
+
+def _stretches(numbers: tuple[int, ...]) -> str:
+    """Whole numbers in words, such as `0-5, 7`."""
+    stretches: list[list[int]] = []
+    for number in sorted(set(numbers)):
+        if stretches and number == stretches[-1][1] + 1:
+            stretches[-1][1] = number
+        else:
+            stretches.append([number, number])
+    words = [f"{first}" if first == last else f"{first}-{last}" for first, last in stretches]
+    return ", ".join(words[:_MOST]) + (", ..." if len(words) > _MOST else "")

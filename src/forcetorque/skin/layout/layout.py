@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The layout of a patch: positions and normals of its taxels, as a file describes them and as all else takes them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers
+from forcetorque.base.errors import ShapeError, SkinError
+
+SAME_PLACE_M = 1e-6
+"""Side of the cell in which two taxels are at one place; m. Files are written to 1 um, and pads are thousands wide."""
+UNIT_TOLERANCE = 1e-6
+"""By how much the length of a unit normal may differ from 1; readers make it 1 to rounding."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SkinLayout:
+    """Where the taxels of a patch are, on which link, and which column of the counts is whose.
+
+    It is sound: no two taxels at one place, every normal of length 1. What is not can be looked at by
+    `forcetorque.skin.layout.formats`, and be told by `forcetorque skin check`.
+    """
+
+    name: str
+    """Patch, as it is called where it is used."""
+    frame: str
+    """Link frame in which positions and normals are given."""
+    columns: int
+    """Numbers in one message of counts; dummies and thermal pads included."""
+    taxels: IntArray
+    """Column of each pressure taxel, from 0 and increasing; shape (n,)."""
+    modules: IntArray
+    """Module (triangle) that each taxel sits on; shape (n,)."""
+    positions: FloatArray
+    """Centres of the pads in `frame`; shape (n, 3); m."""
+    normals: FloatArray
+    """Unit normals in `frame`, out of the link; shape (n, 3)."""
+    thermal_pads: IntArray
+    """Columns of the thermal pads, increasing; shape (t,)."""
+    thermal_modules: IntArray
+    """Module that each thermal pad sits on; shape (t,)."""
+
+    def __post_init__(self) -> None:
+        taxels = read_only_integers(self.taxels, name="taxels", shape=(None,))
+        pads = read_only_integers(self.thermal_pads, name="thermal_pads", shape=(None,))
+        arrays = {
+            "taxels": taxels,
+            "modules": read_only_integers(self.modules, name="modules", shape=taxels.shape),
+            "positions": read_only(self.positions, name="positions", shape=(len(taxels), 3)),
+            "normals": read_only(self.normals, name="normals", shape=(len(taxels), 3)),
+            "thermal_pads": pads,
+            "thermal_modules": read_only_integers(self.thermal_modules, name="thermal_modules", shape=pads.shape),
+        }
+        for name, array in arrays.items():
+            object.__setattr__(self, name, array)
+        self._require_columns()
+        self._require_sound()
+
+    def __len__(self) -> int:
+        return len(self.taxels)
+
+    def _require_columns(self) -> None:
+        """Every column is at most one taxel or thermal pad, and is in the message."""
+        if not len(self.taxels):
+            raise ShapeError(f"patch {self.name!r}: taxels: expected at least one, got none")
+        for name, columns in (("taxels", self.taxels), ("thermal_pads", self.thermal_pads)):
+            if (np.diff(columns) <= 0).any():
+                raise ShapeError(f"patch {self.name!r}: {name}: expected increasing columns, got {columns}")
+            outside = columns[(columns < 0) | (columns >= self.columns)]
+            if len(outside):
+                raise ShapeError(
+                    f"patch {self.name!r}: {name}: expected columns of 0 to {self.columns - 1}, as a message has "
+                    f"{self.columns} numbers, got {outside[0]}"
+                )
+        both = np.intersect1d(self.taxels, self.thermal_pads)
+        if len(both):
+            raise ShapeError(f"patch {self.name!r}: column {both[0]}: expected a taxel or a thermal pad, got both")
+
+    def _require_sound(self) -> None:
+        """Positions and normals are numbers, positions differ, normals have length 1."""
+        for name, vectors in (("positions", self.positions), ("normals", self.normals)):
+            self._refuse(~np.isfinite(vectors.sum(axis=1)), f"{name}: expected finite numbers", vectors)
+        lengths: FloatArray = np.linalg.norm(self.normals, axis=1)
+        self._refuse(~np.isclose(lengths, 1.0, rtol=0.0, atol=UNIT_TOLERANCE), "normals: expected length 1", lengths)
+        cells = np.rint(self.positions / SAME_PLACE_M)
+        _, place, count = np.unique(cells, axis=0, return_inverse=True, return_counts=True)
+        self._refuse(count[place.ravel()] > 1, "positions: expected a place for each", self.positions)
+
+    def _refuse(self, bad: BoolArray, expected: str, values: FloatArray) -> None:
+        if bad.any():
+            first = int(np.flatnonzero(bad)[0])
+            raise SkinError(
+                f"patch {self.name!r}, taxel {self.taxels[first]}: {expected}, got {values[first]} "
+                f"({np.count_nonzero(bad)} such); `forcetorque skin check` with the layout's file says what to do"
+            )
+
+
+UNIT_DIGITS = 2e-3
+"""By how much the length of a normal that was written with three digits may differ from 1."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PatchDescription:
+    """What a file says of a patch of skin, sound or not; `layout` is the sound form of it."""
+
+    source: str
+    """File."""
+    name: str
+    """Patch."""
+    frame: str
+    """Frame of positions and normals."""
+    columns: int
+    """Numbers in one message of counts; dummies and thermal pads included."""
+    lines: IntArray
+    """Line of the file that states each column, from 1; 0 where none does; shape (columns,)."""
+    taxels: IntArray
+    """Column of each pressure taxel; shape (n,)."""
+    modules: IntArray
+    """Module that each taxel sits on; shape (n,)."""
+    positions: FloatArray
+    """Centres of the pads; shape (n, 3); m."""
+    normals: FloatArray | None
+    """Normals as they are written; shape (n, 3); None if the form has none."""
+    thermal_pads: IntArray
+    """Columns of the thermal pads; shape (t,)."""
+    thermal_modules: IntArray
+    """Module that each thermal pad sits on; shape (t,)."""
+    representatives: IntArray | None = None
+    """Entry of `taxel2Repr` for each column, as many as are written; shape (k,); None if the form has none."""
+    placed: IntArray | None = None
+    """Columns whose row in the file is a place, whatever they are; shape (k,); None for the taxels."""
+
+    def __post_init__(self) -> None:
+        count, pads = len(self.taxels), len(self.thermal_pads)
+        for name, length in {
+            "lines": self.columns,
+            "taxels": count,
+            "modules": count,
+            "thermal_pads": pads,
+            "thermal_modules": pads,
+        }.items():
+            object.__setattr__(self, name, read_only_integers(getattr(self, name), name=name, shape=(length,)))
+        object.__setattr__(self, "positions", read_only(self.positions, name="positions", shape=(count, 3)))
+        if self.normals is not None:
+            object.__setattr__(self, "normals", read_only(self.normals, name="normals", shape=(count, 3)))
+        for name in ("representatives", "placed"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, read_only_integers(getattr(self, name), name=name, shape=(None,)))
+
+    def __len__(self) -> int:
+        return len(self.taxels)
+
+    def layout(self, normals: FloatArray | None = None) -> SkinLayout:
+        """Give the sound form; lengths of normals that are off by the rounding of the file are made 1.
+
+        Args:
+            normals: Unit normals to use instead, such as those of `rebuilt_normals`; shape (n, 3).
+
+        Returns:
+            The layout.
+
+        Raises:
+            SkinError: If it is not sound.
+        """
+        directions = self.unit_normals() if normals is None else normals
+        return SkinLayout(
+            name=self.name,
+            frame=self.frame,
+            columns=self.columns,
+            taxels=self.taxels,
+            modules=self.modules,
+            positions=self.positions,
+            normals=directions,
+            thermal_pads=self.thermal_pads,
+            thermal_modules=self.thermal_modules,
+        )
+
+    def unit_normals(self) -> FloatArray:
+        """Give the normals that are written; lengths that are off by rounding are made 1.
+
+        Returns:
+            Normals, zero where the form has none; shape (n, 3).
+        """
+        if self.normals is None:
+            return np.zeros((len(self), 3))
+        length = np.linalg.norm(self.normals, axis=1, keepdims=True)
+        rounded = np.isclose(length, 1.0, rtol=0.0, atol=UNIT_DIGITS)
+        return np.where(rounded, self.normals / np.where(length > 0.0, length, 1.0), self.normals)

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The `PatchCalibration`: what a calibration of taxels leaves on disk, tied to one patch."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated, Final, Literal
+
+import numpy as np
+from pydantic import ConfigDict, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.base.errors import FormatError
+from forcetorque.base.files import write_bytes_atomically
+from forcetorque.base.output_file import refuse_output
+from forcetorque.base.stored_model import Part, checked_part, read_json
+from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
+from forcetorque.skin.taxels.pressure_table import ROWS, PressureTable
+from forcetorque.skin.temperature.pads import WarmUp
+
+SCHEMA: Final = "forcetorque/taxels/1"
+"""Name and version of the file's form."""
+
+
+class CalibratedTaxel(Part):
+    """One taxel: its curve and what that is worth, or why it has none."""
+
+    taxel: int = Field(ge=0)
+    """Column of the taxel."""
+    left_out: tuple[str, ...] = ()
+    """What was wrong with it in the recordings that were fitted; nothing for a sound one."""
+    coefficients: Annotated[FloatArray, ArrayField((None,))] | None = None
+    """Coefficients of its curve; None for one that was left out."""
+    range_counts: float | None = Field(default=None, gt=0.0)
+    """Fall at the highest fitted pressure; counts."""
+    rmse_pa: float | None = None
+    """Root mean square error on the fitted samples; Pa."""
+    error_pa: float | None = None
+    """Error of the curve while loading, without noise; Pa."""
+    hysteresis_pa: float | None = None
+    """How much more the same pressure reads while unloading; Pa."""
+    hysteresis_share: float | None = None
+    """The same as a share of the range."""
+
+    @model_validator(mode="after")
+    def _has_a_curve_or_a_reason(self) -> CalibratedTaxel:
+        numbers = (self.coefficients, self.range_counts, self.rmse_pa, self.error_pa, self.hysteresis_pa)
+        missing = [number is None for number in numbers]
+        if any(missing) and (not all(missing) or not self.left_out):
+            raise PydanticCustomError("half_a_taxel", "expected a curve with its errors, or why there is none")
+        return self
+
+
+class PatchProvenance(Part):
+    """What the curves were fitted to."""
+
+    code_version: str
+    """Version of this library."""
+    created: str
+    """Date and time of the fit, ISO 8601, UTC."""
+    experiments: tuple[str, ...]
+    """Names of the experiments."""
+    intervals: tuple[str, ...]
+    """Labels of the fitted intervals."""
+    samples: int = Field(ge=0)
+    """Number of fitted messages."""
+    inputs_sha256: dict[str, str]
+    """SHA-256 of every input file, by its experiment and its path as the experiment file names it."""
+
+
+class PatchCalibration(Part):
+    """Curves of the taxels of one patch."""
+
+    model_config = ConfigDict(
+        defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
+    )
+
+    schema_name: Literal["forcetorque/taxels/1"] = Field(default=SCHEMA, alias="schema")
+    """Form of the file."""
+    patch: str
+    """Name of the patch."""
+    serial: str | None = None
+    """Its serial number, if it has one."""
+    columns: int = Field(ge=1)
+    """Numbers in one message of its counts."""
+    curve: CurveKind
+    """Form of the curves."""
+    highest_pa: float = Field(gt=0.0)
+    """Highest pressure above rest that was fitted; Pa."""
+    taxels: tuple[CalibratedTaxel, ...]
+    """Taxels in the order of their columns."""
+    provenance: PatchProvenance
+    """What the curves were fitted to."""
+    warm_up: WarmUp | None = None
+    """How its taxels follow its thermal pads; None if that was not learned."""
+
+    @model_validator(mode="after")
+    def _warm_up_of_its_taxels(self) -> PatchCalibration:
+        if self.warm_up is not None and len(self.warm_up.taxels) != len(self.taxels):
+            raise PydanticCustomError("warm_up_taxels", "expected as many taxels in warm_up as in taxels")
+        return self
+
+    def __repr__(self) -> str:
+        sound = sum(taxel.coefficients is not None for taxel in self.taxels)
+        return f"<PatchCalibration of {self.patch}: {self.curve}, {sound} of {len(self.taxels)} taxels>"
+
+    __str__ = __repr__
+
+    def table(self) -> PressureTable:
+        """Evaluate the curves at every count below rest.
+
+        Returns:
+            The tables; taxels that were left out are not live.
+        """
+        curves = [self.taxel_curve(k) for k in range(len(self.taxels))]
+        fall = np.arange(float(ROWS))
+        zero = np.zeros(ROWS)
+        return PressureTable(
+            patch=self.patch,
+            serial=self.serial,
+            columns=self.columns,
+            taxels=np.array([taxel.taxel for taxel in self.taxels]),
+            live=np.array([curve is not None for curve in curves]),
+            values=np.stack([zero if curve is None else curve.pressure(fall) for curve in curves], axis=1),
+            range_counts=np.array([taxel.range_counts or 0.0 for taxel in self.taxels]),
+            error=np.array([taxel.error_pa or 0.0 for taxel in self.taxels]),
+            hysteresis=np.array([taxel.hysteresis_pa or 0.0 for taxel in self.taxels]),
+        )
+
+    def taxel_curve(self, k: int) -> TaxelCurve | None:
+        """Give the curve of a taxel.
+
+        Args:
+            k: Place of the taxel in `taxels`.
+
+        Returns:
+            Its curve; None if it was left out.
+        """
+        taxel = self.taxels[k]
+        if taxel.coefficients is None or taxel.range_counts is None:
+            return None
+        return TaxelCurve(kind=self.curve, coefficients=taxel.coefficients, range_counts=taxel.range_counts)
+
+    def save(self, path: Path | str, *, force: bool = False) -> None:
+        """Write the calibration as JSON; on any error the file keeps what it held before.
+
+        Args:
+            path: File to write or to replace, in an existing folder.
+            force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+
+        Raises:
+            OutputError: If the file is an input of it, or a file that `force` is needed for.
+        """
+        refuse_output(path, inputs_sha256=self.provenance.inputs_sha256.values(), force=force)
+        text = json.dumps(self.model_dump(mode="json", by_alias=True), indent=2, allow_nan=False)
+        write_bytes_atomically(Path(path), (text + "\n").encode())
+
+
+def read_patch_calibration(path: Path | str) -> PatchCalibration:
+    """Read a calibration of taxels that `PatchCalibration.save` wrote.
+
+    Args:
+        path: JSON file.
+
+    Returns:
+        The calibration.
+
+    Raises:
+        FormatError: If it is not a calibration of taxels of this schema version.
+    """
+    file = Path(path)
+    content = read_json(file, expected="a calibration of taxels, there is none; `forcetorque skin calibrate` makes one")
+    schema = content.get("schema") if isinstance(content, dict) else None
+    if schema != SCHEMA:
+        raise FormatError(f"{file}: expected the schema {SCHEMA!r}, got {schema!r}; calibrate again with this version")
+    return checked_part(file, PatchCalibration, content)

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rows of a calibration of taxels: recordings, candidates on what was not fitted, and taxels."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Annotated
+
+import numpy as np
+
+from forcetorque.results.row import Row, Shown
+from forcetorque.skin.taxels.health import Ailment
+from forcetorque.skin.taxels.patch_calibration import CalibratedTaxel
+from forcetorque.skin.taxels.recording import PatchRecording
+
+
+class SkinRecordingRow(Row):
+    """A recording, and how many of the taxels are sound in it."""
+
+    recording: Annotated[str, Shown("recording")]
+    """Experiment and label of the interval."""
+    use: Annotated[str, Shown("use")]
+    """Whether it was fitted or judges."""
+    messages: Annotated[int, Shown("messages")]
+    """Messages of counts with a pressure."""
+    highest_kPa: Annotated[float, Shown("highest", "kPa", digits=0)]
+    """Highest pressure above that at rest."""
+    rest_kPa: Annotated[float, Shown("at rest", "kPa", digits=1)]
+    """Reading of the pressure at rest, from which it counts."""
+    sound: Annotated[int, Shown("sound")]
+    """Taxels with which nothing is wrong in it."""
+    wraps: Annotated[int, Shown("wrap")]
+    """Taxels that run below 0 and go on at 255; a taxel may have several ailments."""
+    rails: Annotated[int, Shown("at rails")]
+    """Taxels that read 0 or 255."""
+    jumps: Annotated[int, Shown("jump")]
+    """Taxels that jump from one message to the next."""
+    noise: Annotated[int, Shown("noisy")]
+    """Taxels that are noisy."""
+    never_moves: Annotated[int, Shown("never move")]
+    """Taxels that do not fall under pressure."""
+    rises: Annotated[int, Shown("rise")]
+    """Taxels that rise under pressure."""
+
+
+class CandidateRow(Row):
+    """A form of curve on recordings that were not fitted: medians over taxels of the root mean square error."""
+
+    curve: Annotated[str, Shown("curve")]
+    """Form of the curve."""
+    recording: Annotated[str, Shown("recording")]
+    """Recording, or `all`: then the squares of a taxel are pooled over those in which it is sound."""
+    taxels: Annotated[int, Shown("taxels")]
+    """Taxels that are sound where it was fitted and in this recording."""
+    left_out: Annotated[int, Shown("left out")]
+    """Taxels that are not."""
+    inside_kPa: Annotated[float | None, Shown("inside", "kPa", digits=1)]
+    """At pressures that were fitted."""
+    above_kPa: Annotated[float | None, Shown("above", "kPa", digits=1)]
+    """At higher ones."""
+    inside_any_kPa: Annotated[float | None, Shown("inside, any", "kPa", digits=1)]
+    """Inside, over all taxels that were fitted, whether or not they are sound in this recording."""
+    above_any_kPa: Annotated[float | None, Shown("above, any", "kPa", digits=1)]
+    """Above, over all taxels that were fitted."""
+    falling: Annotated[int, Shown("falling")]
+    """Fitted taxels whose curve falls anywhere from 0 to 255 counts below rest."""
+
+
+class TaxelRow(Row):
+    """A taxel."""
+
+    taxel: Annotated[int, Shown("taxel")]
+    """Column of the taxel."""
+    left_out: Annotated[str | None, Shown("left out")]
+    """What was wrong with it where it was to be fitted; none for a sound one."""
+    range_counts: Annotated[float | None, Shown("range", "counts", digits=1)]
+    """Fall below rest at the highest fitted pressure."""
+    rmse_kPa: Annotated[float | None, Shown("rmse", "kPa", digits=1)]
+    """Root mean square error on the fitted samples."""
+    error_kPa: Annotated[float | None, Shown("error loading", "kPa", digits=1)]
+    """Error of the curve while loading, without noise."""
+    hysteresis_kPa: Annotated[float | None, Shown("hysteresis", "kPa", digits=1)]
+    """How much more the same pressure reads while unloading."""
+    hysteresis_percent: Annotated[float | None, Shown("of range", "%", digits=1)]
+    """The same as a share of the range."""
+    inside_kPa: Annotated[float | None, Shown("held out, inside", "kPa", digits=1)]
+    """Error on recordings that were not fitted, where it is sound, at pressures that were fitted."""
+    above_kPa: Annotated[float | None, Shown("above", "kPa", digits=1)]
+    """The same at higher ones."""
+
+
+def recording_row(recording: PatchRecording) -> SkinRecordingRow:
+    """Count what is wrong with the taxels of a recording.
+
+    Args:
+        recording: The recording.
+
+    Returns:
+        Its row.
+    """
+    number = Counter(reason for reasons in recording.ailments for reason in reasons)
+    return SkinRecordingRow(
+        recording=recording_name(recording),
+        use=recording.use.value,
+        messages=len(recording.seconds),
+        highest_kPa=1e-3 * recording.cycle.highest,
+        rest_kPa=1e-3 * recording.cycle.rest_pressure,
+        sound=int(np.count_nonzero(recording.sound)),
+        **{name.name.lower(): number[name] for name in Ailment},
+    )
+
+
+def recording_name(recording: PatchRecording) -> str:
+    """Name a recording.
+
+    Args:
+        recording: The recording.
+
+    Returns:
+        Experiment and label of the interval.
+    """
+    return f"{recording.experiment}: {recording.label}"
+
+
+def taxel_row(taxel: CalibratedTaxel, inside: float | None, above: float | None) -> TaxelRow:
+    """Show what is known of a taxel.
+
+    Args:
+        taxel: The taxel.
+        inside: Its error where it was not fitted, at pressures that were; Pa.
+        above: The same at higher ones; Pa.
+
+    Returns:
+        Its row.
+    """
+    share = taxel.hysteresis_share
+    return TaxelRow(
+        taxel=taxel.taxel,
+        left_out=", ".join(taxel.left_out) or None,
+        range_counts=taxel.range_counts,
+        rmse_kPa=in_kPa(taxel.rmse_pa),
+        error_kPa=in_kPa(taxel.error_pa),
+        hysteresis_kPa=in_kPa(taxel.hysteresis_pa),
+        hysteresis_percent=None if share is None else 100.0 * share,
+        inside_kPa=in_kPa(inside),
+        above_kPa=in_kPa(above),
+    )
+
+
+def in_kPa(value: float | None) -> float | None:
+    """Turn Pa into kPa.
+
+    Args:
+        value: A pressure; Pa.
+
+    Returns:
+        The pressure in kPa; None for none, and for one that is not known.
+    """
+    return None if value is None or not np.isfinite(value) else 1e-3 * value

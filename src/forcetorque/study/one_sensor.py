@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fit everything, judge everything, choose: chapter 5.3 of the thesis for one sensor."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.errors import FitError
+from forcetorque.evaluation.candidate_errors import evaluator_of_work
+from forcetorque.evaluation.push_error import PushError, push_error
+from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, EstimationType
+from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.moments import DataSet
+from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
+from forcetorque.experiment.validation_set import ValidationSet
+from forcetorque.study.candidate import SWEEP_LAMBDAS, Candidate, GenerativeCandidate
+from forcetorque.study.fitting import Fits, fit_candidates
+from forcetorque.study.loads_not_fitted import push_deviations
+from forcetorque.study.selection import SessionScore, best_by_axis, best_by_magnitude, choosable, scored_across_sessions
+from forcetorque.study.validation import Judgement, judge
+
+WORKBENCH = "workbench"
+"""Name of the prior among the candidates."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Choice:
+    """What is best in one offset mode, on all validation data."""
+
+    by_magnitude: int
+    """Candidate with the smallest mean contact force."""
+    by_axis: tuple[int, ...]
+    """Candidate with the smallest mean absolute value, for every component."""
+    across_sessions: tuple[SessionScore, ...]
+    """The same choice made on other sessions and scored on each: what may be expected on another day."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Study:
+    """All candidates of a sensor, how they do, and which are best."""
+
+    fits: Fits
+    """What was fitted by the types of the thesis."""
+    generative: tuple[GenerativeCandidate, ...]
+    """Generative fits of the combinations that allow one."""
+    workbench: WrenchModel | None
+    """The prior matrix, judged with an offset from the judged interval in both modes; None for a new sensor."""
+    judgements: Mapping[Offset, Judgement]
+    """Errors by offset mode, of the candidates in their order, then of the workbench matrix."""
+    choices: Mapping[Offset, Choice]
+    """The best by offset mode."""
+    push_deviations: FloatArray
+    """How far every candidate reads pushes from the generative fit of its data set; shape (k, 6); predicted standard
+    deviations; not a number where there is no such fit."""
+    truth: FloatArray | None
+    """True matrix, of a simulated sensor; shape (6, c); N/count, N m/count."""
+
+    @property
+    def candidates(self) -> tuple[Candidate | GenerativeCandidate, ...]:
+        """All that may be chosen: those of the thesis' types in their order, then the generative fits."""
+        return (*self.fits.candidates, *self.generative)
+
+    @property
+    def models(self) -> tuple[WrenchModel, ...]:
+        """Models in the order of the judgements."""
+        fitted = tuple(candidate.model for candidate in self.candidates)
+        return fitted if self.workbench is None else (*fitted, self.workbench)
+
+    def name(self, index: int) -> str:
+        """Name a model.
+
+        Args:
+            index: Its index.
+
+        Returns:
+            Name of the candidate, or that of the workbench.
+        """
+        return self.candidates[index].name if index < len(self.candidates) else WORKBENCH
+
+    def push_error(self, index: int) -> PushError | None:
+        """Judge a model by pushes that were not recorded.
+
+        Args:
+            index: Its index.
+
+        Returns:
+            Its error against the true matrix; None where that is not known.
+        """
+        return None if self.truth is None else push_error(self.models[index].matrix, self.truth)
+
+
+def run_study(
+    calibration: Sequence[DataSet],
+    combinations: Mapping[str, Collection[str]],
+    validation: Sequence[ValidationSet],
+    *,
+    prior: FloatArray | None,
+    variables: Sequence[LinearVariable] = (),
+    kinds: Sequence[EstimationType] = tuple(ESTIMATION_TYPES.values()),
+    lambdas: Sequence[float] = SWEEP_LAMBDAS,
+    sphere: Collection[str] | None = None,
+    generative: Sequence[GenerativeCandidate] = (),
+    truth: FloatArray | None = None,
+    progress: Callable[[str], None] | None = None,
+) -> Study:
+    """Study a sensor.
+
+    Args:
+        calibration: Calibration data in the order of the files.
+        combinations: Labels of the data that are fitted together, by the name of the combination.
+        validation: Data to judge on.
+        prior: Matrix to stay close to, the workbench's; shape (6, c); None for a sensor without one.
+        variables: What the columns of `variables` in the data are.
+        kinds: Estimation types.
+        lambdas: Lambdas of (5.4); counts2; those of the thesis' tables, six times as printed there, if left out.
+        sphere: Labels of the data that draw the sphere of the sphere types.
+        generative: Generative fits of the combinations, to be judged beside the others.
+        truth: True matrix, of a simulated sensor; shape (6, c); None if it is not known.
+        progress: Called with a line for people at every step.
+
+    Returns:
+        The study.
+
+    Raises:
+        FitError: If there is nothing to judge on, nothing can be fitted, or the data determine none of the fits.
+    """
+    if not validation:
+        raise FitError('expected at least one interval with use = "validation", got none')
+    say = progress or (lambda line: None)
+    say(f"fitting {len(combinations)} combinations of data sets, {len(kinds)} types, {len(lambdas)} lambdas")
+    fits = fit_candidates(
+        calibration,
+        combinations,
+        prior=prior,
+        variables=variables,
+        kinds=kinds,
+        lambdas=lambdas,
+        sphere=sphere,
+    )
+    candidates: tuple[Candidate | GenerativeCandidate, ...] = (*fits.candidates, *generative)
+    if not any(candidate.determined for candidate in candidates):
+        raise FitError(
+            "lambda is 0, and in every data set the loads leave a direction of the raw readings unexcited; move the "
+            "limb so that all loads change, or give a prior matrix and a lambda above 0"
+        )
+    models = [candidate.model for candidate in candidates]
+    workbench = None
+    if prior is not None:
+        # its offset is taken from every judged interval, so the zeros here are never used
+        workbench = WrenchModel(matrix=prior, offset=np.zeros(6))
+        models.append(workbench)
+    session_offsets = {k: c.offsets for k, c in enumerate(candidates) if isinstance(c, GenerativeCandidate)}
+    determined = np.array([candidate.determined for candidate in candidates])
+    evaluator = evaluator_of_work(len(KNOWN_BEFORE) * len(models), sum(len(one.time_s) for one in validation))
+    judgements, choices = {}, {}
+    for source in KNOWN_BEFORE:
+        say(f"judging {len(models)} matrices on {len(validation)} intervals, offset {source}")
+        sources = [source] * len(candidates) + [Offset.FIRST_SECOND] * (workbench is not None)
+        judgements[source] = judge(
+            models, sources, validation, session_offsets=session_offsets, evaluator=evaluator, progress=say
+        )
+        choices[source] = _choice(judgements[source], determined)
+    return Study(
+        fits=fits,
+        generative=tuple(generative),
+        workbench=workbench,
+        judgements=judgements,
+        choices=choices,
+        push_deviations=push_deviations(candidates, generative),
+        truth=truth,
+    )
+
+
+def _choice(judgement: Judgement, determined: BoolArray) -> Choice:
+    candidates = choosable(judgement.over(), determined)
+    return Choice(
+        by_magnitude=best_by_magnitude(candidates),
+        by_axis=best_by_axis(candidates),
+        across_sessions=tuple(scored_across_sessions(judgement, determined)),
+    )

@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What studies of sensors come to: the choice, and what it is worth on other sessions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, Literal
+
+from pydantic import Field
+
+from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.evaluation.push_error import LEVER_M, PUSH_N
+from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
+from forcetorque.results.number_text import number, with_error
+from forcetorque.results.result import Result
+from forcetorque.results.row import COMPONENTS, Row
+from forcetorque.results.table import Table, table_of
+from forcetorque.study import thesis_tables as tables
+from forcetorque.study.candidate import CONVENTION
+from forcetorque.study.choice_warnings import unfitted_load, unfitted_warnings
+from forcetorque.study.loads_not_fitted import FAR_SD
+from forcetorque.study.one_sensor import WORKBENCH, Study
+from forcetorque.study.records import AxisChoice, ChosenCandidate, FittedCombination, ModeChoice, SessionChoice
+from forcetorque.study.study import SensorStudy
+
+
+class StudiedSensor(Row):
+    """The study of one sensor."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    folder: str | None
+    """Folder of its files, where they were written."""
+    candidates: int
+    """Number of matrices fitted by the types of the thesis."""
+    generative: int
+    """Number of generative fits, one per combination that allows it."""
+    validation_samples: int
+    """Samples that they were judged on."""
+    combinations: tuple[FittedCombination, ...]
+    """What was fitted together."""
+    left_out: tuple[str, ...]
+    """Types that a combination cannot give, with the reason."""
+    workbench: ChosenCandidate | None
+    """The prior matrix, offset from the first second; None for a sensor without one."""
+    modes: tuple[ModeChoice, ...]
+    """The choice in both offset modes."""
+    files: tuple[str, ...]
+    """Tables, figures and calibrations in the folder."""
+    candidate_rows: tuple[dict[str, Any], ...] = Field(exclude=True, repr=False)
+    """Everything about every candidate; cells by heading."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give the choice, for all axes together, axis by axis and session by session.
+
+        Yields:
+            Tables and sentences.
+        """
+        yield (
+            f"{self.sensor} ({self.serial}): {self.candidates} matrices of {len(self.combinations)} data sets and "
+            f"{self.generative} generative fits, judged on {self.validation_samples} samples that were not fitted"
+        )
+        yield self._best()
+        yield self._by_axis()
+        yield from self._unfitted()
+        for mode in self.modes:
+            if mode.across_sessions:
+                caption = f"what to expect on another session, offset {mode.offset}"
+                yield table_of(mode.across_sessions, caption)
+        for combination in self.combinations:
+            if combination.excited < combination.channels:
+                moved = f"{combination.excited} of {combination.channels}"
+                yield f"{combination.name}: loads move only {moved} raw directions"
+        if self.folder is not None:
+            yield f"tables, figures and calibrations are in {self.folder}"
+
+    def _best(self) -> Table:
+        chosen = [] if self.workbench is None else [(self.workbench, Offset.FIRST_SECOND)]
+        chosen += [(mode.best, mode.offset) for mode in self.modes]
+        return Table(
+            caption="mean contact force where nothing touches; per axis: mean absolute value",
+            headings=("candidate", "offset", "force, N", "moment, N m", *COMPONENTS),
+            rows=tuple(
+                (
+                    candidate.name,
+                    offset,
+                    with_error(candidate.force_mean_N, candidate.force_mean_error_N, digits=3),
+                    number(candidate.moment_mean_Nm, 4),
+                    *(number(float(value), 3) for value in candidate.mean_absolute),
+                )
+                for candidate, offset in chosen
+            ),
+        )
+
+    def _by_axis(self) -> Table:
+        return Table(
+            caption="best candidate of every axis",
+            headings=("axis", "best", "offset", "value", "workbench"),
+            rows=tuple(
+                (row.axis, row.name, mode.offset, number(row.mean_absolute, 4), number(row.workbench, 4))
+                for mode in self.modes
+                for row in mode.by_axis
+            ),
+        )
+
+    def _unfitted(self) -> Iterator[Table]:
+        """Give the choices at loads that were not fitted, where anything is known of them."""
+        chosen = [(WORKBENCH, "", self.workbench.unfitted)] if self.workbench is not None else []
+        for mode in self.modes:
+            chosen.append((mode.best.name, mode.offset, mode.best.unfitted))
+            chosen.append(("by axis", mode.offset, mode.by_axis_unfitted))
+        known = any(load.push_force_N is not None or load.deviation_sd is not None for _, _, load in chosen)
+        if known:
+            yield Table(
+                caption=f"loads that were not fitted: pushes of {PUSH_N:g} N with levers up to {LEVER_M:g} m",
+                headings=("candidate", "offset", "error, N", "error, N m", "from the default, s.d."),
+                rows=tuple(
+                    (
+                        name,
+                        offset,
+                        number(load.push_force_N, 3),
+                        number(load.push_moment_Nm, 4),
+                        number(load.deviation_sd, 1) + (" far" if (load.deviation_sd or 0.0) > FAR_SD else ""),
+                    )
+                    for name, offset, load in chosen
+                ),
+            )
+
+
+class Studies(Result):
+    """Studies of sensors over the same recordings."""
+
+    interval_uses = ()
+
+    schema_name: Literal["forcetorque/study/2"] = Field(default="forcetorque/study/2", alias="schema")
+    """Form of the result."""
+    lambda_convention: str = f"{CONVENTION}; counts2"
+    """How lambdas are counted; in the first form of the result names and `--lambda` counted a sixth of it."""
+    experiments: tuple[str, ...]
+    """Experiment files."""
+    folder: str | None
+    """Folder with a folder per sensor, where files were written."""
+    sensors: tuple[StudiedSensor, ...]
+    """One per sensor."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give the choice for one sensor after the other.
+
+        Yields:
+            Tables and sentences.
+        """
+        for sensor in self.sensors:
+            yield from sensor.blocks()
+
+    def records(self) -> list[dict[str, object]]:
+        """Give everything about every candidate as lines.
+
+        Returns:
+            A line per sensor and candidate, and one for its workbench matrix.
+        """
+        return [{"sensor": sensor.sensor, **row} for sensor in self.sensors for row in sensor.candidate_rows]
+
+
+def studied_sensor(study: SensorStudy) -> StudiedSensor:
+    """Say what the study of a sensor comes to.
+
+    Args:
+        study: The study.
+
+    Returns:
+        The choice; no files are written.
+    """
+    core, identity = study.study, study.data.identity
+    judged = core.judgements[Offset.FIRST_SECOND]
+    return StudiedSensor(
+        sensor=identity.name,
+        serial=identity.serial,
+        folder=None,
+        candidates=len(core.fits.candidates),
+        generative=len(core.generative),
+        validation_samples=int(judged.errors.count.sum()),
+        combinations=tuple(
+            FittedCombination(
+                name=combination.name,
+                intervals=tuple(combination.labels),
+                samples=combination.moments.count,
+                excited=sum(combination.excitation.excited),
+                channels=combination.moments.channels,
+            )
+            for combination in core.fits.combinations
+        ),
+        left_out=study.left_out,
+        workbench=None if core.workbench is None else _chosen(core, Offset.FIRST_SECOND, len(core.models) - 1),
+        modes=tuple(_mode(core, offset) for offset in KNOWN_BEFORE),
+        files=(),
+        candidate_rows=tuple(tables.candidate_rows(core)),
+    )
+
+
+def study_warnings(study: SensorStudy) -> tuple[str, ...]:
+    """Say what makes the choice doubtful.
+
+    Args:
+        study: The study.
+
+    Returns:
+        A sentence per session that is fitted and judged, one per type that a combination cannot give, one per choice
+        that makes the sensor worse, or may, at loads that were not fitted, and what experiment files add to their logs.
+    """
+    fitted = {interval.session for interval in study.data.calibration}
+    shared = sorted({interval.session for interval in study.data.validation} & fitted)
+    return (
+        *(f"session {name!r} is fitted and judged: its score is not what another session gives" for name in shared),
+        *(f"left out: {sentence}" for sentence in study.left_out),
+        *unfitted_warnings(study),
+        *study.data.added,
+    )
+
+
+def _mode(study: Study, offset: Offset) -> ModeChoice:
+    choice, pooled = study.choices[offset], study.judgements[offset].over()
+    return ModeChoice(
+        offset=offset,
+        best=_chosen(study, offset, choice.by_magnitude),
+        by_axis=tuple(
+            AxisChoice(
+                axis=component,
+                name=study.name(index),
+                mean_absolute=float(pooled.mean_absolute[index, axis]),
+                workbench=None if study.workbench is None else float(pooled.mean_absolute[-1, axis]),
+            )
+            for axis, (component, index) in enumerate(zip(WRENCH_COMPONENTS, choice.by_axis, strict=True))
+        ),
+        by_axis_unfitted=unfitted_load(study, choice.by_axis),
+        across_sessions=tuple(
+            SessionChoice(
+                session=score.session,
+                samples=score.samples,
+                chosen=study.name(score.chosen),
+                force_mean_N=score.force_mean,
+                workbench_force_mean_N=score.workbench_force_mean,
+                by_axis=tuple(study.name(index) for index in score.by_axis),
+                mean_absolute=score.mean_absolute,
+            )
+            for score in choice.across_sessions
+        ),
+    )
+
+
+def _chosen(study: Study, offset: Offset, index: int) -> ChosenCandidate:
+    pooled, spread = study.judgements[offset].over(), study.judgements[offset].part().standard_error()
+    # a generative fit, and the workbench, have no lambda
+    candidate = study.fits.candidates[index] if index < len(study.fits.candidates) else None
+    return ChosenCandidate(
+        name=study.name(index),
+        table_lambda_counts2=None if candidate is None else candidate.table_lambda,
+        lambda_counts2=None if candidate is None else candidate.lambda_counts2,
+        relative_lambda=None if candidate is None else candidate.relative_lambda,
+        force_mean_N=float(pooled.force_mean[index]),
+        force_mean_error_N=float(spread.force_mean[index]),
+        moment_mean_Nm=float(pooled.moment_mean[index]),
+        mean_absolute=pooled.mean_absolute[index],
+        unfitted=unfitted_load(study, (index,) * 6),
+    )

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque view`: robot pose and force space of a recording, in the browser."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.files import STANDARD_OUTPUT
+from forcetorque.base.output_file import declare_outputs
+from forcetorque.results.terminal.options import CalibrationsOption, ForceOption, FormatOption, SensorOption
+from forcetorque.results.terminal.output import (
+    Format,
+    refuse_standard_output,
+    refuse_two_on_standard_output,
+    show,
+    start_logging,
+)
+
+if TYPE_CHECKING:
+    from forcetorque.viewer.build import BuiltScene
+
+
+def view(
+    experiment: Annotated[
+        Path, typer.Argument(help="Experiment file (TOML), or the .numbers.json of a report; see docs/viewer.md.")
+    ],
+    calibration: CalibrationsOption = None,
+    sensor: SensorOption = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            help="File for the page, which then works offline; - for standard output. Default: it is served.",
+        ),
+    ] = None,
+    no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the address and open nothing.")] = False,
+    port: Annotated[
+        int | None, typer.Option("--port", help="Port of 127.0.0.1 to serve at. Default: any that is free.")
+    ] = None,
+    mesh_dir: Annotated[
+        list[Path] | None,
+        typer.Option("--mesh-dir", help="Folder that holds the packages of meshes, or is one; repeat for more."),
+    ] = None,
+    video: Annotated[Path | None, typer.Option("--video", help="File for a video (MP4); needs chromium.")] = None,
+    fps: Annotated[float, typer.Option("--fps", help="Frames per second of the video.")] = 25.0,
+    speed: Annotated[float, typer.Option("--speed", help="Seconds of the log per second of the video.")] = 1.0,
+    start: Annotated[float | None, typer.Option("--start", help="Start of the video; s. Default: of the log.")] = None,
+    end: Annotated[float | None, typer.Option("--end", help="End of the video; s. Default: of the log.")] = None,
+    size: Annotated[tuple[int, int], typer.Option("--size", help="Width and height of the video; pixels.")] = (
+        1280,
+        720,
+    ),
+    browser: Annotated[
+        Path | None, typer.Option("--browser", help="Program that draws the video. Default: chromium or chrome.")
+    ] = None,
+    force: ForceOption = False,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Show robot pose and force space, linked in time, in the browser.
+
+    Example: forcetorque view experiment.toml -c right_leg.json -o view.html
+    """
+    from forcetorque.results.terminal.reading import read_calibrations, read_shown
+    from forcetorque.viewer.build import scene_of
+    from forcetorque.viewer.page import write_page
+    from forcetorque.viewer.video import Film, film_between, find_browser, frame_count, require_playwright, write_video
+    from forcetorque.viewer.view import View, view_source
+
+    log = start_logging()
+    _refuse_contradictions(output, port, video, force=force)
+    refuse_two_on_standard_output(output, output_format)
+    path, files = view_source(experiment, calibration or ())
+    if video is not None:
+        film = Film(start=0, end=0, fps=fps, speed=speed, width=size[0], height=size[1])
+        require_playwright()
+        program = find_browser(browser)
+    calibrations = read_calibrations(files)
+    built = scene_of(path, read_shown(path, log), calibrations, sensors=sensor, mesh_folders=mesh_dir)
+    for note in built.scene.notes:
+        log.info("%s", note)
+    shown = View.of(built)
+    if output is not None:
+        shown = shown.model_copy(update={"file": str(output), "file_bytes": write_page(output, built)})
+    if video is not None:
+        film = film_between(film, built, start_s=start, end_s=end)
+        frames = frame_count(film, built)
+        log.info("filming %d frames with %s", frames, program)
+        write_video(video, film, built, browser=program)
+        shown = shown.model_copy(update={"video": str(video), "video_frames": frames})
+    if output is None and video is None:
+        _serve(path, built, port or 0, not no_browser, output_format)
+    elif output != STANDARD_OUTPUT:  # else the page itself went there
+        show(shown, output_format)
+
+
+def _refuse_contradictions(output: Path | None, port: int | None, video: Path | None, *, force: bool) -> None:
+    if port is not None and (output is not None or video is not None):
+        raise ForceTorqueError("--port belongs to a page that is served; leave out --output and --video, or --port")
+    refuse_standard_output("--video", video)
+    declare_outputs(output, video, force=force)
+
+
+def _serve(path: Path, built: BuiltScene, port: int, open_browser: bool, output_format: Format) -> None:
+    from forcetorque.viewer.page import page_of
+    from forcetorque.viewer.serve import ANNOTATIONS_URL, DATA_URL, Session, ViewerServer
+    from forcetorque.viewer.view import View
+
+    log = start_logging()
+    page = page_of(built, data_url=DATA_URL, annotations_url=ANNOTATIONS_URL)
+    session = Session(path, built, log.info)
+    try:  # around all of it: who reads the address may interrupt before the command waits
+        with ViewerServer(page, built.block, session.save, port=port) as server:
+            show(View.of(built).model_copy(update={"url": server.url}), output_format)
+            sys.stdout.flush()
+            if open_browser and not _opened(server.url):
+                log.warning("no browser could be opened; open the address yourself")
+            log.info("served until Ctrl-C")
+            server.wait()
+    except KeyboardInterrupt:
+        log.info("stopped")
+
+
+def _opened(url: str) -> bool:
+    import webbrowser
+
+    try:
+        return webbrowser.open(url)
+    except webbrowser.Error:
+        return False

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The workbench: known loads on a sensor, its matrix, held-out errors, and faults of the bench."""
+
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from forcetorque.workbench.calibrate import workbench
+    from forcetorque.workbench.recording import read_bench
+
+__all__ = [
+    "read_bench",
+    "workbench",
+]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "read_bench": "forcetorque.workbench.recording",
+        "workbench": "forcetorque.workbench.calibrate",
+    },
+)

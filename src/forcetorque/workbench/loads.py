@@ -1,0 +1,279 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Known loads on a bench, as wrenches and as tables of weights."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.errors import FormatError, SensorError, ShapeError, UnitError, known_names
+from forcetorque.base.input_file import read_text
+from forcetorque.base.wrench import MeasureDirection, reading_sign
+
+LONGEST_LEVER_M = 10.0
+"""A weight farther from the sensor than this is on no bench: its place was typed in another unit."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Weights:
+    """Weights at n positions, one at a time."""
+
+    mass_kg: FloatArray
+    """Mass of the weight alone; shape (n,); kg."""
+    structure_kg: FloatArray
+    """Mass of the mounting structure that hangs there besides; shape (n,); kg."""
+    position_m: FloatArray
+    """Where the load acts, in the sensor's frame; shape (n, 3); m."""
+    direction: FloatArray
+    """Where gravity points in the sensor's frame, of length 1 whatever was given; shape (n, 3)."""
+    gravity: float
+    """Magnitude of gravity; m/s2."""
+
+    def __post_init__(self) -> None:
+        n = len(np.asarray(self.mass_kg))
+        shapes = {"mass_kg": (n,), "structure_kg": (n,), "position_m": (n, 3), "direction": (n, 3)}
+        for field, shape in shapes.items():
+            values = read_only(getattr(self, field), name=field, shape=shape)
+            if not np.isfinite(values).all():
+                row = int(np.argwhere(~np.isfinite(values))[0, 0])
+                raise SensorError(f"weight {row + 1}: {field}: expected finite numbers, got {values[row]}")
+            object.__setattr__(self, field, values)
+        _require_weights(self)
+        lengths = np.linalg.norm(self.direction, axis=1, keepdims=True)
+        object.__setattr__(self, "direction", read_only(self.direction / lengths, name="direction", shape=(n, 3)))
+
+    @property
+    def total_kg(self) -> FloatArray:
+        """Mass of weight and structure; shape (n,); kg."""
+        return self.mass_kg + self.structure_kg
+
+    def wrench(self, *, measure_direction: MeasureDirection) -> FloatArray:
+        """Give what a sensor reads of each weight: force along gravity, moment `position x force`.
+
+        Args:
+            measure_direction: Who acts on whom in the reading; the load is the child.
+
+        Returns:
+            Wrenches in the sensor's frame, about its origin; shape (n, 6); N, N m.
+        """
+        force = self.gravity * self.total_kg[:, None] * self.direction
+        acting = np.hstack([force, np.cross(self.position_m, force)])
+        wrench: FloatArray = -reading_sign(measure_direction, child_is_outboard=True) * acting
+        return wrench
+
+
+def _require_weights(weights: Weights) -> None:
+    if not 0.0 < weights.gravity < np.inf:
+        raise SensorError(f"gravity: expected a number above 0 m/s2, got {weights.gravity:g}")
+    levers = np.linalg.norm(weights.position_m, axis=1)
+    lengths = np.linalg.norm(weights.direction, axis=1)
+    for k, (mass, structure) in enumerate(zip(weights.mass_kg, weights.structure_kg, strict=True)):
+        where = f"weight {k + 1}"
+        if not mass > 0.0:
+            raise SensorError(
+                f"{where}: expected a mass above 0 kg, got {mass:g}; what is recorded without a weight is bias"
+            )
+        if structure < 0.0:
+            raise SensorError(f"{where}: expected a structure of at least 0 kg, got {structure:g}")
+        if levers[k] > LONGEST_LEVER_M:
+            raise SensorError(
+                f"{where}: expected a place within {LONGEST_LEVER_M:g} m of the sensor, got {levers[k]:g} m; "
+                "is it in mm? State the unit in the heading"
+            )
+        if not lengths[k] > 0.0:
+            raise SensorError(f"{where}: expected a direction of gravity, got {weights.direction[k].tolist()}")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class BenchLoads:
+    """What a sensor is known to read at n positions."""
+
+    names: tuple[str, ...]
+    """Name of every position, unique."""
+    wrench: FloatArray
+    """Wrenches in the sensor's frame and direction; shape (n, 6); N, N m; NaN where a component is not known."""
+    series: tuple[str, ...]
+    """Series that each belongs to: positions that are set up together."""
+    weights: Weights | None = None
+    """Geometry that the wrenches come from; None where wrenches were stated."""
+
+    def __post_init__(self) -> None:
+        n = len(self.names)
+        object.__setattr__(self, "wrench", read_only(self.wrench, name="wrench", shape=(n, 6)))
+        if len(set(self.names)) < n:
+            twice = next(name for name in self.names if self.names.count(name) > 1)
+            raise SensorError(f"loads: expected every name once, got {twice!r} again")
+        if len(self.series) != n or (self.weights is not None and len(self.weights.mass_kg) != n):
+            raise ShapeError(f"loads: expected {n} series and weights, as many as names")
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    @classmethod
+    def of_weights(
+        cls, names: Sequence[str], weights: Weights, *, measure_direction: MeasureDirection, series: Sequence[str] = ()
+    ) -> BenchLoads:
+        """Make loads of weights.
+
+        Args:
+            names: Name of every position.
+            weights: The weights.
+            measure_direction: Who acts on whom in the reading; the load is the child.
+            series: Series of every position; one for all if left out.
+
+        Returns:
+            The loads.
+        """
+        return cls(
+            names=tuple(names),
+            wrench=weights.wrench(measure_direction=measure_direction),
+            series=tuple(series) or ("all",) * len(names),
+            weights=weights,
+        )
+
+    @property
+    def known(self) -> BoolArray:
+        """Whether all six components of a position are known; shape (n,)."""
+        return np.asarray(np.isfinite(self.wrench).all(axis=1), dtype=np.bool_)
+
+    def taken(self, positions: Any) -> BenchLoads:
+        """Give some of the positions.
+
+        Args:
+            positions: Which, by number; shape (k,).
+
+        Returns:
+            Their loads.
+        """
+        places = np.asarray(positions, dtype=np.int64)
+        weights = self.weights
+        if weights is not None:
+            weights = Weights(
+                mass_kg=weights.mass_kg[places],
+                structure_kg=weights.structure_kg[places],
+                position_m=weights.position_m[places],
+                direction=weights.direction[places],
+                gravity=weights.gravity,
+            )
+        return BenchLoads(
+            names=tuple(self.names[k] for k in places),
+            wrench=self.wrench[places],
+            series=tuple(self.series[k] for k in places),
+            weights=weights,
+        )
+
+
+THESIS_TABLE: Final = "thesis-6.1"
+"""Name of the bundled table: direction and place of its 24 positions, not its printed labels, which follow no rule."""
+
+_MASS_UNITS: Final = {"kg": 1.0, "g": 1e-3}
+_LENGTH_UNITS: Final = {"m": 1.0, "mm": 1e-3, "cm": 1e-2}
+_DIRECTION: Final = ("dx", "dy", "dz")
+_GRAVITY: Final = re.compile(r"^# *gravity_m_per_s2 *: *(\S+) *$", re.MULTILINE)
+
+
+def read_loads(source: Path | str, *, measure_direction: MeasureDirection) -> BenchLoads:
+    """Read a table of weights: `# gravity_m_per_s2: 9.81`, a heading, and a row per position.
+
+    The heading has `name`, `mass_kg`, `x_m y_m z_m`, `dx dy dz` (where gravity points in the sensor's frame), and may
+    have `structure_kg` and `series`; masses may be in g, places in mm or cm, one unit for all three.
+
+    Args:
+        source: File, or `thesis-6.1` for the bundled table.
+        measure_direction: Who acts on whom in the reading; the load is the child.
+
+    Returns:
+        The loads.
+
+    Raises:
+        MissingFileError: If there is no such file.
+        FormatError: If a line is not of this form.
+    """
+    if str(source) == THESIS_TABLE:
+        where, text = "Table 6.1", resources.files("forcetorque.workbench").joinpath("table_6_1.csv").read_text("utf-8")
+    else:
+        where, text = str(source), read_text(Path(source), f"a table of loads, or {THESIS_TABLE!r} for the bundled one")
+    gravity = _GRAVITY.search(text)
+    if gravity is None:
+        raise FormatError(f"{where}: expected a line `# gravity_m_per_s2: 9.81` above the heading, got none")
+    return _Table(where, text).loads(_number(f"{where}: gravity_m_per_s2", gravity[1]), measure_direction)
+
+
+class _Table:
+    """Rows of a table below its heading."""
+
+    def __init__(self, where: str, text: str) -> None:
+        self._where = where
+        stated = [
+            (line, [word.strip() for word in next(csv.reader([content]))])
+            for line, content in enumerate(text.splitlines(), start=1)
+            if content.strip() and not content.startswith("#")
+        ]
+        if len(stated) < 2:
+            raise FormatError(f"{where}: expected a heading and a row per position, got {len(stated)} lines")
+        (self._heading_line, self._heading), self._rows = stated[0], stated[1:]
+        for line, words in self._rows:
+            if len(words) != len(self._heading):
+                raise FormatError(f"{where}:{line}: expected {len(self._heading)} fields, got {len(words)}")
+
+    def loads(self, gravity: float, measure_direction: MeasureDirection) -> BenchLoads:
+        """The table as loads."""
+        mass, kilograms = self._with_unit("mass", _MASS_UNITS)
+        structure = self._with_unit("structure", _MASS_UNITS, optional=True)
+        axes = [self._with_unit(axis, _LENGTH_UNITS) for axis in "xyz"]
+        if len({factor for _, factor in axes}) > 1:
+            raise UnitError(
+                f"{self._where}:{self._heading_line}: expected x, y and z in one unit, got "
+                f"{', '.join(name for name, _ in axes)}"
+            )
+        weights = Weights(
+            mass_kg=kilograms * self._column(mass),
+            structure_kg=structure[1] * self._column(structure[0]) if structure[0] else np.zeros(len(self._rows)),
+            position_m=axes[0][1] * np.column_stack([self._column(name) for name, _ in axes]),
+            direction=np.column_stack([self._column(name) for name in _DIRECTION]),
+            gravity=gravity,
+        )
+        series = self._words("series") if "series" in self._heading else ()
+        return BenchLoads.of_weights(self._words("name"), weights, measure_direction=measure_direction, series=series)
+
+    def _with_unit(self, name: str, units: dict[str, float], *, optional: bool = False) -> tuple[str, float]:
+        headings = [word for word in self._heading if word.startswith(f"{name}_")]
+        if optional and not headings:
+            return "", 1.0
+        unit = headings[0].removeprefix(f"{name}_") if len(headings) == 1 else ""
+        if unit not in units:
+            raise UnitError(
+                f"{self._where}:{self._heading_line}: expected one column {' or '.join(f'{name}_{u}' for u in units)}, "
+                f"got {', '.join(headings) or 'none'}"
+            )
+        return headings[0], units[unit]
+
+    def _words(self, name: str) -> list[str]:
+        if name not in self._heading:
+            raise FormatError(
+                f"{self._where}:{self._heading_line}: expected a column {name!r}; {known_names(name, self._heading)}"
+            )
+        place = self._heading.index(name)
+        return [words[place] for _, words in self._rows]
+
+    def _column(self, name: str) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+        words = zip(self._rows, self._words(name), strict=True)
+        return np.array([_number(f"{self._where}:{line}: {name}", word) for (line, _), word in words])
+
+
+def _number(where: str, word: str) -> float:
+    try:
+        number = float(word)
+    except ValueError:
+        number = np.nan
+    if not np.isfinite(number):
+        raise FormatError(f"{where}: expected a finite number, got {word!r}")
+    return number

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What every command shows in terminals of 60, 80, 100 and 120 characters, as it was last looked at.
+
+Digits are masked: the layout is held here, the numbers elsewhere. `pytest --write-snapshots` takes what is shown now;
+look at the difference before it is committed.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Callable, Mapping
+from functools import partial
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+import pytest
+
+from forcetorque.app.command_line import app
+from forcetorque.results.result import Result
+from forcetorque.workbench.simulated_benches import BenchFaults
+from tests.app.commands import question_of, typed_commands
+from tests.app.outcome import Run
+from tests.locomotion.foot_forces import write_foot_forces
+from tests.scenes.benches import write_bench
+from tests.scenes.chambers import write_chambers
+from tests.scenes.device_designs import hardly_optimise
+from tests.scenes.excited_sensors import write_taps
+from tests.scenes.experiments import PARQUET, TWO
+from tests.scenes.patches import collapsed, cylinder_patch, position_text
+from tests.scenes.swaying import write_swaying
+from tests.scenes.thermal_cycles import record, write_cycles
+from tests.scenes.touched import write_table, write_touched
+from tests.scenes.tutorial_log import FOLDER as FOLDER_OF_THE_TUTORIAL
+from tests.scenes.wrist_contest import write_contest, write_runs
+
+WIDTHS = (60, 80, 100, 120)
+FOLDER = Path(__file__).parent / "snapshots"
+LIMITS = (
+    'schema = "forcetorque/acceptance/1"\nname = "leg"\n\n[evaluate]\nforce_error_mean_N = 1.0\nrmse = { fz = 0.5 }\n'
+)
+SHORT = ("--type", "OnTdTO", "--type", "CnTdTO", "--lambda", "0", "--lambda", "100")
+KNEE = ("--column", "robot.position.knee", "--desired", "robot.position.knee_desired")
+COMMANDS = {
+    "accept": ("accept", PARQUET, "--spec", "limits.toml", "-c", "fitted.json"),
+    "balance": ("balance", "feet/standing.toml", "--touch", "50N", "--release", "20N"),
+    "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
+    "coherence": ("coherence", PARQUET, "-c", "fitted.json", "--offset", "fitted", "--offset", "none"),
+    "compare": ("compare", PARQUET, "-c", "fitted.json"),
+    "device": ("device",),
+    "contest": ("contest", "wrist/contest.toml"),
+    "estimate": ("estimate", PARQUET, "-o", "contacts.parquet", "-c", "fitted.json"),
+    "evaluate": ("evaluate", PARQUET, "-c", "fitted.json"),
+    "export": ("export", "fitted.json", "--to", "csv", "-o", "matrix.csv"),
+    "gains": ("gains", PARQUET),
+    "init": ("init", "begun/log.csv", "--urdf", "begun/robot.urdf", "-o", "begun.toml"),
+    "inspect": ("inspect", "faulty.toml"),
+    "motion": ("motion", "sway/swaying.toml", *KNEE),
+    "plan": ("plan", PARQUET, "-c", "fitted.json", "--clearance-deg", "12", "--seconds", "20", "--recordings", "2"),
+    "report": ("report", PARQUET, "fitted.json", "-o", "report.html"),
+    "response": ("response", "excited/taps.toml", "-e", "impact", "--force", "log"),
+    "skin calibrate": ("skin", "calibrate", "fit.toml", "kept.toml", "-o", "palm.json"),
+    "skin check": ("skin", "check", "patch.txt"),
+    "skin wrench": ("skin", "wrench", "touched.toml", "--table", "shank.json"),
+    "sphere": ("sphere", PARQUET, "-c", "fitted.json"),
+    "study": ("study", PARQUET, "-o", "study", *SHORT),
+    "tare": ("tare", PARQUET, "--interval", "judge", "-c", "fitted.json"),
+    "thermal": ("thermal", "chamber/chamber.toml"),
+    "validate": ("validate", TWO, "-c", "fitted.json"),
+    "view": ("view", PARQUET, "-o", "view.html"),
+    "workbench": ("workbench", "SIM001.toml"),
+}
+WITHOUT_TABLE = {"payload", "schema", "simulate", "torque-loop"}
+"""Shown elsewhere: `payload` needs a wrist, `simulate` and `torque-loop` minutes; `schema` is JSON."""
+
+
+def _write_limits(arm: Path) -> None:
+    (arm / "limits.toml").write_text(LIMITS, encoding="utf-8")
+
+
+def _write_faulty(arm: Path) -> None:
+    text = (arm / PARQUET).read_text(encoding="utf-8")
+    limited = text.replace('stream = "arm_ft"', 'stream = "arm_ft"\nlimit_counts = 9000')
+    (arm / "faulty.toml").write_text(limited, encoding="utf-8")
+
+
+def _write_touch(arm: Path) -> None:
+    write_chambers(arm)
+    write_touched(arm, broken=25)
+    write_table(arm)
+
+
+def _write_warm_record(arm: Path) -> None:
+    (arm / "chamber").mkdir()
+    write_cycles(arm / "chamber", *record(np.random.default_rng(1), hours=0.2))
+
+
+def _write_runs(arm: Path) -> None:
+    (arm / "wrist").mkdir()
+    write_runs(arm / "wrist")
+    write_contest(arm / "wrist", {"masses": 1.0, "judge": 2.0})
+
+
+def _write_fast(arm: Path) -> None:
+    (arm / "excited").mkdir()
+    write_taps(arm / "excited")
+
+
+def _write_feet(arm: Path) -> None:
+    (arm / "feet").mkdir()
+    write_foot_forces(arm / "feet")
+
+
+def _write_sway(arm: Path) -> None:
+    (arm / "sway").mkdir()
+    write_swaying(arm / "sway")
+
+
+def _write_log(arm: Path) -> None:
+    shutil.copytree(FOLDER_OF_THE_TUTORIAL, arm / "begun")
+
+
+def _write_patch(arm: Path) -> None:
+    (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
+
+
+WRITTEN: Mapping[str, Callable[[Path], object]] = MappingProxyType(
+    {
+        "limits.toml": _write_limits,
+        "faulty.toml": _write_faulty,
+        "fit.toml": write_chambers,
+        "touched.toml": _write_touch,
+        "chamber/chamber.toml": _write_warm_record,
+        "wrist/contest.toml": _write_runs,
+        "excited/taps.toml": _write_fast,
+        "sway/swaying.toml": _write_sway,
+        "begun/log.csv": _write_log,
+        "patch.txt": _write_patch,
+        "feet/standing.toml": _write_feet,
+        "SIM001.toml": partial(write_bench, faults=BenchFaults(swapped=(3, 8))),
+    }
+)
+"""What writes the files that commands above name, beyond those of the arm."""
+
+
+@pytest.fixture
+def shown_widths(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a result write itself once for every width."""
+    text = Result.text
+
+    def at_every_width(result: Result, width: int) -> str:
+        return "".join(f"===== {width} =====\n{text(result, width)}" for width in WIDTHS)
+
+    monkeypatch.setattr(Result, "text", at_every_width)
+
+
+def test_every_command_is_here() -> None:
+    """A new command gets its picture."""
+    assert set(typed_commands(app)) == COMMANDS.keys() | WITHOUT_TABLE
+
+
+@pytest.fixture
+def _hardly_optimised(monkeypatch: pytest.MonkeyPatch) -> None:
+    hardly_optimise(monkeypatch)
+
+
+@pytest.mark.usefixtures("shown_widths", "blank_pictures", "_hardly_optimised")
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, request: pytest.FixtureRequest) -> None:
+    """Line by line; no line of a table is wider than the terminal."""
+    for file in COMMANDS[name][1:]:
+        if file in WRITTEN:
+            WRITTEN[file](arm)
+    ended = run(*COMMANDS[name])
+    assert ended.code in (0, 1), ended.err
+    shown = re.sub(
+        r"\d", "0", re.sub(r"(?<======) (\d+) (?=====)", lambda match: f" {'x' * int(match[1])} ", ended.out)
+    )
+    file = FOLDER / f"{question_of(name)}.txt"
+    if request.config.getoption("--write-snapshots"):
+        file.write_text(shown, encoding="utf-8")
+    assert shown == file.read_text(encoding="utf-8")
+
+
+def test_no_line_is_wider_than_its_terminal() -> None:
+    """In all pictures: tables and sentences alike; a word that is longer than a line, such as a path, stands alone."""
+    pictures = sorted(FOLDER.glob("*.txt"))
+    assert len(pictures) == len(COMMANDS)
+    for picture in pictures:
+        width = 0
+        for line in picture.read_text(encoding="utf-8").splitlines():
+            if line.startswith("====="):
+                width = line.count("x")
+                continue
+            assert len(line) <= width or " " not in line.strip(), (picture.name, width, line)
+        assert width == WIDTHS[-1]

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrating for a file: what is written, what is shown, and what is said to be doubtful."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.app.python.arrays import experiment_of_arrays
+from forcetorque.app.python.experiment import load_experiment as interactive_experiment
+from forcetorque.base.errors import FitError
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.calibration.sensor_calibration import SensorCalibrations, calibrate_for_file, data_doubts
+from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, write_matrix_file
+from forcetorque.inspection.findings import doubtful_spans
+from forcetorque.recording.recording import Use
+from tests.app.python.arrays import arrays_of
+from tests.results.showing import require_shown
+from tests.scenes.experiments import FT_LOG, PARQUET, TWO, YARP, edit, edit_lines, snapshot
+from tests.scenes.warm_experiments import TEMPERATURE, with_variables
+
+
+def _calibrated(
+    path: Path, file: Path, *, sensor: str = "arm_ft", regularisation: float | None = 5.0
+) -> SensorCalibrations:
+    run = SensorRun(load_experiment(path), sensor)
+    return calibrate_for_file(run, file, code_version="1", created="now", regularisation=regularisation)
+
+
+def test_a_file_is_written_when_it_is_asked_for(arm: Path) -> None:
+    """Not before `save`, into folders that it makes; it holds what `calibrate_sensor` gives."""
+    before = snapshot(arm)
+    file = arm / "deep" / "made.json"
+    calibrations = _calibrated(arm / PARQUET, file)
+    assert snapshot(arm) == before
+    assert f"not written yet: `save` writes {file}" in calibrations.text(1000)
+    assert f"written to {file}" not in calibrations.text(1000)
+    assert f"written to {file}" in calibrations.save().text(1000)
+    run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
+    plain = calibrate_sensor(run, code_version="1", created="now", regularisation=5.0)
+    written = read_calibration(file)
+    assert written.matrix.tobytes() == plain.matrix.tobytes()
+    assert (
+        json.loads(file.read_text(encoding="utf-8"))
+        == json.loads(calibrations.json_text())["calibrations"][0]["calibration"]
+    )
+    (entry,) = calibrations.calibrations
+    assert written.prior is not None
+    assert entry.secondary_matrix is not None
+    restored = entry.secondary_matrix @ written.prior.matrix
+    # rounding of a solve with a prior of condition 1e3 in N and N m
+    np.testing.assert_allclose(restored, written.matrix, rtol=0.0, atol=1e-12 * np.abs(written.matrix).max())
+
+
+@pytest.mark.parametrize("variables", [(), (TEMPERATURE,)])
+def test_calibrations_show_themselves(warm_log: Path, variables: tuple[str, ...]) -> None:
+    """Matrix, variables and excitation, in a narrow terminal, on a page and in a cell."""
+    path = with_variables(warm_log / PARQUET, *variables)
+    calibrations = _calibrated(path, warm_log / "new.json")
+    require_shown(calibrations)
+    assert ("what one unit of a variable adds" in calibrations.text(120)) is bool(variables)
+
+
+def test_sensors_are_put_together(arm: Path) -> None:
+    """Both are there, and what both share is said once."""
+    edit_lines(arm / FT_LOG, lambda lines: [*lines[:200], *lines[230:]])
+    ours = _calibrated(arm / YARP, arm / "ours.json")
+    tool = _calibrated(arm / TWO, arm / "tool.json", sensor="tool_ft")
+    both = SensorCalibrations.together([ours, tool, ours])
+    assert [entry.calibration.sensor.name for entry in both.calibrations] == ["arm_ft", "tool_ft", "arm_ft"]
+    assert set(both.warnings) == {*ours.warnings, *tool.warnings}
+    assert len(set(both.warnings)) == len(both.warnings)
+
+
+def test_what_is_doubtful_is_said_by_the_library(arm: Path) -> None:
+    """A gap in a fitted interval, with its time; a moment of the other sign; nothing where all is well.
+
+    Gravity upside down is refused.
+    """
+    assert _calibrated(arm / PARQUET, arm / "a.json").warnings == ()
+    edit_lines(arm / FT_LOG, lambda lines: [*lines[:200], *lines[230:]])
+    (gap,) = [sentence for sentence in _calibrated(arm / YARP, arm / "a.json").warnings if " gap at " in sentence]
+    assert gap.startswith("interval 'fit': arm_ft gap at 3.9")
+    assert gap in list(data_doubts(SensorRun(load_experiment(arm / YARP), "arm_ft")))
+    prior = read_matrix_file(arm / "matrix_SIM001.txt").matrix
+    write_matrix_file(arm / "matrix_SIM001.txt", encode_matrix(np.diag([1.0, 1.0, 1.0, 1.0, 1.0, -1.0]) @ prior))
+    warnings = _calibrated(arm / PARQUET, arm / "a.json", regularisation=0.01).warnings
+    assert any("tz come(s) out with the sign of the prior reversed" in sentence for sentence in warnings)
+    edit(arm / PARQUET, "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [0.0, 0.0, 1.0]")
+    with pytest.raises(FitError, match="runs against the reference"):
+        _calibrated(arm / PARQUET, arm / "a.json", regularisation=0.01)
+
+
+def test_directions_without_load_are_said(arm: Path) -> None:
+    """The sensor of the light tool: its raw directions that nothing moves are counted."""
+    calibrations = _calibrated(arm / TWO, arm / "tool.json", sensor="tool_ft")
+    missing = calibrations.calibrations[0].calibration.validity.excited.count(False)
+    assert missing > 0
+    assert any(f"the loads leave {missing} of 6 raw directions unexcited" in text for text in calibrations.warnings)
+
+
+def test_findings_of_one_kind_do_not_bury_the_others(arm: Path) -> None:
+    """Saturation that comes again and again is said five times and counted; where it comes seldom, all is said."""
+    arrays = arrays_of(interactive_experiment(arm / PARQUET))
+    counts = arrays["reading"].copy()
+    for first in range(len(counts) // 10, len(counts) // 2, 20):
+        counts[first : first + 3, 0] = 32767.0
+    saturated = experiment_of_arrays(**arrays | {"reading": counts})
+    kinds = [finding.kind for _, finding in doubtful_spans(saturated, Use.CALIBRATION)]
+    assert kinds.count("saturation") > 10
+    doubts = list(data_doubts(SensorRun(saturated, "arm_ft")))
+    told = [sentence for sentence in doubts if "saturation" in sentence]
+    assert len(told) == 6
+    assert (
+        told[-1]
+        == f"interval 'calibrate': readings saturation: {kinds.count('saturation') - 5} more, which `inspect` lists"
+    )
+    counts[len(counts) // 10 + 20 :] = arrays["reading"][len(counts) // 10 + 20 :]
+    once = experiment_of_arrays(**arrays | {"reading": counts})
+    told = [sentence for sentence in data_doubts(SensorRun(once, "arm_ft")) if "saturation" in sentence]
+    assert len(told) == 1
+    assert "more" not in told[0]
+
+
+def test_doubts_name_the_channel(arm: Path) -> None:
+    """That saturates, and that stays the same while others move."""
+    arrays = arrays_of(interactive_experiment(arm / PARQUET))
+    counts = arrays["reading"].copy()
+    start = len(counts) // 10
+    counts[start : start + 3, 4] = 32767.0
+    counts[start + 100 : start + 400, 2] = 12.0
+    doubts = list(data_doubts(SensorRun(experiment_of_arrays(**arrays | {"reading": counts}), "arm_ft")))
+    assert any("s: ch4 within 0.5 % of 32767 counts" in sentence for sentence in doubts)
+    assert any("s: ch2 stays at 12 counts" in sentence for sentence in doubts)

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a device may be made of, and what not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from forcetorque.device.description import Turn, device_load
+from forcetorque.device.file import read_device
+from forcetorque.device.model import BASE, device_model
+from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.tree import build_tree
+
+DEVICE = read_device()
+
+
+def test_sensors_are_stacked() -> None:
+    """Each makes the stack higher by its height, and has a name and a serial number of its own."""
+    heights = []
+    for count in (1, 2, 3):
+        device = DEVICE.with_sensors(count)
+        assert len(set(device.sensor_names)) == count
+        level = JointMotion.at_rest(device.joint_names, np.zeros((1, len(device.joint_names))))
+        tree = build_tree(device_model(device, device_load(device, 35.0)), BASE)
+        heights.append(link_pose(tree, level, "carrier")[0, 0, 3])
+    np.testing.assert_allclose(np.diff(heights), DEVICE.sensor[0].height_m, rtol=1e-9)
+
+
+def test_a_turn_is_a_joint_before_the_hinge() -> None:
+    """Its joint is there only if the device has one."""
+    assert DEVICE.joint_names == ("pitch", "yaw", "hinge")
+    turned = DEVICE.changed(turn=Turn())
+    assert turned.joint_names == ("pitch", "yaw", "turn", "hinge")
+    assert device_model(turned, device_load(turned, 5.0)).joints["hinge"].parent == "bracket"
+
+
+@pytest.mark.parametrize(
+    ("count", "words"), [(0, "at least 1 item"), (4, "at most 3 items")], ids=["without a sensor", "too many"]
+)
+def test_a_stack_has_one_to_three_sensors(count: int, words: str) -> None:
+    """None and four are refused."""
+    with pytest.raises(ValidationError, match=words):
+        DEVICE.with_sensors(count)
+
+
+def test_two_sensors_of_one_name_are_refused() -> None:
+    """Names tell them apart in every file."""
+    with pytest.raises(ValidationError, match="expected each name once, got ft_1, ft_1"):
+        DEVICE.changed(sensor=DEVICE.sensor * 2)
+
+
+def test_a_lock_beyond_the_stops_is_refused() -> None:
+    """The hinge cannot go there."""
+    with pytest.raises(ValidationError, match="lock at 120 deg: expected one within range_deg"):
+        DEVICE.with_locks(0.0, 120.0)
+
+
+@pytest.mark.parametrize(("field", "value"), [("step_kg", 0.0), ("most_kg", 0.0), ("step_kg", 40.0), ("step_kg", 1.0)])
+def test_weights_that_are_none_are_refused(field: str, value: float) -> None:
+    """A plate weighs more than the carrier, and no more than all plates."""
+    with pytest.raises(ValidationError, match=r"greater than 0|0 kg < carrier < weights.step_kg"):
+        DEVICE.changed(weights=DEVICE.weights.model_copy(update={field: value}))
+
+
+def test_loads_are_stated_once() -> None:
+    """A load to calibrate with is none to judge with."""
+    simulation = DEVICE.simulation.model_copy(update={"validation_kg": (35.0,)})
+    with pytest.raises(ValidationError, match="expected each load once in loads_kg and validation_kg"):
+        DEVICE.changed(simulation=simulation)

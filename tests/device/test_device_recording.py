@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is logged of a device: the hinge where it is known, sensors with their truth, and one load as another."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.device.file import DeviceFile, read_device
+from forcetorque.device.recording import DeviceRecording, DeviceSpecimens, simulate_device
+from forcetorque.recording.recording import Use
+
+RATE_HZ = 20.0
+
+
+def _file(**changes: object) -> DeviceFile:
+    file = read_device()
+    return file.changed(simulation=file.simulation.model_copy(update={"rate_hz": RATE_HZ, **changes}))
+
+
+def _recordings(file: DeviceFile) -> list[DeviceRecording]:
+    return list(simulate_device(file, DeviceSpecimens.draw(file)))
+
+
+@pytest.fixture(scope="module")
+def recordings() -> list[DeviceRecording]:
+    """Of the device that comes with the library."""
+    return _recordings(_file())
+
+
+def test_there_is_one_for_each_load(recordings: list[DeviceRecording]) -> None:
+    """Loads to calibrate with first, then those to judge with."""
+    named = [(recording.load.name, recording.use) for recording in recordings]
+    assert named == [("35 kg", Use.CALIBRATION), ("15 kg", Use.CALIBRATION), ("25 kg", Use.VALIDATION)]
+
+
+def test_the_hinge_is_logged_at_locks_alone(recordings: list[DeviceRecording]) -> None:
+    """Without an encoder it is at the last lock until it reaches the next, and known outside of the swing."""
+    for recording in recordings:
+        hinge = recording.recording.stream("joints").signals["position"].values[:, -1]
+        assert set(np.rad2deg(hinge).round(9)) == {0.0, 90.0}
+        first, second = recording.stretches
+        assert first.end_s < second.start_s
+        assert (first.name, second.name) == ("hinge 0, 1", "hinge 90, 2")
+
+
+def test_an_encoder_of_the_hinge_sees_the_swing() -> None:
+    """Then all of the recording is one stretch."""
+    file = _file(loads_kg=(35.0,), validation_kg=())
+    file = file.changed(hinge=file.hinge.model_copy(update={"encoder": True}))
+    (recording,) = _recordings(file)
+    hinge = recording.recording.stream("joints").signals["position"].values[:, -1]
+    assert ((hinge > 0.1) & (hinge < 1.4)).sum() > RATE_HZ
+    assert [stretch.name for stretch in recording.stretches] == ["all"]
+
+
+def test_one_more_load_changes_no_other(recordings: list[DeviceRecording]) -> None:
+    """Sensors, offsets and noise of a load are its own."""
+    (alone,) = _recordings(_file(loads_kg=(35.0,), validation_kg=()))
+    for stream in ("ft_1", "joints"):
+        ours, theirs = (one.recording.stream(stream) for one in (alone, recordings[0]))
+        for name, signal in ours.signals.items():
+            np.testing.assert_array_equal(signal.values, theirs.signals[name].values)
+
+
+def test_another_seed_is_another_sensor() -> None:
+    """Negative control: matrices are drawn."""
+    first, second = (DeviceSpecimens.draw(_file(seed=seed)).mounted["ft_1"].matrix for seed in (1, 2))
+    assert np.abs(first - second).max() > 0.0
+
+
+def test_sensors_keep_their_serial_numbers() -> None:
+    """Three sensors in a stack are three specimens."""
+    file = _file().with_sensors(3)
+    specimens = DeviceSpecimens.draw(file)
+    assert [specimen.serial for specimen in specimens.specimens.values()] == [s.serial for s in file.sensor]
+    matrices = [sensor.matrix for sensor in specimens.mounted.values()]
+    assert all(np.abs(matrices[k] - matrices[k - 1]).max() > 0.0 for k in range(3))

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The space that a device sweeps, against circles and rectangles by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.device.description import device_load
+from forcetorque.device.envelope import ARM_RADIUS_M, Silhouette, envelope
+from forcetorque.device.file import read_device
+from forcetorque.device.sequence import Sequence, twelve_steps
+
+DEVICE = read_device().with_sensors(3)
+LOAD = device_load(DEVICE, 35.0)
+HINGE_M = 0.08 + 0.0189 + 3 * 0.04 + 0.04
+"""From the axis of pitch to that of the hinge: both motors, three sensors, the bracket."""
+CIRCLE = 0.006
+"""Share by which a circle of 36 corners is smaller."""
+
+
+def _swept(sequence: Sequence) -> dict[str, Silhouette]:
+    poses = sequence.still_poses(DEVICE, LOAD, spacing_deg=3.0)
+    return {one.view: one for one in envelope(DEVICE, LOAD, poses)}
+
+
+def test_a_straight_arm_that_stands_still() -> None:
+    """From behind it is the disc of the plates; from above a rectangle from the motor to the last plate, and a cap."""
+    swept = _swept(Sequence.of(DEVICE, "rest", [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]))
+    weights = DEVICE.weights
+    assert swept["behind"].hull_m2 == pytest.approx(np.pi * weights.radius_m**2, rel=CIRCLE)
+    length = ARM_RADIUS_M + HINGE_M + weights.foot_m + 7 * weights.height_m
+    np.testing.assert_allclose(swept["above"].extent_m, [length, 2.0 * weights.radius_m], atol=2e-3)
+
+
+def test_the_motion_is_contained_in_a_square_metre_and_a_half() -> None:
+    """Seen from the side, where it is largest: half a circle of the farthest corner of the plates, and the arm."""
+    swept = _swept(twelve_steps(DEVICE))
+    assert max(one.rectangle_m2 for one in swept.values()) == swept["the side"].rectangle_m2 < 1.5
+    reach = np.hypot(HINGE_M + DEVICE.weights.foot_m + 7 * DEVICE.weights.height_m, DEVICE.weights.radius_m)
+    assert swept["the side"].extent_m[1] == pytest.approx(2.0 * reach, rel=0.01)
+    for one in swept.values():
+        assert one.hull_m2 < one.rectangle_m2
+
+
+def test_an_arm_three_times_as_long_is_not() -> None:
+    """Negative control: the limit is no matter of course."""
+    part = DEVICE.pitch.part.model_copy(update={"height_m": 0.6})
+    longer = DEVICE.changed(pitch=DEVICE.pitch.model_copy(update={"part": part}))
+    poses = twelve_steps(longer).still_poses(longer, LOAD, spacing_deg=10.0)
+    assert max(one.rectangle_m2 for one in envelope(longer, LOAD, poses)) > 1.5

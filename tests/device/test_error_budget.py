@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Errors of references: by hand, by first order, by drawing, and as Table 6.3 of the thesis has them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+
+import numpy as np
+import pytest
+
+from forcetorque.base.errors import SensorError
+from forcetorque.device.description import HungLoad, device_load
+from forcetorque.device.error_budget import ErrorBudget, drawn_errors
+from forcetorque.device.expected_wrench import (
+    BRACKET_LENGTH,
+    COMPLIANCE,
+    ENCODERS,
+    IMU,
+    LOAD_LENGTH,
+    MASS,
+    QUANTITIES,
+    Reference,
+)
+from forcetorque.device.file import read_device
+from forcetorque.device.grades import DATA_SHEETS, THESIS_GRADES, Grade, Graded, graded
+from forcetorque.device.sequence import twelve_steps
+from forcetorque.device.tolerances import NOISE_REACH, Tolerance
+
+THREE = read_device().with_sensors(3)
+ONE = THREE.with_sensors(1)
+LOAD = device_load(THREE, 35.0)
+WEIGHT = 35.0 * THREE.gravity
+BEYOND = 0.02
+"""Share by which the innermost sensor holds more than the load: three interfaces, two sensors, the bracket; 0.68 kg."""
+
+DRAWS = 50
+DRAWN = 5.0
+"""Monte Carlo errors by which a root mean square of draws may differ from first order, the worst of six components."""
+
+
+def _reference(sensor: str = "ft_1", spacing_deg: float = 30.0) -> Reference:
+    poses = twelve_steps(THREE).still_poses(THREE, LOAD, spacing_deg=spacing_deg)
+    return Reference(device=THREE, load=LOAD, poses=poses, sensor=sensor)
+
+
+@cache
+def _graded(sensors: int) -> dict[Grade, Graded]:
+    device = THREE.with_sensors(sensors)
+    grades = (*THESIS_GRADES, *DATA_SHEETS)
+    return dict(zip(grades, graded(device, "ft_1", twelve_steps(device), grades), strict=True))
+
+
+def _encoders(full_width: float, sensors: int = 1) -> Graded:
+    return _graded(sensors)[Grade(by_imu=False, full_width=full_width)]
+
+
+def _imu(full_width: float, sensors: int = 1) -> Graded:
+    return _graded(sensors)[Grade(by_imu=True, full_width=full_width)]
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_the_first_order_of_each_quantity_is_that_of_the_whole_reference(quantity: str) -> None:
+    """A small error of one quantity changes the reference by its slope."""
+    reference = _reference()
+    small = {COMPLIANCE: 1e-8, MASS: 1e-4}.get(quantity, 1e-5)
+    change = reference.wrench({quantity: small}) - reference.wrench()
+    assert np.abs(change).max() > 1e-6
+    np.testing.assert_allclose(change, small * reference.slope(quantity), atol=2e-5 * np.abs(change).max())
+
+
+def test_slopes_are_those_by_hand() -> None:
+    """Straight and level: pitch turns the weight into z, an IMU adds mass times its error, lengths are levers."""
+    reference = _reference()
+    row = int(np.argmin(np.abs(reference.poses.position).sum(axis=1)))
+    assert np.allclose(reference.poses.position[row], 0.0)
+    wrench = reference.wrench()[row]
+    force = np.linalg.norm(wrench[:3])
+    assert force == pytest.approx(WEIGHT, rel=BEYOND)
+    assert abs(reference.slope("pitch")[row, 2]) == pytest.approx(force)
+    assert abs(reference.slope("yaw")[row, :3]) == pytest.approx(np.abs(np.cross(wrench[:3], [0.0, 0.0, 1.0])))
+    assert reference.slope("imu_z")[row, 2] == pytest.approx(-force / THREE.gravity)
+    assert np.linalg.norm(reference.slope(MASS)[row, :3]) == pytest.approx(WEIGHT)
+    for length in (BRACKET_LENGTH, LOAD_LENGTH):
+        assert np.abs(reference.slope(length)[row, :3]).max() == pytest.approx(0.0, abs=1e-9)
+        assert np.linalg.norm(reference.slope(length)[row, 3:]) == pytest.approx(WEIGHT)
+
+
+TOLERANCES: Mapping[str, Tolerance] = {
+    "pitch": Tolerance(step=2e-3),
+    "yaw": Tolerance(zero=2e-3),
+    MASS: Tolerance(zero=1e-3),
+    BRACKET_LENGTH: Tolerance(zero=2e-4),
+    LOAD_LENGTH: Tolerance(zero=2e-4),
+    COMPLIANCE: Tolerance(fixed=1e-5),
+}
+
+
+@pytest.mark.parametrize("sensor", ["ft_1", "ft_1_3"])
+@pytest.mark.parametrize("by_imu", [False, True])
+def test_drawing_agrees_with_first_order(sensor: str, by_imu: bool) -> None:
+    """Root mean square within the error of so many draws; no draw beyond what the largest errors allow."""
+    imu = dict.fromkeys(IMU, Tolerance(step=0.02, zero=0.01))
+    tolerances = imu | {MASS: Tolerance(zero=1e-3)} if by_imu else dict(TOLERANCES)
+    reference = _reference(sensor)
+    error = ErrorBudget.of(reference, tolerances)
+    drawn = drawn_errors(reference, tolerances, np.random.default_rng(7), DRAWS)
+    square = (drawn**2).mean(axis=1)  # (draws, 6)
+    spread = square.std(axis=0) / np.sqrt(DRAWS)
+    assert (np.abs(square.mean(axis=0) - error.rms**2) < DRAWN * spread).all()
+    # of second order: the square of a mrad of the weight
+    assert (np.abs(drawn).max(axis=(0, 1)) < 1.01 * error.largest).all()
+    assert np.linalg.norm(drawn[..., :3], axis=-1).max() < 1.01 * error.largest_norms[0]
+    assert np.linalg.norm(drawn[..., 3:], axis=-1).max() < 1.01 * error.largest_norms[1]
+
+
+def test_drawing_notices_a_wrong_width() -> None:
+    """Negative control: a width that is a fifth larger is seen by as many draws."""
+    reference = _reference()
+    tolerances = dict.fromkeys(ENCODERS, Tolerance(step=2e-3))
+    drawn = drawn_errors(reference, dict.fromkeys(ENCODERS, Tolerance(step=2.4e-3)), np.random.default_rng(9), DRAWS)
+    square = (drawn**2).mean(axis=1)
+    spread = square.std(axis=0) / np.sqrt(DRAWS)
+    assert (np.abs(square.mean(axis=0) - ErrorBudget.of(reference, tolerances).rms ** 2) > DRAWN * spread).all()
+
+
+def test_table_6_3_of_a_bare_load_of_35_kg_is_that_by_hand() -> None:
+    """Amplitudes are full widths: a mass of 35 kg times width over root 12; .340 is printed where it is .303."""
+    bare = HungLoad.point(35.0, 0.11495)
+    part = ONE.sensor[0].male
+    sensor = ONE.sensor[0].model_copy(update={"male": part.model_copy(update={"mass_kg": 0.0})})
+    bracket = ONE.hinge.bracket.model_copy(update={"mass_kg": 0.0})
+    device = ONE.changed(sensor=(sensor,), hinge=ONE.hinge.model_copy(update={"bracket": bracket}))
+    poses = twelve_steps(device).still_poses(device, bare, spacing_deg=5.0)
+    reference = Reference(device=device, load=bare, poses=poses, sensor="ft_1")
+    for width, printed in ((0.015, 0.152), (0.03, 0.303)):
+        rms = ErrorBudget.of(reference, dict.fromkeys(IMU, Tolerance(step=width))).rms
+        np.testing.assert_allclose(rms[:3], 35.0 * width / np.sqrt(12.0), rtol=1e-9)
+        assert rms[0] == pytest.approx(printed, abs=5e-4)
+
+
+@pytest.mark.parametrize(("full_width", "force"), [(0.5, 0.61), (0.25, 0.31), (0.1, 0.12)])
+def test_table_6_3_of_encoders_within_five_percent(full_width: float, force: float) -> None:
+    """Root mean square of Fx and Fy; the device has 0.2 kg of interface and bracket beside the 35 kg."""
+    rms = _encoders(full_width).errors.at_most.rms
+    np.testing.assert_allclose(rms[:2], force, rtol=0.05)
+
+
+@pytest.mark.parametrize(("full_width", "force"), [(0.015, 0.152), (0.03, 0.303)])
+def test_table_6_3_of_an_imu_within_a_percent(full_width: float, force: float) -> None:
+    """With interface and bracket."""
+    np.testing.assert_allclose(_imu(full_width).errors.at_most.rms[:3], force, rtol=0.01)
+
+
+def test_the_largest_errors_of_forces() -> None:
+    """0.5 deg full width is 1.5 N per joint; 0.15 deg meets 0.5 N in each component, not as a norm of both joints."""
+    assert _encoders(0.5).of_one[0] == pytest.approx(1.5, rel=0.01)
+    narrow = _encoders(0.15)
+    assert narrow.errors.at_most.largest[:3].max() < 0.5 < narrow.errors.at_most.largest_norms[0]
+    assert narrow.errors.met_to_kg[0] == 35.0
+    assert _encoders(0.25).errors.at_most.largest[:3].max() > 0.5
+    assert _imu(0.015).errors.at_most.largest_norms[0] < 0.5 < _imu(0.03).errors.at_most.largest[:3].max()
+
+
+def test_no_grade_meets_the_moment_at_a_lever_of_245_mm() -> None:
+    """At 35 kg 0.02 N m is 0.06 mm; the finest grades are at three times as much, and meet it up to 10 kg."""
+    assert pytest.approx(0.06e-3, rel=0.03) == 0.02 / WEIGHT
+    for grade, one in _graded(3).items():
+        assert one.errors.at_most.largest[3:].max() > 0.02, grade
+    assert _encoders(0.1, 3).of_one[1] == pytest.approx(0.07, abs=0.005)
+    assert _imu(0.015, 3).of_one[1] == pytest.approx(0.06, abs=0.005)
+    for finest in (_encoders(0.1, 3), _imu(0.015, 3)):
+        moment_kg = finest.errors.met_to_kg[1]
+        assert moment_kg is not None
+        assert 10.0 < moment_kg < 11.0
+    assert _encoders(0.5, 3).errors.met_to_kg[1] is None
+
+
+def test_errors_of_steps_zero_and_noise_count_as_they_are() -> None:
+    """Full widths over root 12, noise as its deviation; the largest is half of widths, three deviations of noise."""
+    tolerance = Tolerance(step=0.6, zero=1.2, noise=0.1)
+    assert tolerance.variance == pytest.approx((0.36 + 1.44) / 12.0 + 0.01)
+    assert tolerance.largest == pytest.approx(0.9 + NOISE_REACH * 0.1)
+    drawn = np.concatenate([tolerance.drawn(np.random.default_rng(seed), 50) for seed in range(400)])
+    assert drawn.var() == pytest.approx(tolerance.variance, rel=0.1)
+    stays = Tolerance(zero=1.0).drawn(np.random.default_rng(1), 50)
+    assert np.ptp(stays) == 0.0
+
+
+def test_what_cannot_be_propagated_is_refused() -> None:
+    """Two sources of gravity, nothing that is off, names and widths that are none."""
+    reference = _reference()
+    both = {"pitch": Tolerance(step=1e-3), "imu_x": Tolerance(step=0.015)}
+    with pytest.raises(SensorError, match="gravity by encoders or by an inertial sensor, got both"):
+        ErrorBudget.of(reference, both)
+    with pytest.raises(SensorError, match="at least one quantity that is off"):
+        ErrorBudget.of(reference, {"pitch": Tolerance()})
+    with pytest.raises(SensorError, match="unknown quantity 'pich'; did you mean \"pitch\""):
+        reference.wrench({"pich": 1e-3})
+    with pytest.raises(SensorError, match="no sensor 'ft_9'"):
+        _reference("ft_9")
+    with pytest.raises(SensorError, match="step: expected a width of at least 0"):
+        Tolerance(step=-1.0)

@@ -1,0 +1,301 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Trials of sensors: how they are sorted, numbered and pooled, and that one bad file costs nothing but itself."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.evaluation.sphere.sphere import spheres
+from forcetorque.evaluation.trials.comparison import Comparison, compare
+from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials, read_trials
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of
+from tests.report.drawing import sphere_of
+from tests.scenes.experiments import PARQUET, TWO, add, edit
+
+GRAVITY = 9.81
+TRIAL = '\n[trial]\ncondition = "2 N m"\nnumber = {}\n'
+
+
+def _trial(
+    rng: np.random.Generator,
+    offset: float,
+    *,
+    number: int | None = None,
+    condition: str | None = "2 N m",
+    **changes: float,
+) -> TrialSphere:
+    """A trial whose sensor read so much along each axis without force."""
+    directions = grid(400, changes.get("half_deg", 110.0))
+    stretched = np.array([1.0, changes.get("stretch", 1.0), 1.0])
+    force = (directions @ map_of(DEFORMED).T) * stretched + offset + 0.3 * rng.normal(size=directions.shape)
+    mass = changes.get("mass", WEIGHT / GRAVITY)
+    return TrialSphere(
+        file=f"{offset}.toml",
+        experiment="bench",
+        condition=condition,
+        number=number,
+        prior=np.eye(6) * changes.get("matrix", 1.0),
+        sphere=sphere_of(force, WEIGHT * directions, mass=mass),
+    )
+
+
+def _group(trials: list[TrialSphere]) -> TrialGroup:
+    (group,), warnings = group_trials(trials)
+    assert warnings == []
+    return group
+
+
+def test_three_trials_of_which_one_drifts() -> None:
+    """The pooled fit has each offset; mean and pooled fit stay apart; the axis that changed is named."""
+    rng = np.random.default_rng(1)
+    group = _group([_trial(rng, 0.0), _trial(rng, 40.0), _trial(rng, -20.0, stretch=1.06)])
+    assert group.pooled is not None
+    assert group.pooled.mapped_centres is not None
+    np.testing.assert_allclose(group.pooled.mapped_centres, np.outer([0.0, 40.0, -20.0], np.ones(3)), atol=0.5)
+    for mode in (True, False):
+        mean, drift, fit = (
+            group.mean(with_reference=mode),
+            group.drift(with_reference=mode),
+            group.pooled_fit(with_reference=mode),
+        )
+        assert mean is not None
+        assert drift is not None
+        assert fit is not None
+        singles = [trial.fit(with_reference=mode) for trial in group.trials]
+        assert mean.mean == pytest.approx(np.mean([one.index for one in singles if one is not None]) / GRAVITY)
+        assert mean.mean != fit.index / GRAVITY
+        assert group.index(with_reference=mode) == fit.index / GRAVITY
+        assert drift.intersections_exceed.tolist() == [False, True, False]
+        assert drift.intersections[1] == pytest.approx(0.06 * DEFORMED.axis_intersections[1], abs=0.3)
+        assert drift.centre_exceeds.all()
+
+
+def test_only_the_direction_of_drift_depends_on_the_order() -> None:
+    """Turned round, means and pooled fits are the same, and the drift has the other sign."""
+    rng = np.random.default_rng(2)
+    trials = [_trial(rng, 0.0), _trial(rng, 10.0), _trial(rng, 5.0, stretch=1.03)]
+    there, back = _group(trials), _group(trials[::-1])
+    for mode in (True, False):
+        ours, theirs = there.pooled_fit(with_reference=mode), back.pooled_fit(with_reference=mode)
+        assert ours is not None
+        assert theirs is not None
+        assert (ours.index, ours.index_low, ours.index_high) == (theirs.index, theirs.index_low, theirs.index_high)
+        means = [group.mean(with_reference=mode) for group in (there, back)]
+        assert means[0] is not None
+        assert means[1] is not None
+        assert means[0].mean == pytest.approx(means[1].mean, rel=1e-14)
+        drifts = [group.drift(with_reference=mode) for group in (there, back)]
+        assert drifts[0] is not None
+        assert drifts[1] is not None
+        assert drifts[0].index == -drifts[1].index != 0.0
+        np.testing.assert_array_equal(drifts[0].centre, -drifts[1].centre)
+
+
+def test_numbers_order_trials_and_half_of_them_do_not() -> None:
+    """Where each trial has its own number, that rules; else the order of the files does, with a warning."""
+    rng = np.random.default_rng(3)
+    numbered = [_trial(rng, 1.0, number=7), _trial(rng, 2.0, number=2)]
+    assert [trial.number for trial in _group(numbered).trials] == [2, 7]
+    for numbers in ((7, None), (2, 2)):
+        trials = [replace(trial, number=number) for trial, number in zip(numbered, numbers, strict=True)]
+        (group,), (warning,) = group_trials(trials)
+        assert group.trials == tuple(trials)
+        assert "leg_ft (SN1), 2 N m, prior: [trial] number is missing or double" in warning
+
+
+def test_conditions_sensors_and_candidates_are_kept_apart() -> None:
+    """What is not the same is neither averaged nor pooled."""
+    rng = np.random.default_rng(4)
+    one = _trial(rng, 1.0)
+    others = [
+        replace(one, condition=None),
+        replace(one, sphere=replace(one.sphere, serial="SN2")),
+        replace(one, sphere=replace(one.sphere, candidate="new.json")),
+    ]
+    groups, _ = group_trials([one, *others, _trial(rng, 2.0)])
+    assert [len(group.trials) for group in groups] == [2, 1, 1, 1]
+    assert [group.pooled is None for group in groups] == [False, True, True, True]
+    for group in groups[1:]:
+        assert group.drift(with_reference=True) is None
+        fit = group.first.fit(with_reference=True)
+        assert fit is not None
+        assert group.index(with_reference=True) == fit.index / GRAVITY
+
+
+def test_what_is_not_known_is_not_averaged_nor_ranked() -> None:
+    """A cap among the trials is left out of the mean without the model; alone it has neither mean nor rank."""
+    rng = np.random.default_rng(5)
+    whole, cap = _trial(rng, 1.0), _trial(rng, 2.0, half_deg=15.0)
+    mean = _group([whole, cap]).mean(with_reference=False)
+    assert mean is not None
+    assert (mean.count, mean.mean) == (1, whole.sphere.analysis.free.index / GRAVITY)
+    alone = _group([cap])
+    assert alone.mean(with_reference=False) is None
+    assert alone.index(with_reference=False) is None
+    drift = _group([whole, cap]).drift(with_reference=False)
+    assert drift is None or not drift.identifiable
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [({"matrix": 1.1}, "different prior matrices"), ({"mass": 3.0}, "different weights (4.73, 3 kg)")],
+)
+def test_what_does_not_belong_together_is_not_pooled(changes: dict[str, float], reason: str) -> None:
+    """The trials stay in the table, and the reason is told."""
+    rng = np.random.default_rng(6)
+    group = _group([_trial(rng, 1.0), _trial(rng, 2.0, **changes)])
+    assert group.pooled is None
+    assert group.not_pooled is not None
+    assert reason in group.not_pooled
+    assert group.mean(with_reference=True) is not None
+
+
+def test_every_trial_has_its_own_gravity() -> None:
+    """Masses are by the gravity of their file; trials of different gravity are neither pooled nor said to drift."""
+    rng = np.random.default_rng(7)
+    here, there = _trial(rng, 1.0), _trial(rng, 2.0)
+    strong = replace(
+        there, sphere=replace(there.sphere, analysis=replace(there.sphere.analysis, gravity=2.0 * GRAVITY))
+    )
+    group = _group([here, strong])
+    for mode in (True, False):
+        fits = [trial.fit(with_reference=mode) for trial in (here, strong)]
+        mean = group.mean(with_reference=mode)
+        assert mean is not None
+        indices = [fit.index / (k * GRAVITY) for k, fit in enumerate(fits, 1) if fit is not None]
+        assert mean.mean == pytest.approx(np.mean(indices), rel=1e-14)
+        assert group.drift(with_reference=mode) is None
+        assert group.index(with_reference=mode) is None
+    assert (group.pooled, group.not_pooled) == (None, "the files state different gravity (9.81, 19.62 m/s2)")
+
+
+def test_the_file_says_condition_and_number(arm: Path) -> None:
+    """Both are optional; a number is a whole one from 1."""
+    path = arm / PARQUET
+    plain = load_experiment(path)
+    assert (plain.condition, plain.trial) == (None, None)
+    add(path, TRIAL.format(3))
+    stated = load_experiment(path)
+    assert (stated.condition, stated.trial) == ("2 N m", 3)
+    for bad in ("0", '"first"', "1.5"):
+        file = arm / "bad.toml"
+        file.write_text(path.read_text().replace("number = 3", f"number = {bad}"))
+        with pytest.raises(FormatError, match="trial.number"):
+            parse_experiment(file)
+
+
+def test_trials_are_what_the_analysis_gives(arm: Path) -> None:
+    """A file is a trial, or each interval is one; both read as `sphere` does."""
+    (whole,), failures = read_trials([arm / PARQUET])
+    assert failures == []
+    experiment = load_experiment(arm / PARQUET)
+    (expected,) = spheres(SensorRun(experiment, "arm_ft"), {}).analyses
+    np.testing.assert_array_equal(whole.sphere.force, expected.force)
+    parts, _ = read_trials([arm / PARQUET], by_interval=True)
+    assert [part.sphere.intervals for part in parts] == [("fit",), ("judge",)]
+    np.testing.assert_array_equal(np.concatenate([part.sphere.force for part in parts]), expected.force)
+    judged, _ = read_trials([arm / PARQUET], intervals=["judge"])
+    assert [part.sphere.intervals for part in judged] == [("judge",)]
+
+
+def test_a_calibration_goes_where_its_serial_number_is(arm: Path) -> None:
+    """To every file with that sensor, to no other sensor of it; one that fits nowhere is a failure."""
+    experiment = load_experiment(arm / PARQUET)
+    fitted: Calibration = calibrate_sensor(
+        SensorRun(experiment, experiment.sensors[0]), code_version="1", created="today"
+    )
+    trials, failures = read_trials([arm / PARQUET, arm / TWO], calibrations={"new.json": fitted})
+    assert failures == []
+    assert [(trial.sphere.sensor, trial.sphere.candidate) for trial in trials] == [
+        ("arm_ft", "prior"),
+        ("arm_ft", "new.json"),
+        ("arm_ft", "prior"),
+        ("arm_ft", "new.json"),
+        ("tool_ft", "prior"),
+    ]
+    edit(arm / PARQUET, 'serial = "SIM001"', 'serial = "SIM009"')
+    trials, (failure,) = read_trials([arm / PARQUET], calibrations={"new.json": fitted})
+    assert len(trials) == 1
+    assert failure.file == "new.json"
+    assert "'arm_ft' with the serial number 'SIM001', which was read from no file" in failure.message
+
+
+def test_a_bad_file_costs_only_itself(arm: Path) -> None:
+    """Files, sensors and intervals that fail are listed with the file; the others are there."""
+    bad = arm / "bad.toml"
+    bad.write_text((arm / PARQUET).read_text().replace('path = "recording"', 'path = "nowhere"'))
+    counts = arm / "counts.toml"
+    text = (arm / TWO).read_text()
+    assert text.count('prior = "matrix_SIM001.txt"') == 1
+    counts.write_text(text.replace('prior = "matrix_SIM001.txt"', 'prior = "identity"'))
+    lines: list[str] = []
+    trials, failures = read_trials([bad, counts, arm / PARQUET], progress=lines.append)
+    assert [(Path(trial.file).name, trial.sphere.sensor) for trial in trials] == [
+        ("counts.toml", "tool_ft"),
+        (PARQUET, "arm_ft"),
+    ]
+    assert [(Path(failure.file).name, failure.sensor) for failure in failures] == [
+        ("bad.toml", None),
+        ("counts.toml", "arm_ft"),
+    ]
+    for failure in failures:
+        assert failure.file in failure.message
+        assert "\n" not in failure.message
+    assert len(lines) == 3
+    assert lines[1].endswith("counts.toml (2 of 3)")
+
+
+def test_names_are_checked_first(arm: Path) -> None:
+    """A file that is not there, or twice, is refused before any is read; a sensor of no file is a failure."""
+    lines: list[str] = []
+    with pytest.raises(MissingFileError, match=r"none.toml: expected an experiment file, there is none"):
+        read_trials([arm / PARQUET, arm / "none.toml"], progress=lines.append)
+    with pytest.raises(ExperimentError, match="is named twice"):
+        read_trials([arm / PARQUET, arm / ".." / arm.name / PARQUET], progress=lines.append)
+    assert lines == []
+    trials, (failure,) = read_trials([arm / PARQUET, arm / TWO], sensors=["tool_ft", "arm_tf"])
+    assert [trial.sphere.sensor for trial in trials] == ["tool_ft"]
+    assert failure.message.startswith("--sensor: no file has a sensor 'arm_tf'; did you mean \"arm_ft\"?")
+
+
+def test_the_comparison_shows_itself(arm: Path) -> None:
+    """Every number whole in a narrow terminal, tables in a notebook, few words for `repr`; arrays in none."""
+    result = compare([arm / PARQUET], by_interval=True)
+    text = result.text(60)
+    assert [row.intervals for row in result.trials] == [("fit",), ("judge",)]
+    (group,) = result.groups
+    assert group.with_reference is not None
+    fits = [row.with_reference for row in result.trials] + [group.with_reference.pooled]
+    for fit in fits:
+        assert fit is not None
+        assert f"{fit.index_kg:.4f}" in text
+    assert group.with_reference.drift is not None
+    assert " ".join(f"{change:+.2f}" for change in group.with_reference.drift.mass_kg) in text
+    assert max(map(len, text.splitlines())) <= 60
+    assert result._repr_html_().count("<table>") == 4
+    assert len(repr(result)) < 600
+    assert "analyses" not in result.json_text()
+    assert "analyses" not in Comparison.described()["properties"]
+
+
+def test_what_failed_and_what_flatters_are_warnings_of_the_result(arm: Path) -> None:
+    """A notebook gets both as the terminal does; where nothing is wrong there are none."""
+    experiment = load_experiment(arm / PARQUET)
+    fitted = calibrate_sensor(SensorRun(experiment, "arm_ft"), code_version="1", created="today")
+    result = compare([arm / PARQUET], sensors=["arm_ft", "leg_ft"], calibrations={"new.json": fitted})
+    (failure,) = result.failures
+    assert result.warnings == (
+        f"failed: {failure.message}",
+        f"new.json was fitted on 'fit' of {arm / PARQUET}, so the verdict on it flatters",
+    )
+    assert compare([arm / PARQUET]).warnings == ()

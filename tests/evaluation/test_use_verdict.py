@@ -1,0 +1,272 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The verdict on a use: what predicts the error, what judged data say against it, and what is refused."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.evaluation.acceptance.acceptance import accept
+from forcetorque.evaluation.acceptance.file import AcceptanceFile
+from forcetorque.evaluation.load_cases.evidence import Evidence, JudgedExcitation, JudgedStretch, evidence
+from forcetorque.evaluation.load_cases.judgement import UseJudge, use_verdicts
+from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
+from forcetorque.evaluation.load_cases.prior_comparison import compare_with_prior
+from forcetorque.evaluation.load_cases.verdict import UseVerdict
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from tests.scenes.experiments import PARQUET, edit
+
+PUSH = '\n[[load_case]]\nname = "push"\nforce_N = 20.0\nradius_m = 0.2\noffset = "tared"\n'
+
+
+def _run(arm: Path, more: str = PUSH) -> SensorRun:
+    file = arm / PARQUET
+    file.write_text(file.read_text() + more)
+    return SensorRun(load_experiment(file), "arm_ft")
+
+
+def _fit(run: SensorRun) -> Calibration:
+    return calibrate_sensor(run, code_version="test", created="2026-01-01T00:00:00+00:00")
+
+
+def _verdict(run: SensorRun, calibration: Calibration) -> UseVerdict:
+    (verdict,) = use_verdicts(run, {"new": calibration})
+    return verdict
+
+
+def test_a_fit_of_an_arm_that_moves_may_be_used_for_pushes(arm: Path) -> None:
+    """The sentence names loads, errors and what is allowed; the parts of the error are those of the matrix."""
+    run = _run(arm)
+    verdict = _verdict(run, _fit(run))
+    force, moment = verdict.errors
+    assert verdict.decision == "use"
+    assert verdict.sentence.startswith("use for pushes of 20 N anywhere within 0.2 m of the sensor: it errs by some ")
+    assert force.allowed == pytest.approx(1.0)
+    assert force.after < force.after_at_most < force.allowed < (force.before or 0.0)
+    assert moment.after_at_most < (moment.allowed or 0.0)
+    assert force.from_matrix > force.from_noise
+    assert force.from_offset == 0.0
+    assert np.linalg.norm(force.axes) == pytest.approx(force.after, rel=0.3)
+
+
+@pytest.mark.parametrize(("allowed", "decision"), [(1e-3, "do not use"), (1.0, "use")])
+def test_the_same_sensor_is_judged_by_what_is_allowed(arm: Path, allowed: float, decision: str) -> None:
+    """An error that cannot be reached is refused, one that is allowed is not."""
+    run = _run(arm, f"{PUSH}force_error_N = {allowed}\n")
+    assert _verdict(run, _fit(run)).decision == decision
+
+
+def test_between_the_two_there_are_not_enough_data(arm: Path) -> None:
+    """A requirement at the median of the prediction has an even chance."""
+    run = _run(arm)
+    calibration = _fit(run)
+    typical = _verdict(run, calibration).errors[0].after
+    fresh = _run(arm, f"force_error_N = {typical}\n")
+    verdict = _verdict(fresh, calibration)
+    assert verdict.decision == "not enough data"
+    assert verdict.within == pytest.approx(0.5, abs=0.1)
+    assert "the chance that it is within that is" in verdict.sentence
+
+
+def test_a_constant_error_is_red_unless_the_use_allows_it(arm: Path) -> None:
+    """An offset that is 6 N off forbids readings with the fitted offset, and not those that are tared."""
+    run = _run(arm, PUSH + PUSH.replace('"push"', '"kept"').replace("tared", "fitted"))
+    calibration = _fit(run)
+    offset = calibration.offset + [0.0, 6.05, 0.0, 0.0, 0.0, 0.0]
+    sessions = tuple(one.model_copy(update={"offset": offset}) for one in calibration.sessions)
+    shifted = calibration.model_copy(update={"offset": offset, "sessions": sessions})
+    tared, kept = use_verdicts(run, {"new": shifted})
+    assert (tared.decision, kept.decision) == ("use", "do not use")
+    assert re.search(r"6(\.\d)? N of its force error are constant, 0.2 N allowed", kept.sentence)
+    assert 'state offset = "tared"' in kept.sentence
+    # negative control: as it was fitted
+    assert "do not use" not in [one.decision for one in use_verdicts(run, {"new": calibration})]
+
+
+def test_a_sensor_that_was_turned_is_not_good(arm: Path) -> None:
+    """Turned by a quarter after it was calibrated: where the judged data move, and where they stand still."""
+    run = _run(arm)
+    calibration = _fit(run)
+    quarter = np.kron(np.eye(2), [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    turned = calibration.model_copy(update={"matrix": quarter @ calibration.matrix})
+    verdict = _verdict(run, turned)
+    assert verdict.decision == "do not use"
+    assert any("of its force error" in reason.text or "force error is" in reason.text for reason in verdict.reasons)
+
+
+def test_a_thesis_type_knows_no_error_at_other_loads(arm: Path) -> None:
+    """Without a covariance nothing can be said of loads to come."""
+    run = _run(arm)
+    calibration = calibrate_sensor(run, code_version="test", created="2026-01-01T00:00:00+00:00", regularisation=100.0)
+    verdict = _verdict(run, calibration)
+    assert (verdict.decision, verdict.errors, verdict.within) == ("not enough data", (), None)
+    assert "fit it by the generative model" in verdict.sentence
+
+
+def test_doubts_about_the_fitted_data_forbid_a_plain_use(arm: Path) -> None:
+    """A calibration that carries a doubt is never called good."""
+    run = _run(arm)
+    calibration = _fit(run)
+    doubted = calibration.model_copy(update={"doubts": ("gains of 12 %",)})
+    assert _verdict(run, calibration).decision == "use"
+    assert _verdict(run, doubted).decision == "not enough data"
+
+
+def test_without_a_load_case_the_default_is_stated(arm: Path) -> None:
+    """An arm is pushed as strongly as what hangs on it."""
+    run = _run(arm, "")
+    (case,) = loads_of_use([run])
+    assert not case.is_stated
+    assert "as much as hangs on the sensor" in case.words
+    verdict = _verdict(run, _fit(run))
+    assert case.words in verdict.sentence
+    assert not verdict.stated
+
+
+def test_acceptance_holds_the_verdict_to_use(arm: Path) -> None:
+    """A load case of its file is accepted where its verdict is `use`; one of the experiment decides nothing."""
+    run = _run(arm, f"{PUSH}force_error_N = 1e-6\n")
+    calibration = _fit(run)
+    for allowed, accepted in ((1.0, True), (1e-3, False)):
+        case = {"name": "mine", "force_N": 20.0, "radius_m": 0.2, "offset": "tared", "force_error_N": allowed}
+        spec = AcceptanceFile.model_validate({"schema": "forcetorque/acceptance/1", "name": "x", "load_case": [case]})
+        result = accept(run, spec, ("new", calibration))
+        assert result.accepted is accepted
+        assert {row.criterion for row in result.criteria} == {"load_case.mine.force_error", "load_case.mine.use"}
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        (
+            'name = "a"\nforce_N = 5000.0\nradius_m = 0.3',
+            "load case 'a': reaches .* counts in a channel .* reads up to",
+        ),
+        ('name = "a"\nforce_N = 5.0\nframe = "hnd"', "frame: robot .* has no link 'hnd'.*hand"),
+        ('name = "a"\nforce_N = 5.0\nframe = "hand"\nsensor = "leg"', "sensor: robot .* has no sensor 'leg'"),
+        ('name = "a"\nforce_N = 5.0', "force_N needs a frame, or radius_m"),
+        ('name = "a"', "expected one of force_N, weight_on, mass_kg, full_scale_share, got none"),
+        ('name = "a"\nforce_N = 5.0\nmass_kg = 1.0', "expected one of .*, got force_N, mass_kg"),
+        ('name = "a"\nforce_N = 5.0\nradius_m = 0.1\ncentre_of_mass_m = [0, 0, 0.1]', "does not belong to force_N"),
+        ('name = "a"\nmass_kg = 1.0', "mass_kg needs centre_of_mass_m"),
+        ('name = "a"\nfull_scale_share = 1.5', "less than or equal to 1"),
+        ('name = "a"\nforce_N = 5.0\nradius_m = 0.1\noffset = "none"', "offset: Input should be 'fitted' or 'tared'"),
+        ('name = "a"\nforce_N = 5.0\nframe = "hand"\ndirection = [0, 0, 0]', "may not be zero"),
+    ],
+)
+def test_a_use_that_cannot_be_is_refused(arm: Path, keys: str, message: str) -> None:
+    """In one line that names the table and the key."""
+    with pytest.raises((ExperimentError, FormatError), match=message):
+        loads_of_use([_run(arm, f"\n[[load_case]]\n{keys}\n")])
+
+
+def test_a_use_that_cannot_be_may_leave_the_others_to_be_judged(arm: Path) -> None:
+    """By who asks for it; where no other is stated none is taken for granted."""
+    giant = PUSH.replace('"push"', '"giant"').replace("force_N = 20.0", "force_N = 5000.0")
+    warm = PUSH.replace('"push"', '"warm"') + "changes = { temperature = 5.0 }\n"
+    text = (arm / PARQUET).read_text()
+    calibration = _fit(_run(arm))
+    for cases, judged, refused in ((PUSH + giant + warm, ["push"], ["giant", "warm"]), (giant, [], ["giant"])):
+        (arm / PARQUET).write_text(text)
+        run = _run(arm, cases)
+        with pytest.raises(ForceTorqueError, match="load case 'giant'"):
+            use_verdicts(run, {"new": calibration})
+        errors: list[ForceTorqueError] = []
+        verdicts = use_verdicts(run, {"new": calibration}, refuse=errors.append)
+        assert [verdict.load_case for verdict in verdicts] == judged
+        assert [str(error).split("'")[1] for error in errors] == refused
+
+
+def test_two_load_cases_of_one_name_are_refused(arm: Path) -> None:
+    """In one file, and in the file and the acceptance file."""
+    with pytest.raises(ExperimentError, match=r"load_case\[1\]: two load cases are called 'push'"):
+        _run(arm, PUSH + PUSH)
+
+
+def test_pushes_at_a_frame_that_does_not_pass_the_sensor_are_refused(arm: Path) -> None:
+    """Where the sensor is named, and where no sensor of the experiment is passed."""
+    stated = PUSH.replace("radius_m = 0.2", 'frame = "base"\nsensor = "arm_ft"')
+    with pytest.raises(ExperimentError, match="what acts on 'base' does not pass the sensor 'arm_ft'"):
+        loads_of_use([_run(arm, stated)])
+    # nor where no sensor is named and it passes none of the experiment's: it would be judged by nobody
+    edit(arm / PARQUET, 'sensor = "arm_ft"\n', "")
+    run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
+    with pytest.raises(ExperimentError, match="what acts on 'base' does not pass the sensor 'arm_ft'"):
+        loads_of_use([run])
+
+
+def test_one_name_for_two_uses_is_refused(arm: Path) -> None:
+    """Also in the file and in what is asked for besides; the same use twice is one."""
+    run = _run(arm)
+    (stated,) = run.experiment.load_cases
+    assert len(loads_of_use([run], [stated])) == 1
+    with pytest.raises(ExperimentError, match="two different load cases are called 'push'"):
+        loads_of_use([run], [stated.model_copy(update={"force_error_N": 7.0})])
+
+
+def _evidence(*offsets: float, sway: float = 10.0, sessions: str = "abc", turned: bool = False) -> Evidence:
+    """Recordings of 30 s, each with its own constant error along x and a load that sways, read as along y if turned."""
+    rng = np.random.default_rng(4)
+    time = 0.1 * np.arange(300)
+    stretches = []
+    for k, (offset, session) in enumerate(zip(offsets, sessions, strict=False)):
+        reference = np.zeros((300, 6))
+        reference[:, 0] = 40.0 * (k + 1) + sway * np.sin(time)
+        error = 0.01 * rng.normal(size=(300, 6)) + [offset, 0.0, 0.0, 0.0, 0.0, 0.0]
+        measured = (reference[:, [1, 0, 2, 3, 4, 5]] if turned else reference) + error
+        stretches.append(JudgedStretch(session=session, time_s=time, measured=measured, reference=reference))
+    return evidence(stretches)
+
+
+def test_constant_errors_of_two_recordings_do_not_cancel() -> None:
+    """8 N and -8 N are 8 N; negative control: none is none."""
+    assert _evidence(8.0, -8.0).force.constant_at_least > 7.5
+    assert _evidence(8.0, 0.0).force.constant_at_least > 7.5
+    assert _evidence(0.0, 0.0).force.constant_at_least < 0.05
+
+
+def test_recordings_of_two_sessions_at_rest_in_several_postures_do_not_move() -> None:
+    """The load differs by 40 N between them, and moves in neither: each has its own offset, which takes that up."""
+    still, swaying = (_evidence(0.0, 0.0, sway=sway) for sway in (0.0, 10.0))
+    assert JudgedExcitation.of(still.reference, [], moved=still.moved).words is not None
+    assert "forces" not in (JudgedExcitation.of(swaying.reference, [], moved=swaying.moved).words or "")
+    # and a sensor that is turned passes there
+    assert _evidence(0.0, 0.0, sway=0.0, turned=True).force.rest < 0.05
+
+
+def test_postures_of_one_session_move_and_show_a_sensor_that_is_turned() -> None:
+    """In one session the offset is the same, so 40 N from one recording to the next are 40 N more or an error."""
+    moved = _evidence(0.0, 0.0, sway=0.0, sessions="aa")
+    assert "forces" not in (JudgedExcitation.of(moved.reference, [], moved=moved.moved).words or "")
+    assert moved.force.rest < 0.05
+    assert _evidence(0.0, 0.0, sway=0.0, sessions="aa", turned=True).force.rest > 20.0
+    # nor do constant errors hide that cancel each other in the mean of a session
+    assert _evidence(8.0, -8.0, sessions="aa").force.rest > 7.5
+
+
+def test_a_trifle_worse_than_the_prior_is_no_reason(arm: Path) -> None:
+    """Neither is a quantity that is not judged; an error by a half larger is one."""
+    run = _run(arm, f"{PUSH}force_error_N = 5.0\n")
+    calibration = _fit(run)
+    row = compare_with_prior(run, {"new": calibration})[0].model_copy(update={"prior_mean": 1.0})
+    (case,) = loads_of_use([run])
+    for quantity, mean, forbidden in (("force", 1.1, False), ("force", 1.5, True), ("moment", 1.5, False)):
+        worse = [row.model_copy(update={"mean": mean, "quantity": quantity})]
+        decision, _ = UseJudge(case, calibration, _evidence(0.0), worse=worse).verdict()
+        assert (decision == "do not use") is forbidden
+
+
+def test_judged_data_of_a_moment_test_nothing(arm: Path) -> None:
+    """Less than five seconds are said to be too short, and do not stop the evaluation."""
+    edit(arm / PARQUET, "end_s = 23.5", "end_s = 14.8")
+    run = _run(arm)
+    verdict = _verdict(run, _fit(run))
+    assert verdict.decision == "not enough data"
+    assert any("too short to test it" in reason.text for reason in verdict.reasons)

@@ -1,0 +1,390 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A first experiment file: what a log says is in it, what nobody can tell is a question, and nothing runs before."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.csv as pacsv
+import pytest
+
+from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError, OutputError
+from forcetorque.base.toml_file import open_questions
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.formats.headings import read_heading
+from forcetorque.formats.signals import OrientationTable
+from forcetorque.inspection.draft.column_match import likenesses
+from forcetorque.inspection.draft.draft import draft_experiment
+from forcetorque.inspection.draft.joints import joint_rows
+from forcetorque.inspection.inspect import inspect_log
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import write_recording
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.robots import ARM_URDF, BIPED_URDF
+from tests.formats.yarp.port_logs import write_port
+from tests.scenes.tutorial_log import FOLDER, PUSH_S, log_text, reading, robot_text
+
+ANSWERS = {
+    "serial": '"FT-28"',
+    "full_scale": "[200, 200, 200, 20, 20, 20]",
+    "joint": '"arm_ft_joint"',
+    "measure_direction": '"child_to_parent"',
+    "gravity_direction": "[0.0, 0.0, -1.0]",
+}
+
+
+def answered(text: str, answers: dict[str, str]) -> str:
+    """The file with answers in place of its questions."""
+    for key, answer in answers.items():
+        text = re.sub(rf'^{key} = "\?".*$', f"{key} = {answer}", text, flags=re.MULTILINE)
+    return text
+
+
+def _written(folder: Path, text: str, urdf: str = "") -> Path:
+    (folder / "log.csv").write_text(text, encoding="utf-8")
+    (folder / "robot.urdf").write_text(urdf or robot_text(), encoding="utf-8")
+    return folder / "log.csv"
+
+
+def _keys(text: str) -> list[str]:
+    return [question.key for question in open_questions(text)]
+
+
+@pytest.fixture(scope="module")
+def drafted() -> str:
+    """The file of the tutorial's log."""
+    return draft_experiment([FOLDER / "log.csv"], urdf=FOLDER / "robot.urdf").content
+
+
+def test_what_is_left_is_asked_and_what_is_known_is_not(drafted: str) -> None:
+    """Units stand in the headings and joints are called as in the URDF; sensor, sign and gravity are asked."""
+    assert _keys(drafted) == list(ANSWERS)
+    content = tomllib.loads(drafted)
+    assert content["recording"]["stream"][0]["stamp"] == {"column": "time_s", "unit": "s"}
+    position, wrench = content["recording"]["stream"][0]["signal"]
+    assert position["names"] == ["shoulder_yaw", "shoulder_pitch", "shoulder_roll", "elbow", "wrist"]
+    assert (position["units"], wrench["units"]) == (["rad"] * 5, ["N"] * 3 + ["N m"] * 3)
+    assert content["support"][0]["frame"] == "base"
+
+
+def test_dates_are_a_time_of_which_nothing_is_asked(tmp_path: Path, drafted: str) -> None:
+    """A log with dates in place of seconds has the same questions and intervals, and is read."""
+    first, *rows = log_text().splitlines()
+    midnight = datetime(2026, 11, 23, tzinfo=UTC)
+    cells = [row.split(",", 1) for row in rows]
+    dated = [f"{(midnight + timedelta(seconds=float(time))).isoformat()},{rest}" for time, rest in cells]
+    log = _written(tmp_path, "\n".join([first, *dated]) + "\n")
+    text = draft_experiment([log], tmp_path / "x.toml", urdf=tmp_path / "robot.urdf").content
+    assert _keys(text) == list(ANSWERS)
+    content, plain = tomllib.loads(text), tomllib.loads(drafted)
+    assert content["recording"]["stream"][0]["stamp"] == {"column": "time_s", "unit": "iso8601"}
+    assert content["interval"] == plain["interval"]
+    (tmp_path / "x.toml").write_text(answered(text, ANSWERS), encoding="utf-8")
+    experiment = load_experiment(tmp_path / "x.toml")
+    (stream,) = experiment.recording.streams.values()
+    assert stream.stamp_ns[0] == int(midnight.timestamp()) * 10**9
+    assert np.diff(stream.stamp_ns).tolist() == [40_000_000] * (len(rows) - 1)
+
+
+@pytest.mark.parametrize(("kept", "is_asked"), [(3, False), (1, True)])
+def test_times_that_come_twice_are_times(tmp_path: Path, kept: int, is_asked: bool) -> None:
+    """Of rounded times some come again; where half of them do, nothing rises, and the time is a question."""
+    first, *rows = log_text().splitlines()
+    cells = [row.split(",", 1) for row in rows]
+    times = [cells[k - (k % (kept + 1) == kept)][0] for k in range(len(cells))]
+    lines = [f"{time},{rest}" for time, (_, rest) in zip(times, cells, strict=True)]
+    log = _written(tmp_path, "\n".join([first, *lines]) + "\n")
+    assert ("stamp" in _keys(draft_experiment([log], urdf=tmp_path / "robot.urdf").content)) is is_asked
+
+
+def test_an_open_question_stops_every_command_by_its_line(tmp_path: Path, drafted: str) -> None:
+    """The file, the line, the key, the others and what is asked; each answer brings the next, the last one the file."""
+    file = tmp_path / "experiment.toml"
+    asked = list(ANSWERS)
+    for answers in range(len(asked)):
+        text = answered(drafted, {key: ANSWERS[key] for key in asked[:answers]})
+        file.write_text(text, encoding="utf-8")
+        line = next(k for k, words in enumerate(text.splitlines(), start=1) if words.startswith(f"{asked[answers]} ="))
+        with pytest.raises(FormatError, match=rf"experiment.toml:{line}: {asked[answers]} is a question that is still"):
+            parse_experiment(file)
+    file.write_text(answered(drafted, ANSWERS), encoding="utf-8")
+    assert parse_experiment(file).sensor[0].serial == "FT-28"
+
+
+def test_a_question_mark_in_a_name_or_a_comment_asks_nothing() -> None:
+    """Only a value that is nothing else is a question; signs in texts before it are no comments."""
+    text = 'a = "why?"\n# b = "?"\nc = { x = "a#b", d = "?" }, # d: which\ne = ["?"]\n'
+    assert [(one.line, one.key, one.words) for one in open_questions(text)] == [(3, "d", "d: which"), (4, "e", "")]
+
+
+def test_a_push_is_in_no_interval(drafted: str) -> None:
+    """What is offered is free of it, covers most of the rest, and is for calibration and validation."""
+    intervals = tomllib.loads(drafted)["interval"]
+    spans = [(one["start_s"], one["end_s"]) for one in intervals]
+    assert {one["use"] for one in intervals} == {"calibration", "validation"}
+    assert all(end <= PUSH_S[0] or start >= PUSH_S[1] for start, end in spans)
+    assert sum(end - start for start, end in spans) > 50.0
+
+
+@pytest.mark.parametrize("direction", list(MeasureDirection))
+def test_accelerations_tell_who_acts_on_whom(tmp_path: Path, direction: MeasureDirection) -> None:
+    """The other sign of the same log gives the other direction, and gravity the other way."""
+    sign = 1.0 if direction is MeasureDirection.CHILD_TO_PARENT else -1.0
+    table = pacsv.read_csv(FOLDER / "log.csv")
+    values = {name: table[name] for name in table.column_names[:6]}
+    values |= {name: sign * column for name, column in zip(table.column_names[6:], reading().T, strict=True)}
+    (tmp_path / "robot.urdf").write_text(robot_text(), encoding="utf-8")
+    pacsv.write_csv(pa.table(values), tmp_path / "log.csv", pacsv.WriteOptions(quoting_style="none"))
+    draft = draft_experiment([tmp_path / "log.csv"], urdf=tmp_path / "robot.urdf")
+    asked = {question.key: question.question for question in draft.questions}
+    assert f"the accelerations in the log say {direction}" in asked["measure_direction"]
+    along = re.search(r"along \[([^\]]*)\]", asked["gravity_direction"])
+    assert along is not None
+    np.testing.assert_allclose([float(x) for x in along[1].split(", ")], [0, 0, -sign], atol=0.02)
+
+
+def test_a_reading_that_does_not_turn_tells_nothing(tmp_path: Path) -> None:
+    """Negative control: noise in place of the wrench gives no evidence, no interval and no direction."""
+    rng = np.random.default_rng(4)
+    lines = log_text().splitlines()
+    rows = [",".join([*row.split(",")[:6], *(f"{x:.3f}" for x in rng.normal(0, 5, 6))]) for row in lines[1:]]
+    _written(tmp_path, "\n".join([lines[0], *rows]) + "\n")
+    draft = draft_experiment([tmp_path / "log.csv"], urdf=tmp_path / "robot.urdf")
+    assert "the accelerations" not in draft.content
+    assert [one["label"] for one in tomllib.loads(draft.content)["interval"]] == ["all"]
+    assert any("does not turn with it as a weight does" in words for words in draft.notes)
+
+
+def test_bare_headings_leave_units_open(tmp_path: Path) -> None:
+    """Nothing is decided by names or numbers: what is likely is said and asked, and serves for a first look alone."""
+    lines = log_text().splitlines()
+    heading = re.sub(r"_(?:s|rad|Nm|N)\b", "", lines[0])
+    _written(tmp_path, "\n".join([heading, *lines[1:]]) + "\n")
+    draft = draft_experiment([tmp_path / "log.csv"], urdf=tmp_path / "robot.urdf")
+    assert _keys(draft.content)[:3] == ["unit", "units", "units"]
+    assert "s makes 25 Hz and 63.96 s" in draft.content
+    assert any("looked at with the likeliest units" in words for words in draft.notes)
+    assert (draft.streams, len(tomllib.loads(draft.content)["interval"])) == ({}, 3)
+
+
+@pytest.mark.parametrize(
+    ("heading", "name", "unit"),
+    [
+        ("fx [N]", "fx", "N"),
+        ("tx (N-m)", "tx", "N m"),
+        ("Fx_N", "Fx", "N"),
+        ("joint_n", "joint_n", None),
+        ("time_s", "time", "s"),
+        ("x_s", "x_s", None),
+        ("q_rad", "q", "rad"),
+        ("T [°C]", "T", "degC"),
+        ("load [stone]", "load [stone]", None),
+        ("force_a", "force_a", None),
+    ],
+)
+def test_headings_state_units_or_none(heading: str, name: str, unit: str | None) -> None:
+    """A letter that may be part of a name is no unit."""
+    assert (read_heading(heading).name, read_heading(heading).unit) == (name, unit)
+
+
+def test_columns_look_like_what_they_are_called() -> None:
+    """Six of a wrench in any spelling, joints by name, rotations by rows; three g may be two things."""
+    names = ["t", "wrench.force.x", "wrench.force.y", "wrench.force.z", "wrench.torque.x", "wrench.torque.y"]
+    names += ["wrench.torque.z", "gx", "gy", "gz", "actual_q_elbow", "elbow_vel", "qx", "qy", "qz", "qw"]
+    names += [f"ch{k}" for k in range(6)]
+    seen = {one.quantity: one for one in likenesses([read_heading(name) for name in names], ["elbow"])}
+    assert seen["wrench"].columns == (1, 2, 3, 4, 5, 6)
+    assert (seen["position"].columns, seen["velocity"].columns) == ((10,), (11,))
+    assert seen["?"].words == "gravity or angular_velocity"
+    assert seen["orientation"].form == "quat_xyzw"
+    assert seen["raw"].columns == tuple(range(16, 22))
+    assert likenesses([read_heading(name) for name in ("fx", "fy", "fz", "note")], []) == ()
+
+
+def test_messages_of_joints_as_a_table_are_of_joints() -> None:
+    """As PlotJuggler names them by topic, as rostopic counts them; what is wanted of joints is not where they are."""
+    robot = ["shoulder", "elbow", "wrist"]
+    names = ["/arm/joint_states/elbow/position", "/arm/joint_states/wrist/position", "/arm/joint_states/elbow/effort"]
+    names += ["/target/elbow/position", "field.name0", "field.velocity0", "field.velocity1", "field.wanted0"]
+    seen = {one.quantity: one for one in likenesses([read_heading(name) for name in names], robot)}
+    assert (seen["position"].columns, seen["position"].names) == ((0, 1), ("elbow", "wrist"))
+    assert (seen["torque"].columns, seen["torque"].names) == ((2,), ("elbow",))
+    assert (seen["velocity"].columns, seen["velocity"].names) == ((5, 6), None)
+    assert len(seen) == 3
+
+
+def test_joints_by_number_are_joints_however_many() -> None:
+    """As many as the robot has by any letter, fewer where the heading says joint; the word behind is the quantity."""
+    robot = ["shoulder", "elbow", "wrist"]
+
+    def seen(*names: str) -> dict[str, tuple[int, ...]]:
+        return {one.quantity: one.columns for one in likenesses([read_heading(name) for name in names], robot)}
+
+    assert seen("j1_rad", "j2_rad", "j3_rad") == {"position": (0, 1, 2)}
+    assert seen("joint1", "joint2") == {"position": (0, 1)}
+    assert seen("joint1_vel", "joint2_vel", "joint1_pos", "joint2_pos") == {"velocity": (0, 1), "position": (2, 3)}
+    assert seen("q1", "q2") == {}
+    assert seen("j1", "j2", "j3", "j4") == {}
+
+
+def test_roll_pitch_and_yaw_are_an_orientation_where_no_joint_tells_it(tmp_path: Path) -> None:
+    """Their axes are questions, whose answers are taken; angles of a neck are none."""
+    head = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,tcp_yaw_deg,tcp_roll_deg,tcp_pitch_deg"
+    rows = "\n".join(f"{k},1,2,3,4,5,6,{k},10,20" for k in range(9))
+    (tmp_path / "log.csv").write_text(f"{head}\n{rows}\n", encoding="utf-8")
+    text = draft_experiment([tmp_path / "log.csv"]).content
+    assert _keys(text)[:4] == ["frame", "axes", "about", "sense"]
+    answers = {"frame": '"ft_sensor"', "axes": '"xyz"', "about": '"fixed"', "sense": '"sensor_to_world"'}
+    signal = tomllib.loads(answered(text, answers))["recording"]["stream"][0]["signal"][1]
+    assert signal["columns"] == ["tcp_roll_deg", "tcp_pitch_deg", "tcp_yaw_deg"]
+    assert signal["units"] == ["deg"] * 3
+    table = {**signal["orientation"], "gravity": 9.8}
+    assert OrientationTable.model_validate(table).layout().axes == "xyz"
+    assert likenesses([read_heading(f"neck_{name}") for name in ("roll", "pitch", "yaw")], []) == ()
+
+
+def test_forces_and_moments_without_units_have_ranges_of_their_own(tmp_path: Path) -> None:
+    """One range of both would hide that moments are in N mm."""
+    rows = "\n".join(f"{k},{k},{k},{k},{1000 * k},0,0" for k in range(9))
+    (tmp_path / "log.csv").write_text(f"t_s,fx,fy,fz,tx,ty,tz\n{rows}\n", encoding="utf-8")
+    asked = {one.key: one.question for one in draft_experiment([tmp_path / "log.csv"]).questions}
+    assert asked["units"].endswith("forces run from 0 to 8, moments from 0 to 8000")
+
+
+def test_counts_are_not_taken_for_newtons(tmp_path: Path) -> None:
+    """Millions of newtons are counts: the question says how their size is stated, and no answer is likely."""
+    rows = "\n".join(f"{k / 10},{1e6 * k},2000000,-9000000,1000,2000,{k}" for k in range(20))
+    (tmp_path / "log.csv").write_text(f"t_s,fx,fy,fz,tx,ty,tz\n{rows}\n", encoding="utf-8")
+    draft = draft_experiment([tmp_path / "log.csv"])
+    (units,) = (one.question for one in draft.questions if one.key == "units")
+    assert '"1e-6 N" where 1000000 are a newton; forces run from -9e+06 to 1.9e+07' in units
+    assert '"N", "N"' not in units
+
+
+def test_what_goes_with_a_log_is_no_log(tmp_path: Path) -> None:
+    """A robot and a calibration are called what they are, with where they belong."""
+    with pytest.raises(FormatError, match=r"got the URDF of a robot: `forcetorque init LOG --urdf"):
+        draft_experiment([BIPED_URDF])
+    (tmp_path / "matrix.csv").write_text("\n".join(["1,2,3,4,5,6"] * 6), encoding="utf-8")
+    with pytest.raises(FormatError, match=r"got the calibration that a sensor came with: .* prior"):
+        draft_experiment([tmp_path / "matrix.csv"])
+    (tmp_path / "other.xml").write_text("<mujoco/>", encoding="utf-8")
+    with pytest.raises(FormatError, match="found none of them"):
+        draft_experiment([tmp_path / "other.xml"])
+
+
+def test_a_wrist_sensor_without_a_robot_has_a_load(tmp_path: Path) -> None:
+    """Several tables are one recording; the pose is the motion of the load, and who acts on whom is asked."""
+    (tmp_path / "wrench.csv").write_text("t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0,1,2,3,4,5,6\n1,1,2,3,4,5,7\n")
+    (tmp_path / "pose.csv").write_text("t_s,qx,qy,qz,qw\n0,0,0,0,1\n1,0,0,0,1\n")
+    draft = draft_experiment([tmp_path / "wrench.csv", tmp_path / "pose.csv"], tmp_path / "x.toml")
+    content = tomllib.loads((tmp_path / "x.toml").read_text(encoding="utf-8"))
+    assert content["load"]["motion"] == ["pose"]
+    assert content["recording"]["stream"][1]["signal"][0]["orientation"] == {"form": "quat_xyzw", "sense": "?"}
+    assert _keys(draft.content) == ["frame", "sense", "serial", "full_scale", "measure_direction"]
+    with pytest.raises(OutputError, match="x.toml: expected a new file"):
+        draft_experiment([tmp_path / "wrench.csv"], tmp_path / "x.toml")
+
+
+def test_boards_that_count_their_joints_are_asked_for_names(tmp_path: Path) -> None:
+    """Rows of joints of the robot that have that number are proposed, those of the side first."""
+    write_port(tmp_path / "log" / "left_leg" / "stateExt:o", "1 10.5 " + "(1 2 3 4 5 6) [ok] " * 10 + "(3) [ok]\n")
+    write_port(tmp_path / "log" / "left_leg" / "analog:o", "1 10.5 1 2 3 4 5 6\n2 10.6 1 2 3 4 5 7\n")
+    model = read_urdf(BIPED_URDF)
+    rows = joint_rows(model, 6, "left_leg")
+    assert rows
+    assert all(joint.startswith("l_") for row in rows for joint in row)
+    assert joint_rows(model, 6, "head") == []
+    assert joint_rows(model, 6, "log")
+    draft = draft_experiment([tmp_path / "log"], urdf=BIPED_URDF)
+    asked = {question.key: question.question for question in draft.questions}
+    assert str(rows[0]).replace("'", '"') in asked["joints"]
+    sensor = tomllib.loads(draft.content)["sensor"][0]
+    assert sensor["name"] == "l_leg_ft"
+    assert asked["frame"].startswith("link that stands still")
+    assert re.search(r": l_sole, r_sole.* or one of \d+ other ends of it$", asked["frame"])
+
+
+def test_what_is_left_out_is_said(tmp_path: Path) -> None:
+    """Angles of an inertial port, of which the log does not say what they turn into what."""
+    write_port(tmp_path / "log" / "inertial", "".join(f"{k} {k}.5 1 2 3 0 0 9.8 0 0 0 0 0 0\n" for k in range(1, 30)))
+    (words,) = (note for note in draft_experiment([tmp_path / "log"]).notes if note.startswith("not read"))
+    assert "not all of it: inertial; `forcetorque inspect" in words
+
+
+def test_a_recording_of_our_own_leaves_nothing_of_itself_open(tmp_path: Path) -> None:
+    """It says all; a tag of the URDF says place and sign. The answered file is read."""
+    table = pacsv.read_csv(FOLDER / "log.csv")
+    columns = [table[name].to_numpy() for name in table.column_names]
+    joints = tuple(name.removesuffix("_rad") for name in table.column_names[1:6])
+    position = Signal(
+        quantity="position", values=np.stack(columns[1:6], axis=1), columns=joints, units=("rad",) * len(joints)
+    )
+    wrench = Signal.of_fixed("wrench", np.stack(columns[6:], axis=1), frame="arm_ft")
+    stamps = np.rint(columns[0] * 1e9).astype(np.int64)
+    stream = Stream(name="all", clock="log", stamp_ns=stamps, signals={"position": position, "wrench": wrench})
+    write_recording(tmp_path / "recording", Recording(streams={"all": stream}))
+    draft = draft_experiment([tmp_path / "recording"], tmp_path / "x.toml", urdf=ARM_URDF)
+    assert _keys(draft.content) == ["serial", "full_scale", "gravity_direction"]
+    (tmp_path / "x.toml").write_text(answered(draft.content, ANSWERS), encoding="utf-8")
+    experiment = load_experiment(tmp_path / "x.toml")
+    assert experiment.sensors[0].name == "arm_ft"
+    assert len(experiment.recording.intervals) == 3
+
+
+def test_what_is_no_log_is_said(tmp_path: Path) -> None:
+    """Nothing there, a folder of several, several that are no tables, loose messages of a port."""
+    with pytest.raises(MissingFileError, match="expected a log, there is none"):
+        draft_experiment([tmp_path / "none.csv"])
+    with pytest.raises(ExperimentError, match="expected a log to begin"):
+        draft_experiment([])
+    for name in ("a.csv", "b.csv"):
+        (tmp_path / name).write_text("t,x\n0,1\n1,2\n", encoding="utf-8")
+    with pytest.raises(FormatError, match=r"a folder of several: a.csv, b.csv; name one"):
+        draft_experiment([tmp_path])
+    (tmp_path / "port").mkdir()
+    write_port(tmp_path / "port" / "ft", "1 10.5 1 2 3 4 5 6\n")
+    with pytest.raises(FormatError, match="expected tables .* got yarp"):
+        draft_experiment([tmp_path / "a.csv", tmp_path / "port"])
+    (tmp_path / "loose").mkdir()
+    (tmp_path / "loose" / "left_data.log").write_text("1 10.5 (1 2)\n", encoding="utf-8")
+    with pytest.raises(FormatError, match="left_data.log looks like a port's: put it into a folder of its own"):
+        inspect_log(tmp_path / "loose")
+
+
+def test_whatever_a_table_holds_becomes_a_file_of_toml(tmp_path: Path) -> None:
+    """Headings with quotes, marks and letters of any kind; the file is TOML, or the log is refused."""
+    rng = np.random.default_rng(9)
+    words = ['a"b', "c\\d", "x#y", "ü", "f [N]", "=", "{", "'", "?", "é\t", "1e9", "t", "fx", "\x7f"]
+    drafted = 0
+    for _ in range(60):
+        names = rng.choice(words, size=4)
+        rows = "\n".join(",".join(f"{x:.2f}" for x in rng.normal(size=4)) for _ in range(3))
+        (tmp_path / "log.csv").write_text(f"{','.join(names)}\n{rows}\n", encoding="utf-8")
+        try:
+            draft = draft_experiment([tmp_path / "log.csv"])
+        except ForceTorqueError:
+            continue
+        tomllib.loads(draft.content)
+        drafted += 1
+    assert drafted > 10
+
+
+def test_a_robot_that_ends_at_its_sensor_has_a_tool(tmp_path: Path) -> None:
+    """What hangs there is asked by name, on the link of the sensor's joint; a robot with a mass there has none."""
+    bare = re.sub(
+        r'(<link name="(?:upper_arm|forearm|hand)">\s*)<inertial>.*?</inertial>', r"\1", robot_text(), flags=re.S
+    )
+    _written(tmp_path, log_text(), bare)
+    draft = draft_experiment([tmp_path / "log.csv"], urdf=tmp_path / "robot.urdf")
+    assert _keys(draft.content)[-2:] == ["name", "link"]
+    assert "the URDF has no mass there" in draft.content
+    assert [one["support"] for one in tomllib.loads(draft.content)["interval"]] == ["base"] * 3

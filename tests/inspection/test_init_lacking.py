@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a log lacks is asked where it is needed, offered where it may be, and each answer is taken by the readers."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base.errors import FormatError
+from forcetorque.base.toml_file import open_questions
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.inspection.draft.draft import draft_experiment
+from forcetorque.inspection.inspect import inspect_log
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import write_recording
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.simulation.robots import BIPED_URDF
+from tests.scenes.tutorial_log import FOLDER
+
+ANSWERS = {
+    "serial": 'serial = "FT-28"',
+    "full_scale": "full_scale = [200, 200, 200, 20, 20, 20]",
+    "joint": 'joint = "arm_ft_joint"',
+    "measure_direction": 'measure_direction = "child_to_parent"',
+    "gravity_direction": "gravity_direction = [0.0, 0.0, -1.0]",
+}
+ROWS = [line.split(",") for line in (FOLDER / "log.csv").read_text(encoding="utf-8").splitlines()[:301]]
+
+
+def _table(folder: Path, columns: list[int], *, name: str = "log", late_s: float = 0.0, above: str = "") -> Path:
+    """Columns of the tutorial's log, stamped later, below other lines."""
+    rows = [[row[k] for k in columns] for row in ROWS]
+    if columns[0] == 0:
+        rows[1:] = [[f"{float(row[0]) + late_s:.2f}", *row[1:]] for row in rows[1:]]
+    file = folder / f"{name}.csv"
+    file.write_text(above + "".join(f"{','.join(row)}\n" for row in rows), encoding="utf-8")
+    return file
+
+
+def _drafted(*logs: Path) -> str:
+    return draft_experiment(logs, logs[0].parent / "experiment.toml", urdf=FOLDER / "robot.urdf").content
+
+
+def _keys(text: str) -> list[str]:
+    return [question.key for question in open_questions(text)]
+
+
+def _loaded(text: str, folder: Path, **more: str) -> Experiment:
+    """The experiment with answers in place of the lines that ask; any other question would stop it."""
+    for key, answer in {**ANSWERS, **more}.items():
+        text = re.sub(rf'^{key} = "\?".*$', answer, text, flags=re.MULTILINE)
+    (folder / "experiment.toml").write_text(text, encoding="utf-8")
+    return load_experiment(folder / "experiment.toml")
+
+
+def test_rows_without_a_time_may_have_a_rate(tmp_path: Path) -> None:
+    """The question names both; the two lines below it, without their signs, are taken."""
+    text = _drafted(_table(tmp_path, list(range(1, 12))))
+    assert _keys(text) == ["stamp", *ANSWERS]
+    uncommented = re.sub(r"^# (rate_hz|start_s) = ", r"\1 = ", text, flags=re.MULTILINE).replace("100.0", "25.0")
+    recording = _loaded(uncommented, tmp_path, stamp="").recording
+    np.testing.assert_array_equal(np.diff(recording.stream("log").stamp_ns), 40_000_000)
+    assert [finding.kind for finding in recording.findings] == ["stated_rate"]
+
+
+def test_arrays_without_a_time_are_offered_one(tmp_path: Path) -> None:
+    """As tables are."""
+    np.savez(tmp_path / "log.npz", wrench=np.random.default_rng(0).normal(size=(50, 6)))
+    text = draft_experiment([tmp_path / "log.npz"]).content
+    assert "time" in _keys(text)
+    assert "# rate_hz" in text
+
+
+def test_a_joint_that_the_sensor_needs_is_asked_for(tmp_path: Path) -> None:
+    """Where it stood; a file of which all joints were logged asks for none."""
+    text = _drafted(_table(tmp_path, [0, 1, 2, 3, 4, *range(6, 12)]))
+    assert _keys(text) == ["wrist", *ANSWERS]
+    recording = _loaded(text, tmp_path, wrist="wrist = 0.2").recording
+    assert "wrist at 0.2" in recording.findings[0].message
+    whole = tmp_path / "whole"
+    whole.mkdir()
+    assert "[robot.fixed]" not in _drafted(_table(whole, list(range(12))))
+
+
+def test_a_joint_that_may_not_matter_is_offered(tmp_path: Path) -> None:
+    """A robot that may stand on any limb needs some of its joints only: nobody is asked, a comment says how."""
+    file = tmp_path / "log.csv"
+    rows = "".join(f"{0.1 * k:.1f},0.1,0.2,1,2,3,4,5,6\n" for k in range(20))
+    file.write_text(f"time_s,l_knee_rad,r_knee_rad,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n{rows}", encoding="utf-8")
+    text = draft_experiment([file], urdf=BIPED_URDF).content
+    assert "robot.fixed" not in text
+    (offered,) = (line for line in text.splitlines() if line.startswith("# fixed = {"))
+    assert list(tomllib.loads(offered.removeprefix("# "))["fixed"].values()) == [0.0]
+
+
+@pytest.mark.parametrize(("late_s", "asked"), [(1000.0, True), (0.5, False)])
+def test_clocks_of_two_tables(tmp_path: Path, late_s: float, asked: bool) -> None:
+    """Without a time in common they are asked for; where stamps differ a table in comments is taken once it is none."""
+    joints = _table(tmp_path, list(range(6)), name="joints")
+    text = _drafted(joints, _table(tmp_path, [0, *range(6, 12)], name="wrist", late_s=late_s))
+    assert ("delay_s" in _keys(text)) is asked
+    if not asked:
+        text = re.sub(r"^# (\[\[clock|stream =|to =|delay_s)", r"\1", text, flags=re.MULTILINE)
+        text = text.replace('delay_s = "estimate"', f"delay_s = {late_s}")
+    assert f"{late_s:.3f} s to " in text
+    recording = _loaded(text, tmp_path, delay_s=f"delay_s = {late_s}").recording
+    np.testing.assert_array_equal(recording.stream("wrist").stamp_ns, recording.stream("joints").stamp_ns)
+
+
+def test_streams_of_clocks_with_names_are_asked_for(tmp_path: Path) -> None:
+    """Nothing combines them before, though they have the same stamps; those of one clock have one question."""
+    times = np.arange(200, dtype=np.int64) * 10_000_000
+    rng = np.random.default_rng(1)
+
+    def stream(name: str, clock: str, quantity: str, columns: tuple[str, ...], unit: str) -> Stream:
+        values = rng.normal(size=(200, len(columns)))
+        frame = None if quantity == "position" else "ft"
+        signal = Signal(quantity=quantity, columns=columns, units=(unit,) * len(columns), values=values, frame=frame)
+        return Stream(name=name, clock=clock, stamp_ns=times, signals={quantity: signal})
+
+    axes = ("x", "y", "z")
+    streams = (
+        stream("joints", "robot", "position", ("wrist",), "rad"),
+        stream("acc", "board", "proper_acceleration", axes, "m/s2"),
+        stream("gyro", "board", "angular_velocity", axes, "rad/s"),
+    )
+    write_recording(tmp_path / "log", Recording(streams={one.name: one for one in streams}))
+    text = draft_experiment([tmp_path / "log"], urdf=FOLDER / "robot.urdf").content
+    (clock,) = (question for question in open_questions(text) if question.key == "delay_s")
+    assert "the clock 'board' stamped it, 'robot' stamped 'joints'" in clock.words
+    assert 'stream = ["acc", "gyro"]\nto = "joints"' in text
+
+
+def test_tables_with_open_units_have_clocks_too(tmp_path: Path) -> None:
+    """A first look takes the likeliest answers, with a robot and without."""
+    tables = {
+        "wrench": "t,fx,fy,fz,tx,ty,tz\n" + "".join(f"{0.01 * k:.2f},1,2,3,4,5,6\n" for k in range(200)),
+        "imu": "t,ax,ay,az\n" + "".join(f"{0.3 + 0.004 * k:.3f},0,0,9.8\n" for k in range(400)),
+    }
+    for name, text in tables.items():
+        (tmp_path / f"{name}.csv").write_text(text, encoding="utf-8")
+    text = draft_experiment([tmp_path / f"{name}.csv" for name in tables]).content
+    assert '# stream = "imu"\n# to = "wrench"\n# delay_s = "estimate"' in text
+
+
+def test_tables_with_the_same_stamps_have_one_clock(tmp_path: Path) -> None:
+    """Nothing is asked or offered."""
+    joints = _table(tmp_path, list(range(6)), name="joints")
+    assert "clock" not in _drafted(joints, _table(tmp_path, [0, *range(6, 12)], name="wrist"))
+
+
+@pytest.mark.parametrize(
+    ("above", "skipped"),
+    [("# of the logger\n# run 3\n\n", 3), ("Recorded today, by hand\nsensor: FT-28\n", 2), ("", None)],
+)
+def test_lines_in_front_of_a_table_are_skipped(tmp_path: Path, above: str, skipped: int | None) -> None:
+    """They are counted, empty ones too, and the first is shown."""
+    text = _drafted(_table(tmp_path, list(range(12)), above=above))
+    assert _keys(text) == list(ANSWERS)
+    assert tomllib.loads(text)["recording"]["stream"][0].get("skip_rows") == skipped
+    assert len(_loaded(text, tmp_path).recording.stream("log")) == 300
+
+
+def test_a_line_of_names_and_one_of_units_are_headings(tmp_path: Path) -> None:
+    """Where headings state no unit themselves, the line below them does."""
+    names = ",".join(name.rpartition("_")[0] for name in ROWS[0])
+    units = ",".join(["s", *["rad"] * 5, *["N"] * 3, *["Nm"] * 3])
+    file = _table(tmp_path, list(range(12)), above=f"log 7\n{names}\n{units}\n")
+    file.write_text(file.read_text(encoding="utf-8").replace(f"{','.join(ROWS[0])}\n", ""), encoding="utf-8")
+    text = _drafted(file)
+    assert _keys(text) == list(ANSWERS)
+    wrench = _loaded(text, tmp_path).recording.stream("log").signal("wrench").values
+    np.testing.assert_allclose(wrench[0], [float(value) for value in ROWS[1][6:]])
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "title\n" + "1,2,3\n" * 7,
+        "x,,z\n1,2,up\n2,3,down\n" + "1,2,3\n" * 20,
+        "title\n" + "1,2,3\n" * 20 + "the end\n",
+    ],
+    ids=["too few rows", "rows of another kind", "prose behind"],
+)
+def test_no_row_is_taken_for_a_title(tmp_path: Path, text: str) -> None:
+    """What is no table below its first lines is none."""
+    (tmp_path / "log.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(FormatError):
+        inspect_log(tmp_path / "log.csv")

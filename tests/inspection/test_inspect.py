@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Inspections answer in rows that are counted from the start of the recording, and show themselves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from forcetorque.base.errors import FormatError, MissingFileError
+from forcetorque.formats.yarp.log_format import read_log_folder
+from forcetorque.inspection.inspect import finding_rows, finding_table, inspect_log
+from forcetorque.recording.recording import Finding
+from tests.results.showing import require_shown
+from tests.scenes.experiments import FT_LOG, YARP, edit_lines
+
+
+def test_times_count_from_the_start_of_the_recording() -> None:
+    """The earliest stamp is second 0; a finding without a time has none."""
+    start = 1_700_000_000_000_000_000
+    timed = Finding(
+        stream="arm_ft", kind="gap", message="no sample", count=2, start_ns=start + 2 * 10**9, end_ns=start + 3 * 10**9
+    )
+    timeless = Finding(stream="arm_ft", kind="not_read", message="unknown", count=0)
+    first, second = finding_rows(start, [timed, timeless])
+    assert (first.start_s, first.end_s, first.count) == (2.0, 3.0, 2)
+    assert (second.start_s, second.end_s) == (None, None)
+
+
+def test_many_findings_alike_are_counted() -> None:
+    """Eight of a kind and channel are shown, those of another channel beside them."""
+    alike = [
+        Finding(stream="arm_ft", kind="step", channel="fx", message="fx steps", count=1, start_ns=k) for k in range(11)
+    ]
+    other = Finding(stream="arm_ft", kind="step", channel="fy", message="fy steps", count=1, start_ns=20)
+    table = finding_table(finding_rows(0, [*alike, other]), "a log")
+    assert [row[2] for row in table.rows] == ["fx"] * 8 + ["fy"]
+
+
+def test_an_inspection_shows_itself(arm: Path) -> None:
+    """In a narrow terminal, on a page and in a cell; with the number of findings that the table leaves out."""
+    edit_lines(arm / FT_LOG, lambda lines: [line for k, line in enumerate(lines) if k % 50 > 20])
+    inspection = inspect_log(arm / YARP)
+    require_shown(inspection)
+    gaps = sum(row.kind == "gap" for row in inspection.findings)
+    assert gaps > 8
+    assert f"{gaps - 8} more of arm_ft: gap" in inspection.text(120)
+    assert f"{len(inspection.findings)} finding(s) in" in inspection.text(120)
+
+
+def test_a_dumper_folder_is_a_recording(arm: Path) -> None:
+    """Every port is a stream; a port of words is a finding, and a folder of nothing else is refused."""
+    port = arm / "log" / "talk"
+    port.mkdir()
+    (port / "data.log").write_text('0 1700000000.0 "hello"\n', encoding="utf-8")
+    recording = read_log_folder(arm / "log")
+    assert set(recording.streams) == {"arm/stateExt:o", "arm_ft/analog:o"}
+    assert [finding.stream for finding in recording.findings if finding.kind == "not_read"] == ["talk"]
+    with pytest.raises(FormatError, match=r"found 1 port\(s\) and none to read"):
+        read_log_folder(port)
+    with pytest.raises(MissingFileError, match="expected an experiment file or the folder of a log"):
+        inspect_log(arm / "nothing")

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Power-ups, drift and slow noise: intervals hold the truth, one bias for all is noticed, rows choose the drift."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from forcetorque.payload.identification.bias_checks import bias_tests, choose_drift
+from forcetorque.payload.identification.fit import fit
+from forcetorque.payload.identification.problem import LoadProblem
+from forcetorque.payload.identification.several_recordings import together
+from forcetorque.payload.identification.solve import load_estimates, session_estimates, solve
+from tests.payload.identification.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, weight
+
+SEEDS = 200
+LEAST, MOST, MOST_OF_BIASES = 0.90, 0.98, 0.995
+"""What 95 % intervals must cover, over all seeds; those of biases are a little wide, as slow noise may last longer than
+the session."""
+FEW = 3
+SHORT = 50
+"""Rows of each power-up in the quick tests; the long one has 120."""
+
+
+def _hits(made: PowerUps) -> dict[str, np.ndarray]:
+    """Which intervals hold the truth, by parameter; drift as rows choose it."""
+    fitted = fit(made.problem, drift=choose_drift(made.problem).taken)
+    (load,), sessions = load_estimates(fitted), session_estimates(fitted)
+    hits = {"mass": np.array([abs(load.mass - MASS) <= load.mass_half_width])}
+    for k, axis in enumerate("xyz"):
+        error = abs(load.centre_of_mass[k] - CENTRE[k])
+        hits[f"centre {axis}"] = np.array([error <= load.centre_of_mass_half_width[k]])
+    for k, axis in enumerate(("fx", "fy", "fz", "tx", "ty", "tz")):
+        pairs = list(zip(sessions, made.bias, made.drift, strict=True))
+        hits[f"bias {axis}"] = np.array([abs(s.bias[k] - b[k]) <= s.bias_half_width[k] for s, b, _ in pairs])
+        hits[f"drift {axis}"] = np.array(
+            [
+                abs(s.drift[k] - d[k]) <= s.drift_half_width[k]
+                for s, _, d in pairs
+                if s.drift is not None and s.drift_half_width is not None
+            ]
+        )
+    return hits
+
+
+def _coverage(seeds: range, **options: int) -> dict[str, float]:
+    counted: dict[str, list[np.ndarray]] = {}
+    for seed in seeds:
+        made = PowerUps(seed=seed, **options)
+        for name, hits in _hits(made).items():
+            counted.setdefault(name, []).append(hits)
+    return {name: float(np.concatenate(hits).mean()) for name, hits in counted.items() if np.concatenate(hits).size}
+
+
+def test_intervals_hold_the_truth() -> None:
+    """All parameters together, over a few seeds: less than a sixth miss."""
+    coverage = _coverage(range(FEW), length=SHORT)
+    assert len(coverage) == 16
+    assert float(np.mean(list(coverage.values()))) >= 0.84
+
+
+@pytest.mark.long
+def test_intervals_cover_what_they_say() -> None:
+    """Over 200 seeds, per parameter: slow noise, drift that rows choose, a bias that differs by 18 N."""
+    coverage = _coverage(range(1000, 1000 + SEEDS))
+    assert len(coverage) == 16
+    for name, share in coverage.items():
+        most = MOST_OF_BIASES if name.startswith("bias") else MOST
+        assert LEAST <= share <= most, f"{name}: {share:.3f}; all: {coverage}"
+
+
+def _as_one(problem: LoadProblem) -> LoadProblem:
+    """Four power-ups, stated as one session."""
+    time = np.arange(float(len(problem.rows)))
+    rows = replace(problem.rows, session=np.zeros(len(problem.rows), dtype=np.int64), time_s=time)
+    return replace(problem, rows=rows, sessions=("all",))
+
+
+def test_one_bias_for_all_power_ups_is_noticed() -> None:
+    """By its test and by the mass that it would give; where the biases are one, it is not."""
+    made = PowerUps(seed=1, length=SHORT)
+    solution = solve(made.problem)
+    (sessions,), (load,) = solution.bias_tests, solution.loads
+    assert sessions.of == "sessions"
+    assert sessions.p_value < 1e-6
+    assert sessions.largest_difference[2] > 17.0
+    assert abs(sessions.mass_with_one[0] - MASS) > 5.0 * load.mass_half_width
+    (intervals,) = bias_tests(fit(_as_one(made.problem), drift=True), drift=True)
+    assert intervals.of == "intervals"
+    assert intervals.p_value < 1e-6
+    rng = np.random.default_rng(2)
+    gravity, number = poses(40, rng), np.repeat([0, 1], 20)
+    same = problem_of(weight(gravity) + SIZES * rng.normal(size=(40, 6)), gravity, session=number)
+    (alike,) = solve(same).bias_tests
+    assert alike.p_value > 0.01
+
+
+def test_biases_that_are_open_are_not_compared() -> None:
+    """Of a sensor that never turns nobody tells weight and bias apart: there is no p, and nothing is computed of it."""
+    gravity = np.tile(poses(1, np.random.default_rng(3)), (4, 1))
+    reading = weight(gravity) + SIZES * np.random.default_rng(4).normal(size=(4, 6))
+    fitted = fit(problem_of(reading, gravity, block=np.array([0, 0, 1, 1])), drift=False)
+    (intervals,) = bias_tests(fitted, drift=False)
+    assert intervals.of == "intervals"
+    assert np.isnan(intervals.p_value)
+
+
+@pytest.mark.parametrize("drifts", [True, False])
+def test_rows_that_were_held_out_choose_the_drift(drifts: bool) -> None:
+    """A drift of eight standard deviations over the session is taken; where there is none it is not."""
+    rng = np.random.default_rng(3)
+    gravity = poses(60, rng)
+    time = np.arange(60.0)
+    slope = 8.0 * SIZES / 60.0 if drifts else np.zeros(6)
+    reading = weight(gravity) + SIZES * rng.normal(size=(60, 6)) + np.outer(time, slope)
+    solution = solve(problem_of(reading, gravity, time_s=time))
+    assert solution.drift.chosen
+    assert solution.drift.taken is drifts
+    if drifts:
+        assert solution.drift.error_with < 0.8 * solution.drift.error_without
+        (session,) = solution.sessions
+        assert session.drift is not None
+        np.testing.assert_allclose(session.drift, slope, atol=3.0 * np.max(SIZES / 60.0))
+
+
+def test_a_drift_can_be_stated() -> None:
+    """Then it is taken or left, whatever the rows say."""
+    made = PowerUps(seed=4, length=SHORT)
+    for stated in (True, False):
+        solution = solve(replace(made.problem, drift=stated))
+        assert solution.drift.taken is stated
+        assert not solution.drift.chosen
+        assert (solution.sessions[0].drift is not None) is stated
+
+
+def test_recordings_together_share_the_load() -> None:
+    """Two recordings of one load are two sessions, whose names begin with those of the recordings."""
+    rng = np.random.default_rng(5)
+    problems = {}
+    for name, offset in (("a", 0.0), ("b", 10.0)):
+        gravity = poses(12, rng)
+        problems[name] = problem_of(weight(gravity) + offset + SIZES * rng.normal(size=(12, 6)), gravity)
+    joined = together(problems)
+    assert joined.sessions == ("a: session 0", "b: session 0")
+    solution = solve(joined)
+    assert abs(solution.loads[0].mass - MASS) < solution.loads[0].mass_half_width
+    np.testing.assert_allclose(solution.sessions[1].bias[:3] - solution.sessions[0].bias[:3], 10.0, atol=0.3)

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What rows leave open is named, in words, and nothing is refused for it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.payload.identification.problem import Load
+from forcetorque.payload.identification.solve import solve
+from forcetorque.payload.identification.unobservable import spanned_directions
+from tests.payload.identification.payloads import CENTRE, GRAVITY, MASS, SIZES, poses, problem_of, weight
+
+
+def _noise(count: int, seed: int) -> np.ndarray:
+    return SIZES * np.random.default_rng(seed).normal(size=(count, 6))
+
+
+def test_one_pose_tells_mass_and_bias_only_together() -> None:
+    """Along the gravity of the pose; the centre of mass is told together with the bias of the moment."""
+    gravity = np.tile([0.0, 0.0, -GRAVITY], (10, 1))
+    solution = solve(problem_of(weight(gravity) + _noise(10, 1), gravity))
+    words = [entry.words for entry in solution.open_directions]
+    assert any(
+        one.startswith("the mass of 'tool' and the bias along z are told only together: turn the sensor")
+        for one in words
+    )
+    assert any(one.startswith("the centre of mass of 'tool'") for one in words)
+    (load,) = solution.loads
+    assert np.isnan(load.mass)
+    assert np.isinf(load.mass_half_width)
+    assert np.isinf(load.centre_of_mass_half_width).all()
+    assert not load.is_determined
+    bias = solution.sessions[0]
+    assert np.isfinite(bias.bias[:2]).all()
+    assert np.isnan(bias.bias[2])
+
+
+def test_poses_that_turn_leave_nothing_open() -> None:
+    """Negative control; about one level axis is enough."""
+    angle = np.linspace(0.0, 5.0, 12)
+    for gravity in (
+        poses(12, np.random.default_rng(2)),
+        GRAVITY * np.column_stack([np.sin(angle), np.zeros(12), np.cos(angle)]),
+    ):
+        solution = solve(problem_of(weight(gravity) + _noise(12, 2), gravity))
+        assert solution.open_directions == ()
+        assert solution.loads[0].is_determined
+
+
+def test_poses_that_hardly_turn_have_a_wide_interval() -> None:
+    """A turn by a hundredth of a degree is not refused: the interval says what it is worth, and so do words."""
+    gravity = poses(1, np.random.default_rng(3)) + 0.002 * poses(12, np.random.default_rng(4))
+    solution = solve(problem_of(weight(gravity) + _noise(12, 3), gravity))
+    (load,) = solution.loads
+    assert np.isfinite(load.mass)
+    assert load.mass_half_width > 0.5 * MASS
+    assert any("is told only to" in entry.words for entry in solution.open_directions)
+
+
+def test_a_load_that_no_row_has_is_open() -> None:
+    """It is neither guessed nor an error."""
+    gravity = poses(8, np.random.default_rng(5))
+    solution = solve(problem_of(weight(gravity), gravity, loads=(Load(name="a"), Load(name="b"))))
+    assert np.isnan(solution.loads[1].mass)
+    assert solution.loads[0].mass == pytest.approx(MASS, abs=1e-6)
+
+
+def test_an_inertia_needs_a_motion() -> None:
+    """Still poses do not tell it, and the words say what would."""
+    gravity = poses(8, np.random.default_rng(6))
+    still = np.zeros((8, 3))
+    loads = (Load(name="tool", inertia="unknown"),)
+    problem = problem_of(weight(gravity), gravity, loads=loads, angular_velocity=still, angular_acceleration=still)
+    (entry,) = solve(problem).open_directions
+    assert entry.words.startswith("the inertia of 'tool' is not told: turn the load with changing speed")
+
+
+def test_unknown_masses_and_an_unknown_matrix_leave_the_scale_open() -> None:
+    """Words say that a known mass gives it; with one it does."""
+    gravity = poses(20, np.random.default_rng(7))
+    wide = np.array([1e6 * np.eye(6)] * 6)
+    reading = weight(gravity) + _noise(20, 7)
+    solution = solve(problem_of(reading, gravity, matrix_prior=wide))
+    assert any("known masses give the scale" in entry.words for entry in solution.open_directions)
+    known = (Load(name="tool", mass=MASS, centre_of_mass=CENTRE),)
+    stated = solve(problem_of(reading, gravity, matrix_prior=wide, loads=known))
+    assert not any("known masses give the scale" in entry.words for entry in stated.open_directions)
+
+
+@pytest.mark.parametrize(
+    ("centres", "count"),
+    [
+        ([[0.0, 0.0, 0.06]], 3),
+        ([[0.0, 0.0, 0.06], [0.05, 0.0, 0.06]], 5),
+        ([[0.0, 0.0, 0.06], [0.05, 0.0, 0.06], [0.1, 0.0, 0.06]], 5),
+        ([[0.0, 0.0, 0.06], [0.05, 0.0, 0.06], [0.0, 0.05, 0.06]], 6),
+    ],
+    ids=["one", "two", "three on a line", "three"],
+)
+def test_centres_of_mass_span_directions(centres: list[list[float]], count: int) -> None:
+    """One spans three of six directions of wrench, two span five, three that are not on a line six."""
+    rng = np.random.default_rng(8)
+    wrench = np.vstack([weight(poses(10, rng), 1.0, np.array(centre)) for centre in centres])
+    assert spanned_directions(wrench, np.zeros(len(wrench), dtype=np.int64)) == count

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`response` shows events, numbers and filter in every form, draws them, and refuses what it cannot read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from forcetorque.report.sections import result_figures
+from forcetorque.results.document.content import Figure as FigureBlock
+from forcetorque.results.document.picture import small_png
+from tests.app.outcome import Run
+from tests.scenes.excited_sensors import write_taps
+
+
+@pytest.fixture(scope="module")
+def taps(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Five taps."""
+    return write_taps(tmp_path_factory.mktemp("taps"))
+
+
+def test_the_response_is_shown_and_drawn(taps: Path, run: Run) -> None:
+    """JSON has the filter and the curve, CSV the numbers, and the figure is a PNG."""
+    figure = taps.parent / "bode.png"
+    words = ("response", taps, "--excitation", "impact", "--force", "log")
+    result = run(*words, "--figure", figure, "--format", "json").result()
+    assert result["schema"] == "forcetorque/response/1"
+    assert len(result["inverse"]["numerator"]) == 3
+    assert len(result["curve"]["coherence"]) == len(result["curve"]["frequency_hz"])
+    assert figure.read_bytes().startswith(b"\x89PNG")
+    # what a report draws of the JSON is what was drawn of the result
+    (picture,) = result_figures(result)
+    assert isinstance(picture, FigureBlock)
+    assert picture.picture.png == small_png(figure.read_bytes())
+    lines = run(*words, "--format", "csv").out.splitlines()
+    assert (len(lines), lines[0].startswith("sensor,serial,quantity,source,value,half_width_95")) == (7, True)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("-e", "shake"), "no excitation 'shake'; known: impact, pendulum, release"),
+        (("-e", "impact", "--interval", "oven"), "no interval is labelled 'oven'"),
+        (("-e", "impact", "--sensor", "leg"), "leg"),
+        (("-e", "impact", "--force", "hammer"), "hammer"),
+        (("-e", "impact", "--figure", "bode.pdf"), "ends in .png"),
+    ],
+)
+def test_what_is_not_there_is_named(taps: Path, run: Run, words: tuple[str, ...], message: str) -> None:
+    """One line and exit code 2."""
+    outcome = run("response", taps, *words)
+    assert (outcome.code, outcome.out) == (2, "")
+    assert message in outcome.err

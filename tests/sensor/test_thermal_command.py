@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`thermal` shows the drift in every form, draws it, and refuses what it cannot read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.app.outcome import Run
+from tests.scenes.thermal_cycles import PER_DEGREE, record, write_cycles
+
+
+@pytest.fixture(scope="module")
+def chamber(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two short cycles in a chamber."""
+    return write_cycles(tmp_path_factory.mktemp("chamber"), *record(np.random.default_rng(21), hours=0.5))
+
+
+def test_drift_is_shown_and_drawn(chamber: Path, run: Run) -> None:
+    """JSON has the numbers, the table the lines for an experiment file, and the figure is a PNG."""
+    figure = chamber.parent / "drift.png"
+    result = run("thermal", chamber, "--figure", figure, "--format", "json").result()
+    assert result["schema"] == "forcetorque/thermal/1"
+    (sensor,) = result["sensors"]
+    assert "curve" not in sensor
+    slopes = [row["drift_per_degC"] for row in sensor["components"]]
+    np.testing.assert_allclose(slopes, PER_DEGREE, rtol=0.1)
+    assert figure.read_bytes().startswith(b"\x89PNG")
+    table = run("thermal", chamber).out
+    assert "prior_coefficients = [" in table
+    assert "heating - cooling" in table
+    lines = run("thermal", chamber, "--format", "csv").out.splitlines()
+    assert (len(lines), lines[0].startswith("sensor,serial,signal,unit,drift_per_degC")) == (7, True)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--interval", "oven"), "no interval is labelled 'oven'"),
+        (("--variable", "room"), "no variable 'room'"),
+        (("--sensor", "leg"), "leg"),
+        (("--figure", "drift.pdf"), "ends in .png"),
+    ],
+)
+def test_what_is_not_there_is_named(chamber: Path, run: Run, words: tuple[str, ...], message: str) -> None:
+    """One line and exit code 2."""
+    outcome = run("thermal", chamber, *words)
+    assert (outcome.code, outcome.out) == (2, "")
+    assert message in outcome.err
