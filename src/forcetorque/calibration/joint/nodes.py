@@ -177,13 +177,13 @@ class WindowNodes:
             Derivatives of the parabolas that fit best, at the nodes; shape (3 w, k); per second.
         """
         slopes = np.stack([np.zeros(NODES), np.ones(NODES), 3.0 * _PLACES], axis=1) / self._half[:, None, None]
-        rates: FloatArray = (slopes @ self._parabolas(values)).reshape(-1, values.shape[1])
+        rates: FloatArray = (slopes @ self._parabolas(values)).reshape(NODES * len(self._starts), values.shape[1])
         return rates
 
     def _at_nodes(self, values: FloatArray) -> FloatArray:
         """Parabolas that fit samples best, at the nodes; shape (3 w, k)."""
         nodes = np.stack([np.ones(NODES), _PLACES, 1.5 * _PLACES**2 - 0.5], axis=1)
-        at_nodes: FloatArray = (nodes @ self._parabolas(values)).reshape(-1, values.shape[1])
+        at_nodes: FloatArray = (nodes @ self._parabolas(values)).reshape(NODES * len(self._starts), values.shape[1])
         return at_nodes
 
     def _parabolas(self, values: FloatArray) -> FloatArray:
