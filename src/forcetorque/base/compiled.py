@@ -63,8 +63,7 @@ def announced(message: str) -> AbstractContextManager[Any]:
     Returns:
         The context.
     """
-    context: AbstractContextManager[Any] = event.install_listener("numba:compile", _Announce(message))
-    return context
+    return event.install_listener("numba:compile", _Announce(message))
 
 
 def frozen(values: npt.NDArray[Any]) -> npt.NDArray[Any]:

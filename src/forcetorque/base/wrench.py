@@ -66,8 +66,7 @@ def transform_twist(a_H_b: Any, b_twist: Any) -> FloatArray:
     """
     twist = np.asarray(b_twist, dtype=np.float64)
     require_last_axis(twist, name="b_twist", length=6)
-    transformed: FloatArray = np.einsum("...ij,...j->...i", twist_matrix(a_H_b), twist)
-    return transformed
+    return np.einsum("...ij,...j->...i", twist_matrix(a_H_b), twist)
 
 
 WRENCH_COMPONENTS = ("fx", "fy", "fz", "tx", "ty", "tz")
@@ -120,5 +119,4 @@ def transform_wrench(a_H_b: Any, b_wrench: Any) -> FloatArray:
     """
     wrench = np.asarray(b_wrench, dtype=np.float64)
     require_last_axis(wrench, name="b_wrench", length=6)
-    transformed: FloatArray = np.einsum("...ij,...j->...i", wrench_matrix(a_H_b), wrench)
-    return transformed
+    return np.einsum("...ij,...j->...i", wrench_matrix(a_H_b), wrench)

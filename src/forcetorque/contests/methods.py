@@ -169,8 +169,7 @@ class Phases:
                 self.paths[name] = MotionPath.of(names, positions)
         stamps = self._stamps[name]
         samples = run.interval_samples(interval).samples.stamp_ns
-        phase: FloatArray = np.interp(samples - stamps[0], stamps - stamps[0], self.paths[name].phase)
-        return phase
+        return np.interp(samples - stamps[0], stamps - stamps[0], self.paths[name].phase)
 
 
 def _motion(run: SensorRun, interval: Interval) -> tuple[IntArray, Sequence[str], FloatArray]:

@@ -74,8 +74,7 @@ class Parts:
         """
         force, moment = self.squares[..., :3].sum(axis=-1), self.squares[..., 3:].sum(axis=-1)
         wrench: FloatArray = force / scale[0] ** 2 + moment / scale[1] ** 2
-        norms: FloatArray = {"wrench": wrench, "force": force, "moment": moment}[quantity]
-        return norms
+        return {"wrench": wrench, "force": force, "moment": moment}[quantity]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -198,8 +198,7 @@ def trial_of(
 def _means(place: np.ndarray[Any, np.dtype[np.int64]], values: FloatArray, phases: int) -> FloatArray:
     count = np.bincount(place, minlength=phases)
     sums = np.stack([np.bincount(place, column, minlength=phases) for column in values.T], axis=1)
-    means: FloatArray = np.where(count[:, None] > 0, sums / np.maximum(count, 1)[:, None], np.nan)
-    return means
+    return np.where(count[:, None] > 0, sums / np.maximum(count, 1)[:, None], np.nan)
 
 
 def common_phases(contestants: Mapping[str, Sequence[Trial]]) -> BoolArray:
@@ -265,8 +264,7 @@ def repeatability(loads: Mapping[float, Sequence[Trial]], common: BoolArray) -> 
         return None
     free = sum(len(errors) - 1 for errors in repeated)
     squares = sum(((errors - errors.mean(axis=0)) ** 2).sum(axis=0).mean(axis=0) for errors in repeated)
-    size: FloatArray = np.sqrt(np.asarray(squares, dtype=np.float64) / free)
-    return size
+    return np.sqrt(np.asarray(squares, dtype=np.float64) / free)
 
 
 def changes(loads: Mapping[float, Sequence[Trial]]) -> dict[str, Change]:

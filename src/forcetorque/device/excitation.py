@@ -56,8 +56,7 @@ def least_excitation(loads: UncertainLoads, others: UncertainLoads) -> float:
 def _moment(loads: UncertainLoads, size: FloatArray) -> FloatArray:
     scaled = loads.wrench / size
     moved = scaled - np.average(scaled, axis=0, weights=loads.count)
-    moment: FloatArray = (loads.count[:, None] * moved).T @ moved / loads.count.sum()
-    return moment
+    return (loads.count[:, None] * moved).T @ moved / loads.count.sum()
 
 
 NEARER_M = 0.025

@@ -151,8 +151,7 @@ class Reference:
         step = 1e-4
         if quantity == COMPLIANCE:
             step /= max(np.abs(torque).max() for torque in self._torques.values())
-        slope: FloatArray = (self.wrench({quantity: step}) - self.wrench({quantity: -step})) / (2.0 * step)
-        return slope
+        return (self.wrench({quantity: step}) - self.wrench({quantity: -step})) / (2.0 * step)
 
     def _by_encoders(self, off: Mapping[str, FloatArray]) -> FloatArray:
         position = np.array(self.poses.position)

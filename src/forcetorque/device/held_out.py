@@ -53,15 +53,13 @@ def held_out_loads(seed: int = 0) -> FloatArray:
         Changes of load; shape (400, 6); N, N m.
     """
     size = np.repeat([HELD_OUT_FORCE_N, HELD_OUT_MOMENT_NM], 3)
-    loads: FloatArray = size * np.random.default_rng(_JUDGED_SEED + seed).standard_normal((_LOADS, 6))
-    return loads
+    return size * np.random.default_rng(_JUDGED_SEED + seed).standard_normal((_LOADS, 6))
 
 
 def sample_noise() -> FloatArray:
     """Give the covariance of the noise of a sample of the nominal sensor; shape (6, 6); N, N m."""
     matrix = np.linalg.inv(FAMILIES[FAMILY].nominal())
-    covariance: FloatArray = NOISE_COUNTS**2 * matrix @ matrix.T
-    return covariance
+    return NOISE_COUNTS**2 * matrix @ matrix.T
 
 
 def device_error(poses: Sequence[Poses], sensor: str, tolerances: Tolerances, seed: int) -> HeldOutError:
@@ -127,8 +125,7 @@ def fitted_matrix(wrench: FloatArray, readings: FloatArray, count: FloatArray) -
     design = (wrench - np.average(wrench, axis=0, weights=count)) / size
     moved = readings - np.average(readings, axis=0, weights=count)
     response = np.linalg.lstsq(weight * design, weight * moved, rcond=RANK_TOLERANCE)[0].T
-    matrix: FloatArray = size[:, None] * np.linalg.pinv(response, rcond=RANK_TOLERANCE)
-    return matrix
+    return size[:, None] * np.linalg.pinv(response, rcond=RANK_TOLERANCE)
 
 
 def _judged(matrix: FloatArray, response: FloatArray, seed: int) -> HeldOutError:

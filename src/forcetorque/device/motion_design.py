@@ -169,8 +169,7 @@ class Designer:
         )
         drawn[::2, :2] = 45.0 * np.rint(drawn[::2, :2] / 45.0)
         drawn[0] = _START
-        postures: FloatArray = np.deg2rad(drawn)
-        return postures
+        return np.deg2rad(drawn)
 
     def _travel(self, start: FloatArray, postures: FloatArray) -> FloatArray:
         """Time from a posture to others, rests included; shape (n,); s."""
@@ -213,10 +212,8 @@ def _at(pitch: float, yaw: FloatArray, lock_deg: float) -> FloatArray:
 def _nearest(yaw: FloatArray, lock_deg: float) -> FloatArray:
     """Where yaw may be for a lock, next to where it is; shape (n,); rad."""
     allowed = np.deg2rad(_YAW_OF_LOCK[lock_deg])
-    nearest: FloatArray = allowed[np.abs(yaw[:, None] - allowed).argmin(axis=1)]
-    return nearest
+    return allowed[np.abs(yaw[:, None] - allowed).argmin(axis=1)]
 
 
 def _degrees(angle: FloatArray) -> FloatArray:
-    degrees: FloatArray = np.rad2deg(angle).round(6)
-    return degrees
+    return np.rad2deg(angle).round(6)

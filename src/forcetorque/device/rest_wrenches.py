@@ -85,5 +85,4 @@ class RestTable:
 def _basis(pitch: FloatArray, yaw: FloatArray) -> FloatArray:
     """Products of the waves of both; shape (n, 9)."""
     waves = [np.column_stack([np.ones(len(angle)), np.cos(angle), np.sin(angle)]) for angle in (pitch, yaw)]
-    products: FloatArray = np.einsum("ni,nj->nij", *waves).reshape(len(pitch), 9)
-    return products
+    return np.einsum("ni,nj->nij", *waves).reshape(len(pitch), 9)

@@ -107,8 +107,7 @@ def _of_estimates(experiment: Experiment, span: IntervalEstimates) -> _Piece:
 
 
 def _deviation(covariance: FloatArray) -> FloatArray:
-    deviation: FloatArray = np.sqrt(np.einsum("njj->nj", covariance))
-    return deviation
+    return np.sqrt(np.einsum("njj->nj", covariance))
 
 
 def _joined(pieces: Sequence[_Piece], joints: Sequence[str], source: str, which: int) -> FloatArray:

@@ -267,8 +267,7 @@ def _unit_rows(matrix: FloatArray) -> FloatArray:
     norms = np.linalg.norm(matrix, axis=1, keepdims=True)
     if not norms.all():
         raise SensorError("matrix: expected six rows, got one of zeros")
-    unit: FloatArray = matrix / norms
-    return unit
+    return matrix / norms
 
 
 def _position(name: str, value: float, others: FloatArray) -> FeaturePosition:

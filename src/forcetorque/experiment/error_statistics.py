@@ -126,5 +126,4 @@ def offset_removed(measured: Any, reference: Any) -> FloatArray:
         Measured wrenches moved by one constant so that their mean error is zero; shape (n, 6).
     """
     first = np.asarray(measured, dtype=np.float64)
-    moved: FloatArray = first + mean_offset(np.asarray(reference, dtype=np.float64) - first)
-    return moved
+    return first + mean_offset(np.asarray(reference, dtype=np.float64) - first)

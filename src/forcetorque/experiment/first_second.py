@@ -31,14 +31,12 @@ class JudgedInstants:
     def first(self) -> BoolArray:
         """Samples of the first second of the interval, which give an offset and are not judged; shape (m,)."""
         stamps = self.at_ns[self.samples.inside]
-        first: BoolArray = stamps < stamps[0] + round(OFFSET_S * 1e9)
-        return first
+        return stamps < stamps[0] + round(OFFSET_S * 1e9)
 
     @property
     def judged_ns(self) -> IntArray:
         """Instants of the later samples, which are judged; shape (m,); ns."""
-        later: IntArray = self.at_ns[self.samples.inside][~self.first]
-        return later
+        return self.at_ns[self.samples.inside][~self.first]
 
     def with_offset(self, error: FloatArray, source: Offset) -> FloatArray:
         """Take off the mean error of the first second where the offset is to come from there.
@@ -52,8 +50,7 @@ class JudgedInstants:
         """
         if source is Offset.FITTED:
             return error
-        moved: FloatArray = error + self._offset(self.samples.smoothed(error))
-        return moved
+        return error + self._offset(self.samples.smoothed(error))
 
     def judged(self, error: FloatArray) -> FloatArray:
         """Filter errors as readings and references are elsewhere, and leave out the first second.
@@ -64,8 +61,7 @@ class JudgedInstants:
         Returns:
             Filtered errors of the later samples; shape (m, k).
         """
-        later: FloatArray = self.samples.smoothed(error)[~self.first]
-        return later
+        return self.samples.smoothed(error)[~self.first]
 
     def judged_with_both(self, error: FloatArray) -> dict[Offset, FloatArray]:
         """Give what is judged with either offset.

@@ -220,8 +220,7 @@ class RecordedSpan:
         Returns:
             Whether each does; shape (n,).
         """
-        inside: BoolArray = (stamp_ns >= self.start_ns) & (stamp_ns < self.end_ns)
-        return inside
+        return (stamp_ns >= self.start_ns) & (stamp_ns < self.end_ns)
 
 
 def read_spans(parsed: schema.ExperimentFile, file: Path, recording: Recording) -> tuple[RecordedSpan, ...]:

@@ -89,8 +89,7 @@ def mean_offset(lacking: Any) -> FloatArray:
     samples = np.asarray(lacking, dtype=np.float64)
     require_shape(samples, name="lacking", shape=(None, None))
     whole = samples[~np.isnan(samples).any(axis=1)]
-    mean: FloatArray = whole.mean(axis=0) if len(whole) else np.full(samples.shape[1], np.nan)
-    return mean
+    return whole.mean(axis=0) if len(whole) else np.full(samples.shape[1], np.nan)
 
 
 OF_ONE_LINK: Final = (Offset.ONE_LINK_IMU, Offset.ONE_LINK_FIXED_FRAME)

@@ -57,8 +57,7 @@ class SensorOffset:
     def wrench(self) -> FloatArray:
         """What is to be added, moments that are not known left out; shape (6,); N, N m."""
         known = np.repeat([1.0, 0.0 if self.not_logged else 1.0], 3)
-        offset: FloatArray = known * self.estimate.value
-        return offset
+        return known * self.estimate.value
 
 
 def offset_policies(words: Collection[OffsetPolicy | str]) -> tuple[OffsetPolicy, ...]:

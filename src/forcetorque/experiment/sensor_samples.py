@@ -68,8 +68,7 @@ class LoggedReadings:
 
 def _logged(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> FloatArray:
     stream = experiment.recording.stream(sensor.stream)
-    values: FloatArray = stream.signal(sensor.quantity).values[interval.holds(stream.stamp_ns)]
-    return values
+    return stream.signal(sensor.quantity).values[interval.holds(stream.stamp_ns)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

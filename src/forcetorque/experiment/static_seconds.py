@@ -44,8 +44,7 @@ class StillSeconds:
         if not self.count:
             return np.zeros(len(stamp_ns), dtype=bool)
         place = np.searchsorted(self.start_ns, stamp_ns, side="right") - 1
-        inside: BoolArray = (place >= 0) & (stamp_ns - self.start_ns[place] < _SECOND_NS)
-        return inside
+        return (place >= 0) & (stamp_ns - self.start_ns[place] < _SECOND_NS)
 
 
 def still_seconds(recording: Recording, interval: Interval) -> StillSeconds:

@@ -110,8 +110,7 @@ class ContactForceValidation:
         if body in (cut.body, self.tree.bodies[cut.body].parent):  # both sides of a cut share their frame
             return (sensor_H_cut @ body_H_contact)[None]
         root_H_cut, root_H_body = (body_pose(self.tree, joints, index) for index in (cut.body, body))
-        pose: FloatArray = sensor_H_cut @ invert_pose(root_H_cut) @ root_H_body @ body_H_contact
-        return pose
+        return sensor_H_cut @ invert_pose(root_H_cut) @ root_H_body @ body_H_contact
 
     def _bounded_part(self, cuts: tuple[str, ...]) -> SubModel:
         cut_of(self.tree, self.sensor)  # its error lists the sensors

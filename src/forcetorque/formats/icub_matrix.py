@@ -86,8 +86,7 @@ class MatrixFile:
     def matrix(self) -> FloatArray:
         """Calibration matrix, `C = diag(full_scale) codes / 2^15 / 32767`; shape (6, 6); N/count, N m/count."""
         scale = np.array(self.full_scale, dtype=np.float64)[:, np.newaxis]
-        matrix: FloatArray = scale * (self.codes / Q15_ONE) / FULL_SCALE_COUNTS
-        return matrix
+        return scale * (self.codes / Q15_ONE) / FULL_SCALE_COUNTS
 
 
 def checked_full_scale(values: Sequence[int]) -> tuple[int, ...]:

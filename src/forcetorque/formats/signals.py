@@ -186,8 +186,7 @@ def even_stamps(count: int, *, rate_hz: float, start_s: float) -> IntArray:
             f"rate_hz, start_s: expected rows at most 1e9 times a second and within {_LATEST_S:g} s of the epoch, got "
             f"{count} rows at {rate_hz:g} Hz from {start_s:g} s"
         )
-    stamps: IntArray = round(start_s * 1e9) + np.rint(np.arange(count) * (1e9 / rate_hz)).astype(np.int64)
-    return stamps
+    return round(start_s * 1e9) + np.rint(np.arange(count) * (1e9 / rate_hz)).astype(np.int64)
 
 
 def stated_quantity(name: str, *, where: str, columns: int) -> Quantity:

@@ -132,8 +132,7 @@ def _carried(residual: _Residual, expected: FloatArray) -> FloatArray:
     """Force with which something lifts the limb, against the expected weight; shape (n,); N."""
     weight = np.linalg.norm(expected[:, :3], axis=1)
     along = np.einsum("ij,ij->i", residual.smooth[:, :3], expected[:, :3])
-    carried: FloatArray = np.divide(-along, weight, out=np.zeros_like(along), where=weight > 0.0)
-    return carried
+    return np.divide(-along, weight, out=np.zeros_like(along), where=weight > 0.0)
 
 
 def _merged(residual: _Residual, mask: BoolArray) -> list[tuple[int, int]]:

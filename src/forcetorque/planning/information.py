@@ -122,8 +122,7 @@ def blank_posterior(noise: FloatArray, load: FloatArray) -> Posterior:
 
 def _spread(roots: FloatArray, unit: FloatArray) -> FloatArray:
     scaled = roots * unit[:, None, None]
-    spread: FloatArray = scaled @ scaled.transpose(0, 2, 1)
-    return spread
+    return scaled @ scaled.transpose(0, 2, 1)
 
 
 _SESSION = "planned"

@@ -63,8 +63,7 @@ class Volume:
         Returns:
             The gains; shape (n,).
         """
-        gains: FloatArray = 0.5 * np.log(readings.variance / readings.noise).sum(axis=0)
-        return gains
+        return 0.5 * np.log(readings.variance / readings.noise).sum(axis=0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -84,8 +83,7 @@ class Criterion:
             Weights; shape (rows,).
         """
         allowed = np.repeat(self.case.requirement, 3)
-        weights: FloatArray = (posterior.to_wrench**2 / (allowed**2)[:, None]).sum(axis=0)
-        return weights
+        return (posterior.to_wrench**2 / (allowed**2)[:, None]).sum(axis=0)
 
     def value(self, posterior: Posterior) -> float:
         """Give what is to be lowered.
@@ -110,8 +108,7 @@ class Criterion:
         """
         moment = np.diag(moment_of_use(posterior, self.case))[:6]
         own = np.diagonal(posterior.learnt_covariance, axis1=1, axis2=2)
-        parts: FloatArray = (self.row_weights(posterior) @ own) * moment
-        return parts
+        return (self.row_weights(posterior) @ own) * moment
 
     def gains(self, posterior: Posterior, centre: FloatArray, readings: Readings) -> FloatArray:
         """As of `Aim`.
@@ -126,8 +123,7 @@ class Criterion:
         """
         moment, covariance = self._moment(posterior, centre), readings.with_unknowns
         lowered = np.einsum("inj,jk,ink->in", covariance, moment, covariance, optimize=True)
-        gains: FloatArray = self.row_weights(posterior) @ (lowered / readings.variance)
-        return gains
+        return self.row_weights(posterior) @ (lowered / readings.variance)
 
     def _moment(self, posterior: Posterior, centre: FloatArray) -> FloatArray:
         """Mean products at the loads of use of what the unknowns are multiplied by, for columns about their centre."""
@@ -136,8 +132,7 @@ class Criterion:
         places = [*range(size), size + len(posterior.sessions) - 1]
         turned = np.eye(size + 1)
         turned[:size, size] = -centre
-        moment: FloatArray = turned @ use[np.ix_(places, places)] @ turned.T
-        return moment
+        return turned @ use[np.ix_(places, places)] @ turned.T
 
 
 _OPEN = 1e6
@@ -209,8 +204,7 @@ def _posture_variance(white: float, ratio: float, time_s: float, hold_s: float, 
 def _taken(known: FloatArray, noise: FloatArray, design: FloatArray) -> FloatArray:
     """What is known once a reading more is taken; shape (rows, p, p)."""
     along = known @ design
-    narrowed: FloatArray = known - along[:, :, None] * along[:, None, :] / (noise + along @ design)[:, None, None]
-    return narrowed
+    return known - along[:, :, None] * along[:, None, :] / (noise + along @ design)[:, None, None]
 
 
 def _readings(known: FloatArray, noise: FloatArray, design: FloatArray) -> Readings:

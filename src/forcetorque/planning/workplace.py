@@ -57,8 +57,7 @@ class Workplace:
             Wrenches in the sensor's frame; shape (n, 6); N, N m.
         """
         root = RootMotion.fixed(self.stand.gravity_direction, gravity=self.stand.gravity)
-        loads: FloatArray = expected_wrenches(self.stand.tree, motion, root, [self.sensor])[self.sensor]
-        return loads
+        return expected_wrenches(self.stand.tree, motion, root, [self.sensor])[self.sensor]
 
     def postures(self, count: int, rng: np.random.Generator) -> FloatArray:
         """Draw postures: the rest first, then as many with every joint anywhere as with every joint at an end.

@@ -81,8 +81,7 @@ def residual_at_lags(pairs: Sequence[EvenPair]) -> Callable[[int], FloatArray]:
         readings = [pair.later(lag) for pair in pairs]
         total = sum(np.einsum("ij,ij->i", r, r) - r.shape[1] * r.mean(axis=1) ** 2 for r in readings)
         products = sum(r @ unit for r, unit in zip(readings, units, strict=True))
-        squares: FloatArray = np.asarray(total) - (np.asarray(products) ** 2).sum(axis=1)
-        return squares
+        return np.asarray(total) - (np.asarray(products) ** 2).sum(axis=1)
 
     return left
 
@@ -228,8 +227,7 @@ def _common_spans(first: FloatArray, second: FloatArray, within_s: float) -> lis
 
 
 def _grid(begin: float, end: float, step: float) -> FloatArray:
-    steps: FloatArray = begin + step * np.arange(int((end - begin) / step) + 1, dtype=np.float64)
-    return steps
+    return begin + step * np.arange(int((end - begin) / step) + 1, dtype=np.float64)
 
 
 def _gaps(times: FloatArray) -> Iterator[tuple[float, float]]:

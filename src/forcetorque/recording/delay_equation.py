@@ -167,13 +167,11 @@ class DelayEquation:
         )
 
     def _score(self, theta: FloatArray) -> FloatArray:
-        total: FloatArray = self._left(theta).score.sum(axis=0)
-        return total
+        return self._left(theta).score.sum(axis=0)
 
     def _unexplained(self) -> FloatArray:
         basis, _ = _projection(self._constant, self.reading)
-        left: FloatArray = self.reading - basis @ (basis.T @ self.reading)
-        return left
+        return self.reading - basis @ (basis.T @ self.reading)
 
     def _explained(self, error: FloatArray) -> float:
         square = (self._unexplained() ** 2).sum(axis=0)
@@ -201,8 +199,7 @@ def even_means(time_s: FloatArray, values: FloatArray, at: FloatArray, step_s: f
     )
     edges = [np.clip(at + side * step_s / 2.0, time_s[0], time_s[-1]) for side in (-1.0, 1.0)]
     before, after = (np.column_stack([np.interp(edge, time_s, column) for column in area.T]) for edge in edges)
-    means: FloatArray = (after - before) / (edges[1] - edges[0])[:, None]
-    return means
+    return (after - before) / (edges[1] - edges[0])[:, None]
 
 
 def smoothed(values: FloatArray) -> FloatArray:
@@ -219,8 +216,7 @@ def smoothed(values: FloatArray) -> FloatArray:
     """
     from scipy.ndimage import gaussian_filter1d  # here because importing it takes longer than most commands
 
-    smooth: FloatArray = gaussian_filter1d(values, _SMOOTH_STEPS, axis=0, mode="nearest")
-    return smooth
+    return gaussian_filter1d(values, _SMOOTH_STEPS, axis=0, mode="nearest")
 
 
 def _projection(design: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -240,8 +236,7 @@ def _slow_waves(score: FloatArray, information: FloatArray) -> FloatArray:
     # weighted cosines of Lazarus, Lewis, Stock and Watson, HAR inference (2018); time counts as information does
     total = np.cumsum(information)
     at = (total - 0.5 * information) / total[-1]
-    waves: FloatArray = np.sqrt(2.0) * np.cos(np.pi * np.arange(1, _WAVES + 1)[:, None] * at) @ score
-    return waves
+    return np.sqrt(2.0) * np.cos(np.pi * np.arange(1, _WAVES + 1)[:, None] * at) @ score
 
 
 def _block_sums(values: FloatArray, information: FloatArray, blocks: int) -> FloatArray:
@@ -251,5 +246,4 @@ def _block_sums(values: FloatArray, information: FloatArray, blocks: int) -> Flo
         raise RecordingError(f"expected at least {blocks // 2 * _FEWEST_STEPS} steps of time, got {len(values)}")
     total = np.cumsum(information)
     edges = np.searchsorted(total, total[-1] * np.arange(1, count) / count)
-    sums: FloatArray = np.array([part.sum(axis=0) for part in np.split(values, edges)])
-    return sums
+    return np.array([part.sum(axis=0) for part in np.split(values, edges)])

@@ -83,8 +83,7 @@ def _rounded(values: FloatArray) -> FloatArray:
     """Values to few digits; a zero of either sign is one zero."""
     size = np.abs(np.where(np.isfinite(values), values, 0.0))
     power = 10.0 ** (np.floor(np.log10(np.where(size > 0.0, size, 1.0))) - (_DIGITS - 1))
-    rounded: FloatArray = np.rint(np.where(np.isfinite(values), values, 0.0) / power) * power + 0.0
-    return rounded
+    return np.rint(np.where(np.isfinite(values), values, 0.0) / power) * power + 0.0
 
 
 def _mixed(value: Hashes) -> Hashes:
@@ -92,12 +91,10 @@ def _mixed(value: Hashes) -> Hashes:
     mixed: Any = value + np.uint64(0x9E3779B97F4A7C15)
     mixed = (mixed ^ (mixed >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     mixed = (mixed ^ (mixed >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    result: Hashes = mixed ^ (mixed >> np.uint64(31))
-    return result
+    return mixed ^ (mixed >> np.uint64(31))
 
 
 def _summed(flags: NDArray[np.bool_]) -> NDArray[np.int64]:
     """How many of every window's samples are so."""
     total = np.concatenate([[0], np.cumsum(flags)])
-    summed: NDArray[np.int64] = total[WINDOW:] - total[:-WINDOW]
-    return summed
+    return total[WINDOW:] - total[:-WINDOW]

@@ -122,8 +122,7 @@ class OrientationLayout:
     @property
     def world_gravity(self) -> FloatArray:
         """Gravity along the world's axes; shape (3,); m/s2."""
-        vector: FloatArray = self.gravity * self.gravity_direction / np.linalg.norm(self.gravity_direction)
-        return vector
+        return self.gravity * self.gravity_direction / np.linalg.norm(self.gravity_direction)
 
 
 QUATERNION_XYZW = OrientationLayout(form=OrientationForm.QUAT_XYZW, sense=OrientationSense.SENSOR_TO_WORLD)

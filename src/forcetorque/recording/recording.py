@@ -112,8 +112,7 @@ class Interval:
         Returns:
             Whether each does; shape (n,).
         """
-        inside: BoolArray = (stamp_ns >= self.start_ns) & (stamp_ns < self.end_ns)
-        return inside
+        return (stamp_ns >= self.start_ns) & (stamp_ns < self.end_ns)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

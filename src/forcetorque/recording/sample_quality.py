@@ -94,8 +94,7 @@ class SampleQuality:
     @property
     def unusable(self) -> BoolArray:
         """Samples that belong into no fit and no evaluation; shape (n,)."""
-        unusable: BoolArray = self.frozen | self.saturated | self.repeated
-        return unusable
+        return self.frozen | self.saturated | self.repeated
 
     def counted(self, among: BoolArray) -> UnusableCounts:
         """Count the unusable samples of a set.
@@ -283,8 +282,7 @@ def _are_on_grid(changes: FloatArray, step: FloatArray) -> BoolArray:
     changed = (changes != 0.0) & (step > 0.0)
     steps = np.divide(changes, step, out=np.zeros_like(changes), where=changed)
     whole = changed & (np.abs(steps - np.round(steps)) < _ON_GRID)
-    on_grid: BoolArray = whole.sum(axis=0) > 0.5 * changed.sum(axis=0)
-    return on_grid
+    return whole.sum(axis=0) > 0.5 * changed.sum(axis=0)
 
 
 def _beside_cubic(stamp_ns: IntArray, values: FloatArray) -> FloatArray:
@@ -304,8 +302,7 @@ def _beside_cubic(stamp_ns: IntArray, values: FloatArray) -> FloatArray:
 def _moved(block: FloatArray) -> FloatArray:
     """By how much the mean of a block's second half differs from that of its first; shape (c,)."""
     half = len(block) // 2
-    change: FloatArray = np.abs(block[half:].mean(axis=0) - block[:half].mean(axis=0))
-    return change
+    return np.abs(block[half:].mean(axis=0) - block[:half].mean(axis=0))
 
 
 def ranges_of(values: FloatArray) -> FloatArray:

@@ -224,5 +224,4 @@ def _smooth_on_grid(
     before, after = np.minimum(places - grid[0], 0.0), np.maximum(places - grid[-1], 0.0)
     inner = np.column_stack([np.interp(places, grid, column) for column in filtered.T])
     outer = np.outer(before, filtered[1] - filtered[0]) + np.outer(after, filtered[-1] - filtered[-2])
-    result: FloatArray = inner + outer
-    return result
+    return inner + outer

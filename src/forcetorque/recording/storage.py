@@ -246,16 +246,14 @@ def _samples(table: Any, name: str, *, width: int) -> FloatArray:
         raise FormatError(f"column {name!r}: expected lists of {width} float64 each, got {form}")
     if column.values.null_count:
         raise FormatError(f"column {name!r}: expected numbers, got empty values; NaN marks a gap")
-    values: FloatArray = arrow_numbers(column.values).reshape(len(table), width)
-    return values
+    return arrow_numbers(column.values).reshape(len(table), width)
 
 
 def _integers(table: Any, name: str) -> IntArray:
     column = _column(table, name)
     if not pa.types.is_int64(column.type):
         raise FormatError(f"column {name!r}: expected int64, got {column.type}")
-    integers: IntArray = arrow_numbers(column)
-    return integers
+    return arrow_numbers(column)
 
 
 _LABELS = {

@@ -335,8 +335,7 @@ class Stream:
         """Samples that the board itself calls saturated: it repeats its last valid one; shape (n,)."""
         if "saturated" not in self.signals:
             return np.zeros(len(self), dtype=bool)
-        held: BoolArray = self.signals["saturated"].values[:, 0] > 0.0
-        return held
+        return self.signals["saturated"].values[:, 0] > 0.0
 
     def signal(self, quantity: str) -> Signal:
         """Give one signal.

@@ -160,8 +160,7 @@ def link_pose(tree: BodyTree, joints: JointMotion, link: str) -> FloatArray:
         RobotError: If the robot has no such link, or a joint between the two links is not in `joints`.
     """
     index = _path(tree, link)[-1]
-    pose: FloatArray = body_pose(tree, joints, index) @ tree.frames[link][1]
-    return pose
+    return body_pose(tree, joints, index) @ tree.frames[link][1]
 
 
 def joints_between(tree: BodyTree, link: str) -> tuple[str, ...]:
@@ -246,5 +245,4 @@ def _across(body: Body, q: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _into(parent_R_body: FloatArray, parent_vector: FloatArray) -> FloatArray:
-    vector: FloatArray = np.einsum("...ji,...j->...i", parent_R_body, parent_vector)
-    return vector
+    return np.einsum("...ji,...j->...i", parent_R_body, parent_vector)

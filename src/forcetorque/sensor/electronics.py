@@ -38,8 +38,7 @@ def bridge_ratio(resistances: Any) -> FloatArray:
     if not (ohms > 0.0).all():
         raise SensorError(f"resistances: expected numbers above 0 ohm, got {ohms.min():g}")
     r1, r2, r3, r4 = np.moveaxis(ohms, -1, 0)
-    ratio: FloatArray = (r1 * r3 - r2 * r4) / ((r1 + r2) * (r3 + r4))
-    return ratio
+    return (r1 * r3 - r2 * r4) / ((r1 + r2) * (r3 + r4))
 
 
 def linearised_bridge_ratio(relative_changes: Any) -> FloatArray:
@@ -58,8 +57,7 @@ def linearised_bridge_ratio(relative_changes: Any) -> FloatArray:
     """
     changes = np.asarray(relative_changes, dtype=np.float64)
     require_last_axis(changes, name="relative_changes", length=4)
-    ratio: FloatArray = 0.25 * (changes @ np.array([1.0, -1.0, 1.0, -1.0]))
-    return ratio
+    return 0.25 * (changes @ np.array([1.0, -1.0, 1.0, -1.0]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -192,8 +190,7 @@ class Amplifier:
         """
         volts = np.asarray(voltage, dtype=np.float64)
         require_last_axis(volts, name="voltage", length=len(self.amplifier_gain))
-        amplified: FloatArray = self.amplifier_gain * volts + self.offset
-        return amplified
+        return self.amplifier_gain * volts + self.offset
 
     def input(self, output: Any) -> FloatArray:
         """Give the input that an output tells.
@@ -209,8 +206,7 @@ class Amplifier:
         """
         volts = np.asarray(output, dtype=np.float64)
         require_last_axis(volts, name="output", length=len(self.amplifier_gain))
-        before: FloatArray = (volts - self.offset) / self.amplifier_gain
-        return before
+        return (volts - self.offset) / self.amplifier_gain
 
 
 _MOST_BITS = 32
@@ -275,8 +271,7 @@ class Adc:
         if np.isnan(steps).any():
             raise SensorError("Adc: expected voltages that are numbers, got NaN")
         whole = np.rint(steps) if self.rounding is Rounding.NEAREST else np.floor(steps)
-        clipped: FloatArray = np.clip(whole, self.lowest, self.highest)
-        return clipped
+        return np.clip(whole, self.lowest, self.highest)
 
     def voltage(self, counts: Any) -> FloatArray:
         """Give the voltage in the middle of those that convert to a count.
@@ -296,8 +291,7 @@ class Adc:
                 f"Adc: expected counts from {self.lowest} to {self.highest}, got {whole.min():g} to {whole.max():g}"
             )
         middle = 0.5 if self.rounding is Rounding.DOWN else 0.0
-        volts: FloatArray = self.step * (whole + middle)
-        return volts
+        return self.step * (whole + middle)
 
     def at_limit(self, counts: Any) -> BoolArray:
         """Say which counts cannot be told from a voltage beyond the range: that is saturation.
@@ -309,8 +303,7 @@ class Adc:
             Whether each is at the lowest or the highest count; same shape.
         """
         whole = np.asarray(counts, dtype=np.float64)
-        limits: BoolArray = (whole <= self.lowest) | (whole >= self.highest)
-        return limits
+        return (whole <= self.lowest) | (whole >= self.highest)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

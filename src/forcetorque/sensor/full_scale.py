@@ -104,8 +104,7 @@ def axis_resolution(matrix: Any) -> FloatArray:
         ShapeError: If the matrix has not six rows.
         SensorError: If an entry is not finite.
     """
-    steps: FloatArray = np.abs(_checked(matrix)).sum(axis=1)
-    return steps
+    return np.abs(_checked(matrix)).sum(axis=1)
 
 
 def quantisation_noise(matrix: Any) -> FloatArray:
@@ -124,8 +123,7 @@ def quantisation_noise(matrix: Any) -> FloatArray:
         ShapeError: If the matrix has not six rows.
         SensorError: If an entry is not finite.
     """
-    noise: FloatArray = np.linalg.norm(_checked(matrix), axis=1) / math.sqrt(12.0)
-    return noise
+    return np.linalg.norm(_checked(matrix), axis=1) / math.sqrt(12.0)
 
 
 def _checked(matrix: Any) -> FloatArray:

@@ -36,8 +36,7 @@ class Crosstalk:
             Counts; shape (n, c).
         """
         relative = wrench / self.full_scale
-        added: FloatArray = np.einsum("ni,cij,nj->nc", relative, self.quadratic, relative)
-        return added
+        return np.einsum("ni,cij,nj->nc", relative, self.quadratic, relative)
 
 
 def lagging(values: FloatArray, time_constant_s: float, *, rate_hz: float) -> FloatArray:
@@ -54,8 +53,7 @@ def lagging(values: FloatArray, time_constant_s: float, *, rate_hz: float) -> Fl
     from scipy.signal import lfilter  # here because importing it takes longer than most commands
 
     keep = float(np.exp(-1.0 / (time_constant_s * rate_hz)))
-    late: FloatArray = lfilter([1.0 - keep], [1.0, -keep], values, axis=0, zi=keep * values[:1])[0]
-    return late
+    return lfilter([1.0 - keep], [1.0, -keep], values, axis=0, zi=keep * values[:1])[0]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,8 +120,7 @@ class ScrewPattern:
         harmonics = 1 if len(self.angle_rad) < 5 else 2
         design = _harmonics(self.angle_rad, harmonics)
         coefficients = np.linalg.lstsq(design, deviation, rcond=None)[0]
-        smooth: FloatArray = _harmonics(np.asarray(angle_rad, dtype=np.float64), harmonics) @ coefficients
-        return smooth
+        return _harmonics(np.asarray(angle_rad, dtype=np.float64), harmonics) @ coefficients
 
 
 def mounted(
@@ -193,8 +190,7 @@ class Noise:
         spectrum = np.fft.rfft(white, axis=0)
         frequency = np.fft.rfftfreq(samples, 1.0 / rate_hz)
         spectrum[1:] *= np.sqrt(1.0 + self.corner_hz / frequency[1:])[:, None]
-        coloured: FloatArray = np.fft.irfft(spectrum, n=samples, axis=0)
-        return coloured
+        return np.fft.irfft(spectrum, n=samples, axis=0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

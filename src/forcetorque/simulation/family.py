@@ -129,8 +129,7 @@ class SensorFamily:
         scatter = np.array([spread.axis_m, spread.axis_m, spread.height_m]) * rng.standard_normal(3)
         place = np.array([*self.axis_m, self.height_m]) + scatter
         strength = np.exp(spread.sensitivity * rng.standard_normal() + spread.gauge * rng.standard_normal((6, 1)))
-        sensitivity: FloatArray = strength * self.electronics.counts_per_strain * self._in_frame(tilted, place)
-        return sensitivity
+        return strength * self.electronics.counts_per_strain * self._in_frame(tilted, place)
 
     def _in_frame(self, strain: FloatArray, place: FloatArray) -> FloatArray:
         """Strain per wrench in the sensor's frame, from that per wrench in the middle of the arms."""

@@ -229,10 +229,8 @@ def _starts(stream: Stream, count: int, *, length: int, rng: np.random.Generator
             f"got {len(stream)} messages"
         )
     chosen = np.sort(rng.choice(places, size=count, replace=False)) if count else np.empty(0)
-    starts: IntArray = 1 + chosen.astype(np.int64) + length * np.arange(count)
-    return starts
+    return 1 + chosen.astype(np.int64) + length * np.arange(count)
 
 
 def _rows(starts: IntArray, length: int) -> IntArray:
-    rows: IntArray = (starts[:, None] + np.arange(length)).ravel()
-    return rows
+    return (starts[:, None] + np.arange(length)).ravel()

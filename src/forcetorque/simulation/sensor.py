@@ -26,8 +26,7 @@ def matrix_error(workbench: FloatArray, mounted: FloatArray) -> FloatArray:
     Returns:
         E, force before moment; shape (6, 6); 1, 1/m above on the right, m below on the left.
     """
-    error: FloatArray = workbench @ np.linalg.inv(mounted) - np.eye(6)
-    return error
+    return workbench @ np.linalg.inv(mounted) - np.eye(6)
 
 
 def random_matrix_error(share: float, lever_m: float, rng: np.random.Generator) -> FloatArray:
@@ -43,8 +42,7 @@ def random_matrix_error(share: float, lever_m: float, rng: np.random.Generator) 
     """
     drawn = rng.standard_normal((6, 6))
     size = np.repeat([1.0, lever_m], 3)
-    error: FloatArray = share / np.sqrt((drawn**2).mean()) * drawn * size[:, None] / size
-    return error
+    return share / np.sqrt((drawn**2).mean()) * drawn * size[:, None] / size
 
 
 def mounted_matrix(where: str, workbench: FloatArray, error: FloatArray) -> FloatArray:
@@ -163,8 +161,7 @@ class SimulatedSensor:
         Returns:
             The bias; shape (6,); N, N m.
         """
-        bias: FloatArray = -matrix @ np.linalg.solve(self.matrix, self.offset)
-        return bias
+        return -matrix @ np.linalg.solve(self.matrix, self.offset)
 
     def with_gains(self, ratio: Any) -> SimulatedSensor:
         """Change the gains of the amplifier; noise is taken to come after it.
@@ -222,8 +219,7 @@ def distorted_by_mounting(matrix: FloatArray, *, relative: float, rng: np.random
         Matrix after mounting; shape (6, c).
     """
     scale = np.sqrt((matrix**2).mean(axis=1, keepdims=True))
-    distorted: FloatArray = matrix + relative * scale * rng.standard_normal(matrix.shape)
-    return distorted
+    return matrix + relative * scale * rng.standard_normal(matrix.shape)
 
 
 def calibrated_by_board(recording: Recording, stream: str, *, matrix: FloatArray, frame: str) -> Recording:

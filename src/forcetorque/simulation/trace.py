@@ -213,8 +213,7 @@ def _joint_signals(movement: Movement, motion: JointMotion, *, exact: bool) -> I
 
 
 def _even_stamps(duration_s: float, rate_hz: float) -> IntArray:
-    ticks: IntArray = np.rint(np.arange(int(duration_s * rate_hz)) * (1e9 / rate_hz)).astype(np.int64)
-    return ticks
+    return np.rint(np.arange(int(duration_s * rate_hz)) * (1e9 / rate_hz)).astype(np.int64)
 
 
 def _stamps(duration_s: float, rate_hz: float, rng: np.random.Generator) -> IntArray:
@@ -234,8 +233,7 @@ def _stream(name: str, stamps: IntArray, *signals: Signal) -> Stream:
 def _temperature(share: FloatArray, ends: tuple[float, float] | None) -> FloatArray | None:
     if ends is None:
         return None
-    linear: FloatArray = ends[0] + (ends[1] - ends[0]) * share
-    return linear
+    return ends[0] + (ends[1] - ends[0]) * share
 
 
 def record(

@@ -250,5 +250,4 @@ def _squared_error(calibration: Calibration, intervals: Sequence[IntervalMoments
     """Mean squared error over all samples, each read with the offset of its session."""
     offsets = {session.name: session.offset for session in calibration.sessions}
     errors = [one.moments.squared_error(replace(calibration.model, offset=offsets[one.session])) for one in intervals]
-    mean: FloatArray = np.average(errors, axis=0, weights=[one.samples for one in intervals])
-    return mean
+    return np.average(errors, axis=0, weights=[one.samples for one in intervals])

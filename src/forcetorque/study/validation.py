@@ -156,5 +156,4 @@ class _Stack:
     def offsets_from(self, one: ValidationSet, first: BoolArray) -> FloatArray:
         """The offsets with which the mean error of some samples, that of the mean reading, is zero; shape (k, 6)."""
         raw, variables, reference = (values[first].mean(axis=0) for values in (one.raw, one.variables, one.reference))
-        offsets: FloatArray = reference - (self.matrices @ raw + self.coefficients @ variables)
-        return offsets
+        return reference - (self.matrices @ raw + self.coefficients @ variables)

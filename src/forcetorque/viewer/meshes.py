@@ -194,12 +194,10 @@ def _numbered(triples: IntArray) -> IntArray:
     sizes = triples.max(axis=0, initial=0) + 1
     if float(np.prod(sizes.astype(np.float64))) > _MOST_NUMBERS:
         return np.unique(triples, axis=0, return_inverse=True)[1].reshape(-1)
-    numbers: IntArray = (triples[:, 0] * sizes[1] + triples[:, 1]) * sizes[2] + triples[:, 2]
-    return numbers
+    return (triples[:, 0] * sizes[1] + triples[:, 1]) * sizes[2] + triples[:, 2]
 
 
 def _means(values: FloatArray, group: IntArray) -> FloatArray:
     counts = np.bincount(group)
     sums = np.stack([np.bincount(group, weights=values[:, k]) for k in range(3)], axis=1)
-    means: FloatArray = sums / counts[:, None]
-    return means
+    return sums / counts[:, None]

@@ -103,8 +103,7 @@ def upright(gravity_direction: FloatArray) -> FloatArray:
     quat_xyzw = np.stack([up[..., 1], -up[..., 0], np.zeros_like(up[..., 0]), 1.0 + up[..., 2]], axis=-1)
     turned = np.linalg.norm(quat_xyzw, axis=-1, keepdims=True) < 1e-9
     quat_xyzw = np.where(turned, [1.0, 0.0, 0.0, 0.0], quat_xyzw)
-    matrices: FloatArray = Rotation.from_quat(quat_xyzw.reshape(-1, 4)).as_matrix().reshape(*up.shape, 3)
-    return matrices
+    return Rotation.from_quat(quat_xyzw.reshape(-1, 4)).as_matrix().reshape(*up.shape, 3)
 
 
 def _nearest(stamp_ns: IntArray, intervals: Sequence[Interval]) -> tuple[IntArray, np.ndarray]:

@@ -82,8 +82,7 @@ class Bench:
         """Instants of the positions, far apart where they are not known: no slow noise joins them then; shape (n,)."""
         if self.time_s is None:
             return APART_S * np.arange(len(self), dtype=np.float64)
-        instants: FloatArray = self.time_s
-        return instants
+        return self.time_s
 
     def taken(self, positions: Any) -> Bench:
         """Give some of the positions.
@@ -127,8 +126,7 @@ class Bench:
             Changes of wrench from the bias; shape (n, 6); N, N m.
         """
         require_shape(matrix, name="matrix", shape=(6, self.raw.shape[1]))
-        wrench: FloatArray = self.raw @ matrix.T
-        return wrench
+        return self.raw @ matrix.T
 
 
 BIAS = "bias"

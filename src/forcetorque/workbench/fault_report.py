@@ -62,8 +62,7 @@ class Examined:
     @property
     def error(self) -> FloatArray:
         """Read less known wrench; shape (n, 6); N, N m."""
-        error: FloatArray = self.read - self.bench.loads.wrench
-        return error
+        return self.read - self.bench.loads.wrench
 
     def rows(self) -> tuple[FaultRow, ...]:
         """Give its faults as rows.

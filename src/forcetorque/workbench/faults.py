@@ -301,8 +301,7 @@ def log_upper_tail(explained: FloatArray, amounts: FloatArray, degrees_of_freedo
     else:
         tail = gammaincc(count, half)
         far = (count - 1.0) * np.log(np.maximum(half, 1.0)) - half - gammaln(count)
-    logarithm: FloatArray = np.where(tail > _TINY, np.log(np.maximum(tail, _TINY)), far)
-    return logarithm
+    return np.where(tail > _TINY, np.log(np.maximum(tail, _TINY)), far)
 
 
 def _named(suspect: Suspect, loads: BenchLoads) -> Suspect:

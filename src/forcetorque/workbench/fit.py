@@ -37,8 +37,7 @@ class BenchFit:
     @property
     def offset(self) -> FloatArray:
         """Offset for readings as they come, with the last bias; shape (6,); N, N m."""
-        offset: FloatArray = self.fit.model.offset - self.fit.model.matrix @ self.bench.bias
-        return offset
+        return self.fit.model.offset - self.fit.model.matrix @ self.bench.bias
 
 
 def fit_bench(bench: Bench) -> BenchFit:
@@ -103,8 +102,7 @@ def _weights(bench: Bench, fit: GenerativeFit) -> FloatArray:
     scatter, between = bench.standard_error / bench.full_scale, (left / bench.full_scale) ** 2
     beyond = np.maximum(between.mean(axis=0) - (scatter**2).mean(axis=0), _SURE**2)
     variance = (1.0 + scatter**2 / beyond).mean(axis=1)
-    weight: FloatArray = np.median(variance) / variance
-    return weight
+    return np.median(variance) / variance
 
 
 _STUDENT = 1.0
@@ -131,8 +129,7 @@ def reading_matrix(bench: Bench, scatter: Scatter) -> FloatArray:
     precision = np.asarray(np.linalg.inv(scatter.covariance), dtype=np.float64)
     starts = np.stack([*([] if bench.prior is None else [_of_prior(bench)]), *_by_swaps(loads, counts)])
     matrices, worth = _settled(loads, counts, precision, starts)
-    reading: FloatArray = matrices[int(np.argmin(worth))] / bench.full_scale
-    return reading
+    return matrices[int(np.argmin(worth))] / bench.full_scale
 
 
 def _of_prior(bench: Bench) -> FloatArray:
@@ -183,5 +180,4 @@ def _lines(design: FloatArray, counts: FloatArray, weights: FloatArray) -> Float
     shared = np.einsum("sp,pi,pc->sic", weights, unit, counts, optimize=True)
     response = np.linalg.solve(moments, shared) / scale[:, None]
     matrices = np.linalg.pinv(response[:, :6].transpose(0, 2, 1))
-    lines: FloatArray = np.concatenate([matrices, -(matrices @ response[:, 6, :, None])], axis=2)
-    return lines
+    return np.concatenate([matrices, -(matrices @ response[:, 6, :, None])], axis=2)

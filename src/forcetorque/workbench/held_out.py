@@ -46,16 +46,14 @@ def held_out_errors(fitted: BenchFit, parts: Sequence[IntArray]) -> FloatArray:
         for part in parts:
             itself = design[part] @ covariance @ (design[part] / variance[part, None]).T
             left[part, row] = np.linalg.solve(np.eye(len(part)) - itself, residual[part])
-    errors: FloatArray = left @ posterior.to_wrench.T
-    return errors
+    return left @ posterior.to_wrench.T
 
 
 def _response(fitted: BenchFit) -> FloatArray:
     """What the rows of the posterior are regressed on, less what they are expected to be; shape (n, rows)."""
     prior, means = fitted.bench.prior, fitted.means
     if fitted.fit.posterior.space == "wrench":
-        read: FloatArray = means.raw @ np.asarray(prior).T - means.reference
-        return read
+        return means.raw @ np.asarray(prior).T - means.reference
     if prior is None:
         return means.raw
     scale = fitted.bench.full_scale
@@ -126,5 +124,4 @@ def rms(errors: FloatArray) -> FloatArray:
     Returns:
         Of every component; shape (6,); N, N m.
     """
-    size: FloatArray = np.sqrt((errors**2).mean(axis=0))
-    return size
+    return np.sqrt((errors**2).mean(axis=0))

@@ -66,8 +66,7 @@ class Weights:
         """
         force = self.gravity * self.total_kg[:, None] * self.direction
         acting = np.hstack([force, np.cross(self.position_m, force)])
-        wrench: FloatArray = -reading_sign(measure_direction, child_is_outboard=True) * acting
-        return wrench
+        return -reading_sign(measure_direction, child_is_outboard=True) * acting
 
 
 def _require_weights(weights: Weights) -> None:

@@ -60,8 +60,7 @@ class ResidualSpace:
     @property
     def own(self) -> FloatArray:
         """Blocks of the precision of every position with itself; shape (n, 6, 6)."""
-        own: FloatArray = np.einsum("pipj->pij", self.precision)
-        return own
+        return np.einsum("pipj->pij", self.precision)
 
     def weighed(self, residual: FloatArray) -> FloatArray:
         """Multiply readings by the precision.
@@ -74,8 +73,7 @@ class ResidualSpace:
         """
         n = len(self.precision)
         flat = residual.reshape(len(residual), 6 * n) @ self.precision.reshape(6 * n, 6 * n)
-        weighed: FloatArray = flat.reshape(residual.shape)
-        return weighed
+        return flat.reshape(residual.shape)
 
     def distances(self, weighed: FloatArray) -> FloatArray:
         """Say how far positions are from what all others say of them.
@@ -87,8 +85,7 @@ class ResidualSpace:
             Squared distances, chi-squared of 6 for the stated scatter; shape (s, n).
         """
         inverse = np.linalg.pinv(self.own, rcond=_RANK, hermitian=True)
-        squares: FloatArray = np.einsum("spi,pij,spj->sp", weighed, inverse, weighed)
-        return squares
+        return np.einsum("spi,pij,spj->sp", weighed, inverse, weighed)
 
 
 def design_columns(loads: FloatArray) -> FloatArray:
@@ -101,8 +98,7 @@ def design_columns(loads: FloatArray) -> FloatArray:
         A column per coefficient, position by position; shape (6 n, 42).
     """
     with_one = np.hstack([loads, np.ones((len(loads), 1))])
-    columns: FloatArray = np.einsum("pk,ij->pikj", with_one, np.eye(6)).reshape(6 * len(loads), 42)
-    return columns
+    return np.einsum("pk,ij->pikj", with_one, np.eye(6)).reshape(6 * len(loads), 42)
 
 
 LEAST_SENSORS = 30

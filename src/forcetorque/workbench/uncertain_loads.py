@@ -149,8 +149,7 @@ class MatrixError:
         variance = np.einsum("iaib,...a,...b->...i", self.covariance, loads, loads)
         terms = np.abs(loads[..., None, :] * self.unspanned)
         beyond = (np.abs(loads @ self.unspanned.T) > RANK_TOLERANCE * terms.sum(axis=-1)).any(axis=-1)
-        error: FloatArray = np.where(beyond[..., None], np.inf, np.sqrt(np.maximum(variance, 0.0)))
-        return error
+        return np.where(beyond[..., None], np.inf, np.sqrt(np.maximum(variance, 0.0)))
 
     def trace(self, loads: Any) -> tuple[float, float]:
         """Foretell the mean square of the error over loads of use.

@@ -61,8 +61,7 @@ class Autocorrelation:
     @property
     def white_band(self) -> FloatArray:
         """Bound below which 95 % of the magnitudes of rho of white noise lie, `NORMAL_95 / sqrt(pairs)`; shape (l,)."""
-        band: FloatArray = NORMAL_95 / np.sqrt(self.pairs)
-        return band
+        return NORMAL_95 / np.sqrt(self.pairs)
 
 
 def autocorrelation(values: Any, time_s: Any) -> Autocorrelation:
@@ -139,8 +138,7 @@ def _scaled(signal: FloatArray, known: np.ndarray[Any, np.dtype[np.bool_]]) -> F
     if np.ptp(finite) == 0.0:  # the mean of equal numbers may differ from them in the last bit
         return np.zeros_like(signal)
     centred = np.where(known, signal - finite.mean(), 0.0)
-    scaled: FloatArray = centred / np.abs(centred).max()
-    return scaled
+    return centred / np.abs(centred).max()
 
 
 def _pooled_products(parts: list[FloatArray]) -> FloatArray:

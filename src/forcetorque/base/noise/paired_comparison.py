@@ -259,5 +259,4 @@ def _log_ratios(squares: FloatArray, count: int, least: float) -> FloatArray:
     cut = longer * (size + 1)  # the first parts have a sample more
     parts = squares[:, :cut].reshape(2, longer, size + 1), squares[:, cut:].reshape(2, -1, size)
     means = np.maximum(np.concatenate([part.mean(axis=2) for part in parts], axis=1), least)
-    logs: FloatArray = 0.5 * np.log(means[0] / means[1])
-    return logs
+    return 0.5 * np.log(means[0] / means[1])

@@ -62,8 +62,7 @@ class Regression:
     @property
     def standard_error(self) -> FloatArray:
         """Standard errors of the coefficients; shape (k, p)."""
-        error: FloatArray = np.sqrt(np.diagonal(self.covariance, axis1=1, axis2=2))
-        return error
+        return np.sqrt(np.diagonal(self.covariance, axis1=1, axis2=2))
 
     @property
     def half_width(self) -> FloatArray:
@@ -85,8 +84,7 @@ def half_width(standard_error: FloatArray, degrees_of_freedom: FloatArray) -> Fl
 
     known = degrees_of_freedom > 0.0
     quantile = stdtrit(np.where(known, degrees_of_freedom, 1.0), 0.5 + 0.5 * CONFIDENCE)
-    half: FloatArray = np.where(known, quantile * np.where(known, standard_error, 0.0), np.inf)
-    return half
+    return np.where(known, quantile * np.where(known, standard_error, 0.0), np.inf)
 
 
 def regress(

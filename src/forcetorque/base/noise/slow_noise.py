@@ -164,8 +164,7 @@ class Timeline:
         backward = turned._factors(noise)[0][::-1]
         diagonal = self._precisions[noise.time_constant_s][0] + noise.ratio * self.share
         inner = 1.0 / (forward + backward - diagonal)  # diagonal of the inverse of a tridiagonal matrix
-        alone: FloatArray = self.share - noise.ratio * self.share**2 * inner
-        return alone
+        return self.share - noise.ratio * self.share**2 * inner
 
     def _factors(self, noise: SlowNoise) -> tuple[FloatArray, FloatArray, float]:
         """Pivots and multipliers of `T + r D^-1`, and the log determinant of T."""

@@ -163,8 +163,7 @@ def _largest_in_range(matrix: FloatArray, calibration: Calibration) -> FloatArra
     for name, limits in (("raw_minimum_counts", low), ("raw_maximum_counts", high)):
         require_shape(limits, name=name, shape=(matrix.shape[1],))
     ends = np.stack([matrix * low, matrix * high])  # (2, 6, c)
-    largest: FloatArray = np.maximum(ends.max(axis=0).sum(axis=1), -ends.min(axis=0).sum(axis=1))
-    return largest
+    return np.maximum(ends.max(axis=0).sum(axis=1), -ends.min(axis=0).sum(axis=1))
 
 
 def _entry(

@@ -301,5 +301,4 @@ def outline(points: FloatArray) -> FloatArray:
     except (QhullError, ValueError):
         # fewer than three points, or all on one line: the points themselves show all there is
         return points[:0]
-    closed: FloatArray = points[np.append(corners, corners[0])]
-    return closed
+    return points[np.append(corners, corners[0])]

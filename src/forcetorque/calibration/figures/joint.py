@@ -106,5 +106,4 @@ def _draw(panel: Axes, residuals: Sequence[PartResidual], starts: dict[str, floa
 
 
 def _sizes(values: FloatArray) -> FloatArray:
-    sizes: FloatArray = np.sqrt((values**2).sum(axis=1))
-    return sizes
+    return np.sqrt((values**2).sum(axis=1))

@@ -159,8 +159,7 @@ def _sessions(
 def _prior_offset(intervals: Sequence[IntervalMoments], session: str, prior: FloatArray) -> FloatArray:
     """Offset that the samples of a session give with the prior matrix."""
     moments = pooled(interval.moments for interval in intervals if interval.session == session)
-    offset: FloatArray = moments.reference_mean - prior @ moments.raw_mean
-    return offset
+    return moments.reference_mean - prior @ moments.raw_mean
 
 
 def _variable(

@@ -139,23 +139,20 @@ def _mean_variance(data: DataSet, error: FloatArray, window: IntArray) -> FloatA
     total, square = (np.stack([np.bincount(of_part, column) for column in (means**k).T], axis=1) for k in (1, 2))
     variance = np.maximum(square / number - (total / number) ** 2, 0.0) / np.maximum(number - 1, 1)
     around = np.concatenate([variance[:1], variance, variance[-1:]])
-    middle: FloatArray = np.median(np.stack([around[:-2], around[1:-1], around[2:]]), axis=0)
-    return middle
+    return np.median(np.stack([around[:-2], around[1:-1], around[2:]]), axis=0)
 
 
 def _level(left: FloatArray) -> FloatArray:
     """Median of the windows around each; shape (n, 6)."""
     count = min(_AROUND, len(left))
     around = np.median(np.lib.stride_tricks.sliding_window_view(left, count, axis=0), axis=-1)
-    level: FloatArray = around[np.clip(np.arange(len(left)) - count // 2, 0, len(around) - 1)]
-    return level
+    return around[np.clip(np.arange(len(left)) - count // 2, 0, len(around) - 1)]
 
 
 def _window_of_samples(data: DataSet) -> IntArray:
     """Number of the window that each sample is in, as `WindowMeans.of` cuts them; shape (n,)."""
     window = np.floor((data.time_s - data.time_s[0]) / WINDOW_S + 1e-9)
-    numbers: IntArray = np.cumsum(np.diff(window, prepend=-1.0) > 0.0) - 1
-    return numbers
+    return np.cumsum(np.diff(window, prepend=-1.0) > 0.0) - 1
 
 
 def _spans(data: DataSet, window: IntArray, marks: BoolArray, left: FloatArray) -> Iterator[Disagreeing]:

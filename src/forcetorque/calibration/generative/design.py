@@ -107,8 +107,7 @@ def session_means(values: FloatArray, member: IntArray, count: FloatArray) -> Fl
     """
     total = np.zeros((int(member.max()) + 1, values.shape[1]))
     np.add.at(total, member, values * count[:, None])
-    means: FloatArray = total / np.bincount(member, weights=count)[:, None]
-    return means
+    return total / np.bincount(member, weights=count)[:, None]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -80,8 +80,7 @@ class _Row:
         solution = np.einsum("kij,kj->ki", np.linalg.pinv(columns, hermitian=True), shared)
         left = self.response - np.einsum("ki,ki->k", shared, solution)
         self.variance = np.maximum(left / (freedom - len(used)), self.least)
-        first: FloatArray = solution[np.argmax(self.allowed)]
-        return first
+        return solution[np.argmax(self.allowed)]
 
     def spectra(self, deviations: FloatArray, picked: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Eigenvalues and vectors of the scaled data, and the response along them."""
@@ -195,8 +194,7 @@ class _Sizes:
             np.add.at(total[number], self.kinds[unknowns], square)
             np.add.at(count[number], self.kinds[unknowns], share)
         estimate = np.sqrt((total + finite * self.expected**2) / (count + finite))
-        sizes: FloatArray = np.where(fixed, self.expected, np.clip(estimate, _LEAST, _LARGEST))
-        return sizes
+        return np.where(fixed, self.expected, np.clip(estimate, _LEAST, _LARGEST))
 
     def deviance(self, sizes: FloatArray) -> float:
         """Give the deviance of sizes without data, which `estimated` minimises together with that of the data."""

@@ -174,16 +174,14 @@ def _residual(design: Design, error: FloatArray, offsets: FloatArray, drifts: Fl
     left = error + offsets[member]
     if drifts is not None:
         left = left + drifts[member] * design.free[:, sessions:].sum(axis=1)[:, None]
-    residual: FloatArray = np.sqrt(np.average(left**2, axis=0, weights=design.timeline.share))
-    return residual
+    return np.sqrt(np.average(left**2, axis=0, weights=design.timeline.share))
 
 
 def _rough(raw: FloatArray, wrench: FloatArray) -> FloatArray:
     """A matrix that reads the data roughly, for a sensor that has none."""
     design = np.c_[wrench, np.ones(len(wrench))]
     response = np.linalg.lstsq(design, raw, rcond=None)[0][:LOADS].T
-    matrix: FloatArray = np.linalg.pinv(response)
-    return matrix
+    return np.linalg.pinv(response)
 
 
 def _scales(*, with_prior: bool) -> tuple[Scale, ...]:

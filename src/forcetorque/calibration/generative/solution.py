@@ -92,8 +92,7 @@ class SolvedRows:
         """
         place = 2 * LOADS + self.expected_rows.shape[1]
         terms = np.stack([unknown.coefficients[place : place + len(PAIRS[0])] for unknown in self.unknowns])
-        scaled: FloatArray = terms * self.rows.unit[:, None]
-        return scaled
+        return terms * self.rows.unit[:, None]
 
     def _noise(self) -> tuple[RowNoise, ...]:
         """Noise of every row, in its unit of readings."""

@@ -66,8 +66,7 @@ class JointFit:
             1 + D; shape (6, 6); N, N m.
         """
         change = self.mean[self.places.changes(sensor)].reshape(6, 6)
-        factor: FloatArray = np.eye(6) + UNITS[:, None] * change / UNITS
-        return factor
+        return np.eye(6) + UNITS[:, None] * change / UNITS
 
     def offset(self, sensor: str, session: str) -> FloatArray:
         """Give what is to be added to the wrenches of a sensor.
@@ -79,8 +78,7 @@ class JointFit:
         Returns:
             Offset; shape (6,); N, N m.
         """
-        offset: FloatArray = self.mean[self.places.offset(sensor, session)] * UNITS
-        return offset
+        return self.mean[self.places.offset(sensor, session)] * UNITS
 
     def wrench(self, sensor: str, session: str, readings: FloatArray) -> FloatArray:
         """Correct what a sensor reads by its prior matrix.
@@ -93,8 +91,7 @@ class JointFit:
         Returns:
             Wrenches; shape (n, 6); N, N m.
         """
-        wrench: FloatArray = readings @ self.change(sensor).T + self.offset(sensor, session)
-        return wrench
+        return readings @ self.change(sensor).T + self.offset(sensor, session)
 
     def joint_zeros(self) -> dict[str, float]:
         """Give what is to be added to the positions of joints.
@@ -119,8 +116,7 @@ class JointFit:
         own = self.places.changes(sensor)
         covariance = self.covariance[own, own].reshape(6, 6, 6, 6)
         unit = np.asarray(load, dtype=np.float64) / UNITS
-        scaled: FloatArray = np.einsum("...b,abcd,...d->...ac", unit, covariance, unit) * np.outer(UNITS, UNITS)
-        return scaled
+        return np.einsum("...b,abcd,...d->...ac", unit, covariance, unit) * np.outer(UNITS, UNITS)
 
     def prior_covariance(self, sensor: str) -> FloatArray:
         """Give the covariance of the changes of a sensor before any data.
@@ -133,8 +129,7 @@ class JointFit:
         """
         own = self.places.changes(sensor)
         root = self.prior_root[own, own]
-        covariance: FloatArray = root @ root.T
-        return covariance
+        return root @ root.T
 
     def model_errors(self) -> list[tuple[ErrorTerm, float, float]]:
         """Give what was found to be wrong with the model.
@@ -224,8 +219,7 @@ class _Solution:
         """
         scaled = self.root @ self.directions / (self.told + 1.0)
         pulled = scaled @ (self.directions.T @ np.linalg.solve(self.root, root))
-        covariance: FloatArray = pulled @ pulled.T + (scaled * self.told) @ scaled.T
-        return covariance
+        return pulled @ pulled.T + (scaled * self.told) @ scaled.T
 
 
 def _solved(
@@ -296,5 +290,4 @@ def _sizes(
     determined[:, 1], square[:, 1] = determined[:, 1].sum(), square[:, 1].sum()
     expected, weight = (np.array([getattr(kind, name) for kind in KINDS]) for name in ("expected", "weight"))
     sizes = np.sqrt((square + weight * expected**2) / (np.maximum(determined, 0.0) + weight))
-    limited: FloatArray = np.clip(sizes, _SMALLEST * expected, _LARGEST * expected)
-    return limited
+    return np.clip(sizes, _SMALLEST * expected, _LARGEST * expected)

@@ -124,8 +124,7 @@ class WindowNodes:
         Returns:
             Means; shape (w, k); NaN where a window has a gap.
         """
-        means: FloatArray = np.add.reduceat(values, self._starts, axis=0) / self.counts[:, None]
-        return means
+        return np.add.reduceat(values, self._starts, axis=0) / self.counts[:, None]
 
     def node_means(self, values: FloatArray) -> FloatArray:
         """Average values at nodes over every window.
@@ -136,8 +135,7 @@ class WindowNodes:
         Returns:
             Means; shape (w, k).
         """
-        means: FloatArray = np.einsum("n,wnk->wk", WEIGHTS, values.reshape(len(self), NODES, -1))
-        return means
+        return np.einsum("n,wnk->wk", WEIGHTS, values.reshape(len(self), NODES, -1))
 
     def condensed(self, stretch: Stretch) -> Stretch:
         """Reduce a stretch to its nodes.
@@ -177,22 +175,19 @@ class WindowNodes:
             Derivatives of the parabolas that fit best, at the nodes; shape (3 w, k); per second.
         """
         slopes = np.stack([np.zeros(NODES), np.ones(NODES), 3.0 * _PLACES], axis=1) / self._half[:, None, None]
-        rates: FloatArray = (slopes @ self._parabolas(values)).reshape(NODES * len(self._starts), values.shape[1])
-        return rates
+        return (slopes @ self._parabolas(values)).reshape(NODES * len(self._starts), values.shape[1])
 
     def _at_nodes(self, values: FloatArray) -> FloatArray:
         """Parabolas that fit samples best, at the nodes; shape (3 w, k)."""
         nodes = np.stack([np.ones(NODES), _PLACES, 1.5 * _PLACES**2 - 0.5], axis=1)
-        at_nodes: FloatArray = (nodes @ self._parabolas(values)).reshape(NODES * len(self._starts), values.shape[1])
-        return at_nodes
+        return (nodes @ self._parabolas(values)).reshape(NODES * len(self._starts), values.shape[1])
 
     def _parabolas(self, values: FloatArray) -> FloatArray:
         """Coefficients of the parabolas that fit samples best; shape (w, 3, k)."""
         products = np.stack(
             [np.add.reduceat(column[:, None] * values, self._starts, axis=0) for column in self._basis.T], axis=1
         )
-        parabolas: FloatArray = self._inverse @ products
-        return parabolas
+        return self._inverse @ products
 
     def _polynomials(self, place: FloatArray) -> FloatArray:
         """Legendre's polynomials, of no higher degree than the samples of a window can tell; shape (n, 3)."""

@@ -65,8 +65,7 @@ class ChangeSpread:
             Covariances; shape (6, 6, 6).
         """
         scaled = sizes[:, None, None, None] * self.roots
-        covariance: FloatArray = (scaled @ scaled.transpose(0, 1, 3, 2)).sum(axis=0)
-        return covariance
+        return (scaled @ scaled.transpose(0, 1, 3, 2)).sum(axis=0)
 
 
 EVEN: Final = ChangeSpread(roots=np.stack([np.stack([np.eye(6)] * 6), np.zeros((6, 6, 6))]))

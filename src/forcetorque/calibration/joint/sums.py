@@ -53,8 +53,7 @@ class PartSums:
             For every row; shape (6,).
         """
         left = self.square - 2.0 * self.shared @ unknowns + unknowns @ self.products @ unknowns
-        mean: FloatArray = np.maximum(left / self.count, 0.0)
-        return mean
+        return np.maximum(left / self.count, 0.0)
 
 
 def part_sums(windows: Iterable[PartWindows]) -> list[PartSums]:
@@ -123,8 +122,7 @@ def noise_covariance(readings: FloatArray) -> FloatArray:
     # samples that are held, or quantised, bend by nothing, and knocks by much
     kept = (np.abs(bends) <= 3.0 * np.quantile(np.abs(bends), 0.7, axis=0) + 1e-12).all(axis=1)
     bends = bends[kept]
-    covariance: FloatArray = bends.T @ bends / max(len(bends), 1) / 6.0  # a second difference has six variances
-    return covariance
+    return bends.T @ bends / max(len(bends), 1) / 6.0  # a second difference has six variances
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

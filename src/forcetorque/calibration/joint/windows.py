@@ -86,30 +86,26 @@ class PartWindows:
     @property
     def load_shares(self) -> FloatArray:
         """Shares of what every sensor transmits and, last, of what the bodies demand; shape (k + 1,)."""
-        shares: FloatArray = self.load_squares / max(self.load_squares.sum(), np.finfo(float).tiny)
-        return shares
+        return self.load_squares / max(self.load_squares.sum(), np.finfo(float).tiny)
 
     @property
     def changes(self) -> FloatArray:
         """Coefficients of D, row by row, of every sensor; shape (w, 6, 36 k)."""
         weighted = WEIGHTS[:, None, None] * self.readings
         products = np.einsum("wnkia,wnkb->wikab", self.transmission, weighted, optimize=True)
-        changes: FloatArray = products.reshape(len(self), LOADS, _CHANGES * len(self.sensors))
-        return changes
+        return products.reshape(len(self), LOADS, _CHANGES * len(self.sensors))
 
     @property
     def offsets(self) -> FloatArray:
         """Coefficients of the offsets; shape (w, 6, 6 k)."""
         means = np.einsum("n,wnkia->wika", WEIGHTS, self.transmission)
-        offsets: FloatArray = means.reshape(len(self), LOADS, LOADS * len(self.sensors))
-        return offsets
+        return means.reshape(len(self), LOADS, LOADS * len(self.sensors))
 
     @property
     def spread(self) -> FloatArray:
         """What white noise adds, by sensor and row: mean of X X^T over the samples; shape (w, k, 6, 6, 6)."""
         weighted = (WEIGHTS / self.counts[:, None])[:, :, None, None, None] * self.transmission
-        spread: FloatArray = np.einsum("wnkia,wnkib->wkiab", weighted, self.transmission)
-        return spread
+        return np.einsum("wnkia,wnkib->wkiab", weighted, self.transmission)
 
     @property
     def columns(self) -> FloatArray:

@@ -91,8 +91,7 @@ class Movement:
             Mean square of the rest of every column; shape (k,).
         """
         rest = np.hstack([np.eye(self.columns), -self.follows])
-        square: FloatArray = np.maximum(np.einsum("ij,jk,ik->i", rest, second, rest), 0.0)
-        return square
+        return np.maximum(np.einsum("ij,jk,ik->i", rest, second, rest), 0.0)
 
 
 def _lasts(shared: FloatArray, second: FloatArray, square: FloatArray) -> bool:

@@ -79,8 +79,7 @@ def _explained(moments: Moments) -> FloatArray:
 
 def _share(part: FloatArray, whole: FloatArray) -> FloatArray:
     """Of what does not move it is all."""
-    shares: FloatArray = np.divide(part, whole, out=np.ones(np.shape(whole)), where=whole > 0.0)
-    return shares
+    return np.divide(part, whole, out=np.ones(np.shape(whole)), where=whole > 0.0)
 
 
 _LARGEST_S = 0.5

@@ -55,8 +55,7 @@ def sphere_centre(moments: Moments) -> FloatArray:
             "turn the limb about two axes, or take the one-shot offset"
         )
     slope = np.linalg.solve(force_force, moments.second[force, : moments.channels]).T  # (c, 3)
-    centre: FloatArray = moments.raw_mean - slope @ moments.mean[force]
-    return centre
+    return moments.raw_mean - slope @ moments.mean[force]
 
 
 class HeldOut(StrEnum):

@@ -82,8 +82,7 @@ def _repeated(source: TorqueSource, counts: IntArray, window_s: float) -> FloatA
     """How many samples are as good as one, because noise repeats itself; shape (w,)."""
     period_s = float(np.median(np.diff(source.stamp_ns))) * 1e-9 if len(source) > 1 else window_s
     most = np.maximum(counts.max(axis=1), 1).astype(np.float64)
-    repeated: FloatArray = np.minimum(1.0 + 2.0 * source.noise_time_s / period_s, most)
-    return repeated
+    return np.minimum(1.0 + 2.0 * source.noise_time_s / period_s, most)
 
 
 def precisions(values: FloatArray, covariance: FloatArray) -> FloatArray:
@@ -156,8 +155,7 @@ def inverse_of_known(weights: FloatArray, unknown: BoolArray) -> FloatArray:
     """
     # the unknown components stand apart from the others: with a one on their diagonal all is inverted at once
     apart = unknown[:, :, None] * np.eye(unknown.shape[1])
-    inverse: FloatArray = np.linalg.inv(weights + apart) - apart
-    return inverse
+    return np.linalg.inv(weights + apart) - apart
 
 
 VARIANCE_MARGIN = 1.25

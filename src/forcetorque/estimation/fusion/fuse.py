@@ -109,8 +109,7 @@ class Fusion:
     @property
     def half_width(self) -> FloatArray:
         """Half of the 95 % intervals; shape (n, j); N m."""
-        half: FloatArray = NORMAL_95 * np.sqrt(np.einsum("njj->nj", self.covariance))
-        return half
+        return NORMAL_95 * np.sqrt(np.einsum("njj->nj", self.covariance))
 
 
 def fuse(sources: Sequence[TorqueSource], *, false_alarm: float = FALSE_ALARM, window_s: float = WINDOW_S) -> Fusion:

@@ -63,8 +63,7 @@ class Friction:
         Returns:
             Whether it does; shape (n,).
         """
-        moving: BoolArray = np.abs(velocity) >= self.standstill
-        return moving
+        return np.abs(velocity) >= self.standstill
 
     def torque(self, velocity: FloatArray, acceleration: FloatArray) -> FloatArray:
         """Give what the drive takes.
@@ -76,8 +75,7 @@ class Friction:
         Returns:
             Torque that the motor gives and the joint does not get; shape (n,); N m.
         """
-        torques: FloatArray = friction_terms(velocity, acceleration) @ self.coefficients
-        return torques
+        return friction_terms(velocity, acceleration) @ self.coefficients
 
 
 def friction_terms(velocity: FloatArray, acceleration: FloatArray) -> FloatArray:
@@ -230,8 +228,7 @@ class Motor:
         Returns:
             Torques along +q; shape (n,); N m.
         """
-        torque: FloatArray = self.torque_constant * self.gear_ratio * np.asarray(reading)
-        return torque
+        return self.torque_constant * self.gear_ratio * np.asarray(reading)
 
 
 def motor_source(

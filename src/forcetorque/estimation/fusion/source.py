@@ -135,14 +135,12 @@ class TorqueSource:
     @property
     def own_covariance(self) -> FloatArray:
         """Covariance of one sample, without the errors shared with other sources; shape (n, j, j); (N m)^2."""
-        own: FloatArray = self.noise + self.lasting @ self.lasting.transpose(0, 2, 1)
-        return own
+        return self.noise + self.lasting @ self.lasting.transpose(0, 2, 1)
 
     @property
     def covariance(self) -> FloatArray:
         """Covariance of one sample, of all that may be off together; shape (n, j, j); (N m)^2."""
-        total: FloatArray = self.own_covariance + self.shared @ self.shared.transpose(0, 2, 1)
-        return total
+        return self.own_covariance + self.shared @ self.shared.transpose(0, 2, 1)
 
 
 _ROUNDING = 1e-9

@@ -232,5 +232,4 @@ def _inverse(matrices: FloatArray, size: FloatArray) -> tuple[FloatArray, FloatA
 
 
 def _times(matrices: FloatArray, vectors: FloatArray) -> FloatArray:
-    product: FloatArray = (matrices @ vectors[:, :, None])[:, :, 0]
-    return product
+    return (matrices @ vectors[:, :, None])[:, :, 0]

@@ -132,5 +132,4 @@ class UncertainEstimates:
 
 def _deviations(covariance: FloatArray) -> FloatArray:
     variance = np.einsum("...ii->...i", covariance)
-    deviations: FloatArray = np.sqrt(np.maximum(variance, 0.0))
-    return deviations
+    return np.sqrt(np.maximum(variance, 0.0))

@@ -90,8 +90,7 @@ class StaticChecks(Row):
         """The smaller reachable full scale of both directions of each axis; shape (6,); N, N m."""
         if self.full_scale_positive is None or self.full_scale_negative is None:
             return None
-        smaller: FloatArray = np.minimum(self.full_scale_positive, -self.full_scale_negative)
-        return smaller
+        return np.minimum(self.full_scale_positive, -self.full_scale_negative)
 
 
 class RecordingChecks(StaticChecks):

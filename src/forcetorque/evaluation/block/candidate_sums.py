@@ -97,5 +97,4 @@ def judge_of(columns: int) -> Callable[..., None]:
             load(raw, variables, reference, columns_centre, reference_centre, first, count, rows)
             add_errors(columns, rows, count, matrices, constants, sums)
 
-    compiled: Callable[..., None] = judge
-    return compiled
+    return judge

@@ -211,8 +211,7 @@ def bin_edges(columns: list[FloatArray]) -> FloatArray:
         low, high = low - half, high + half
     # the rule of Rice, for the smallest candidate
     bins = int(np.clip(2.0 * min(map(len, columns)) ** (1.0 / 3.0), *_BINS))
-    edges: FloatArray = np.linspace(low, high, bins + 1)
-    return edges
+    return np.linspace(low, high, bins + 1)
 
 
 def _draw_correlation(panel: Axes, correlations: list[Autocorrelation], component: str) -> None:

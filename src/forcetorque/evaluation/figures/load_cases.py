@@ -190,5 +190,4 @@ def _ends(rows: Sequence[UseError]) -> FloatArray:
     ]
     ends = np.array(pairs)
     above = ends[ends > 0.0]
-    clipped: FloatArray = np.maximum(ends, 0.1 * above.min() if above.size else 1.0)
-    return clipped
+    return np.maximum(ends, 0.1 * above.min() if above.size else 1.0)

@@ -82,8 +82,7 @@ def difference_figure(names: Sequence[str], differences: FloatArray, *, unit: st
 def _luminance(colours: FloatArray) -> FloatArray:
     """Relative luminance of colours of sRGB, 0 for black and 1 for white, with a plain power for their curve."""
     weights = np.array([0.2126, 0.7152, 0.0722])
-    light: FloatArray = colours[..., :3] ** 2.2 @ weights
-    return light
+    return colours[..., :3] ** 2.2 @ weights
 
 
 def _name_cells(panel: Axes, names: list[str], room: float, *, level: bool) -> None:

@@ -106,12 +106,10 @@ def _centre(sphere: SensorSphere) -> FloatArray:
     if analysis.free.identifiable and analysis.free.ellipsoid is not None:
         return analysis.free.ellipsoid.centre
     if sphere.reference is not None:
-        shift: FloatArray = (sphere.force - sphere.reference).mean(axis=0)
-        return shift
+        return (sphere.force - sphere.reference).mean(axis=0)
     if analysis.radius.centre is not None:
         return analysis.radius.centre
-    middle: FloatArray = sphere.force.mean(axis=0)
-    return middle
+    return sphere.force.mean(axis=0)
 
 
 def _draw_plane(panel: Axes, sphere: SensorSphere, centre: FloatArray, plane: tuple[int, int]) -> None:
@@ -152,8 +150,7 @@ def ellipsoid_outline(ellipsoid: Ellipsoid, plane: tuple[int, int]) -> FloatArra
     """
     # the shadow of an ellipsoid: what its inverse shape has of the plane
     shadow = np.linalg.inv(ellipsoid.shape)[np.ix_(plane, plane)]
-    outline: FloatArray = ellipsoid.centre[list(plane)] + _circle() @ np.linalg.cholesky(shadow).T
-    return outline
+    return ellipsoid.centre[list(plane)] + _circle() @ np.linalg.cholesky(shadow).T
 
 
 def _circle() -> FloatArray:

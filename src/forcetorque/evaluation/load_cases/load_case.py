@@ -169,8 +169,7 @@ def shares_of(full_scale: Any, share: float) -> FloatArray:
         raise SensorError(f"share of full scale: expected one above 0 and at most 1, got {share:g}")
     scale = np.asarray(full_scale, dtype=np.float64)
     require_shape(scale, name="full_scale", shape=(6,))
-    loads: FloatArray = share * scale * np.random.default_rng(_SEED).uniform(-1.0, 1.0, (LOADS, 6))
-    return loads
+    return share * scale * np.random.default_rng(_SEED).uniform(-1.0, 1.0, (LOADS, 6))
 
 
 def at_points(force: FloatArray, point: FloatArray) -> FloatArray:
@@ -188,5 +187,4 @@ def at_points(force: FloatArray, point: FloatArray) -> FloatArray:
 
 def _directions(rng: np.random.Generator) -> FloatArray:
     vectors = rng.normal(size=(LOADS, 3))
-    directions: FloatArray = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
-    return directions
+    return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)

@@ -200,8 +200,7 @@ class _Place:
         if frame is None:
             return np.asarray(point, dtype=np.float64)[None]
         pose = self._poses(frame, still=False)
-        points: FloatArray = pose[:, :3, :3] @ point + pose[:, :3, 3]
-        return points
+        return pose[:, :3, :3] @ point + pose[:, :3, 3]
 
     def _poses(self, link: str, *, still: bool) -> FloatArray:
         """Poses of a link in the sensor's frame: at rest, or in postures within the limits; shape (k, 4, 4)."""
@@ -211,8 +210,7 @@ class _Place:
         drawn = np.random.default_rng(_SEED).uniform(ranges[:, 0], ranges[:, 1], (_POSTURES, len(names)))
         postures = JointMotion.at_rest(names, rest if still else np.concatenate([rest, drawn]))
         sensor = body_pose(self.tree, postures, self.cut.body) @ self.cut.body_H_sensor
-        poses: FloatArray = invert_pose(sensor) @ link_pose(self.tree, postures, link)
-        return poses
+        return invert_pose(sensor) @ link_pose(self.tree, postures, link)
 
     def _sole(self) -> str | None:
         """The sole outboard of the sensor of a robot that has two; the last link of its chain that is called so."""
@@ -239,8 +237,7 @@ def _full_scale(run: SensorRun) -> FloatArray:
         raise ExperimentError(
             f"sensor {sensor.name!r}: a share of full scale needs full_scale of [[sensor]], or a prior matrix"
         )
-    scale: FloatArray = sensor.limit_counts * np.linalg.norm(sensor.prior, axis=1)
-    return scale
+    return sensor.limit_counts * np.linalg.norm(sensor.prior, axis=1)
 
 
 def _require_readable(case: LoadCase, run: SensorRun, matrix: FloatArray | None) -> None:

@@ -160,8 +160,7 @@ def _draws(posterior: Posterior) -> FloatArray:
     values, vectors = np.linalg.eigh(posterior.covariance)
     roots = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
     normal = np.random.default_rng(_SEED).normal(size=(_DRAWS, *posterior.mean.shape))
-    draws: FloatArray = np.einsum("ijk,mik->mij", roots, normal)
-    return draws
+    return np.einsum("ijk,mik->mij", roots, normal)
 
 
 def _offset_place(posterior: Posterior) -> int:

@@ -81,8 +81,7 @@ class MomentFit:
     @property
     def errors(self) -> FloatArray:
         """Measured minus expected half-widths; shape (3,); N m."""
-        errors: FloatArray = self.half_widths - self.expected_half_widths
-        return errors
+        return self.half_widths - self.expected_half_widths
 
 
 def fit_mapped(force: FloatArray, reference: FloatArray, *, radius: float, tolerance: float) -> MappedFit | None:
@@ -240,8 +239,7 @@ def _sums(reference: FloatArray, measured: FloatArray) -> tuple[FloatArray, Floa
 def _reference_extent(mean: FloatArray) -> FloatArray:
     """Root mean square distances of references from their mean; shape (m,)."""
     squares = np.trace(mean[:, :3, :3], axis1=1, axis2=2) - (mean[:, :3, 6] ** 2).sum(axis=1)
-    extents: FloatArray = np.sqrt(np.maximum(squares, 0.0))
-    return extents
+    return np.sqrt(np.maximum(squares, 0.0))
 
 
 def _maps(mean: FloatArray, shift: FloatArray) -> tuple[FloatArray, FloatArray]:

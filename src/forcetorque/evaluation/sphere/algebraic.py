@@ -59,8 +59,7 @@ def inverse_lengths(squares: Any) -> FloatArray:
     intersections = np.diagonal(np.linalg.inv(squares), axis1=1, axis2=2)
     half_widths = 1.0 / np.diagonal(squares, axis1=1, axis2=2)
     # a shape that is positive to rounding may lose that when it is turned over twice
-    lengths: FloatArray = np.sqrt(np.maximum(np.concatenate([intersections, half_widths], axis=1), 0.0))
-    return lengths
+    return np.sqrt(np.maximum(np.concatenate([intersections, half_widths], axis=1), 0.0))
 
 
 def direct_fit(mean: FloatArray, moments: QuadricMoments) -> Quadrics:
@@ -148,8 +147,7 @@ def smallest_generalised(second: FloatArray, weight: FloatArray) -> FloatArray:
     size = np.trace(reduced, axis1=1, axis2=2)[:, None]
     reduced += np.where(kept, 0.0, 1.0 + size)[:, :, None] * np.eye(weight.shape[1])
     best = np.linalg.eigh(reduced).eigenvectors[:, :, 0]
-    minimisers: FloatArray = np.einsum("mki,mi->mk", root, best)
-    return minimisers
+    return np.einsum("mki,mi->mk", root, best)
 
 
 def _without_linear_part(mean: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -167,14 +165,12 @@ def _constrained(reduced: FloatArray, k: float) -> FloatArray:
     # of the six eigenvalues of constraint^-1 reduced one is positive, since the constraint has one positive direction
     values, vectors = np.linalg.eig(np.linalg.solve(constraint[None], reduced))
     best = np.argmax(values.real, axis=1)
-    coefficients: FloatArray = np.take_along_axis(vectors.real, best[:, None, None], axis=2)[:, :, 0]
-    return coefficients
+    return np.take_along_axis(vectors.real, best[:, None, None], axis=2)[:, :, 0]
 
 
 def _definite(coefficients: FloatArray) -> BoolArray:
     values = np.linalg.eigvalsh(_matrices(coefficients))
-    definite: BoolArray = (values[:, 0] > 0.0) | (values[:, -1] < 0.0)
-    return definite
+    return (values[:, 0] > 0.0) | (values[:, -1] < 0.0)
 
 
 def _matrices(coefficients: FloatArray) -> FloatArray:
@@ -197,8 +193,7 @@ def _gradient_moments(mean: FloatArray) -> FloatArray:
         h[:, i, j] = h[:, j, i] = mean[:, column, 9] * (1.0 if i == j else 0.5)
     h[:, 3, :3] = h[:, :3, 3] = 0.5 * mean[:, 6:9, 9]
     h[:, 3, 3] = 1.0
-    products: FloatArray = (slope @ h[:, None]).reshape(-1, 9, 12) @ slope.reshape(9, 12).T
-    return products
+    return (slope @ h[:, None]).reshape(-1, 9, 12) @ slope.reshape(9, 12).T
 
 
 def _quadrics(coefficients: FloatArray, moments: QuadricMoments) -> Quadrics:

@@ -26,8 +26,7 @@ def apparent_masses(lengths: Any, *, gravity: float) -> FloatArray:
     Returns:
         A mass for each; shape (3,); kg.
     """
-    masses: FloatArray = read_only(lengths, name="lengths", shape=(3,)) / _positive(gravity, "gravity")
-    return masses
+    return read_only(lengths, name="lengths", shape=(3,)) / _positive(gravity, "gravity")
 
 
 def axis_errors(masses: Any, *, reference_mass: float, gravity: float) -> FloatArray:
@@ -42,8 +41,7 @@ def axis_errors(masses: Any, *, reference_mass: float, gravity: float) -> FloatA
         Measured minus true size of the weight; shape (3,); N.
     """
     excess = read_only(masses, name="masses", shape=(3,)) - _positive(reference_mass, "reference_mass")
-    errors: FloatArray = excess * _positive(gravity, "gravity")
-    return errors
+    return excess * _positive(gravity, "gravity")
 
 
 def _positive(value: float, name: str) -> float:

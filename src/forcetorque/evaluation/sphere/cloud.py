@@ -180,8 +180,7 @@ def extent(mean: FloatArray) -> FloatArray:
         Root mean square distances from the mean, in units of the scale; shape (m,).
     """
     squares = np.trace(mean[:, 6:9, 6:9], axis1=1, axis2=2) - (mean[:, 6:9, 9] ** 2).sum(axis=1)
-    extents: FloatArray = 0.5 * np.sqrt(np.maximum(squares, 0.0))
-    return extents
+    return 0.5 * np.sqrt(np.maximum(squares, 0.0))
 
 
 def sums_of_products(values: FloatArray, columns: Callable[[FloatArray], FloatArray]) -> FloatArray:

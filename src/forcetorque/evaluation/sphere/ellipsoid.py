@@ -35,8 +35,7 @@ class Ellipsoid:
 
         What the sensor reads along an axis while it reads nothing along the two others.
         """
-        lengths: FloatArray = 1.0 / np.sqrt(np.diag(self.shape))
-        return lengths
+        return 1.0 / np.sqrt(np.diag(self.shape))
 
     @property
     def half_widths(self) -> FloatArray:
@@ -44,20 +43,17 @@ class Ellipsoid:
 
         The most that the sensor reads along an axis, whatever it reads along the others.
         """
-        lengths: FloatArray = np.sqrt(np.diag(np.linalg.inv(self.shape)))
-        return lengths
+        return np.sqrt(np.diag(np.linalg.inv(self.shape)))
 
     @property
     def principal_radii(self) -> FloatArray:
         """Half of its own axes, `1 / sqrt(eigenvalue)`, the longest first; shape (3,)."""
-        lengths: FloatArray = 1.0 / np.sqrt(np.linalg.eigvalsh(self.shape))
-        return lengths
+        return 1.0 / np.sqrt(np.linalg.eigvalsh(self.shape))
 
     @property
     def principal_axes(self) -> FloatArray:
         """Directions of the principal radii, a column each in their order; shape (3, 3)."""
-        axes: FloatArray = np.linalg.eigh(self.shape).eigenvectors
-        return axes
+        return np.linalg.eigh(self.shape).eigenvectors
 
 
 def ellipsoid_of_map(matrix: Any, *, centre: Any, radius: float) -> Ellipsoid:

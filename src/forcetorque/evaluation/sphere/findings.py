@@ -235,8 +235,7 @@ def lengths_of(inverse: FloatArray) -> FloatArray:
         Lengths, infinite for an open surface; the same shape.
     """
     positive = inverse > 0.0
-    lengths: FloatArray = np.where(positive, 1.0 / np.where(positive, inverse, 1.0), np.inf)
-    return lengths
+    return np.where(positive, 1.0 / np.where(positive, inverse, 1.0), np.inf)
 
 
 def indices_of(inverse: FloatArray) -> FloatArray:
@@ -250,8 +249,7 @@ def indices_of(inverse: FloatArray) -> FloatArray:
     """
     lengths = lengths_of(inverse[:, :3])
     closed = np.asarray(np.isfinite(lengths).all(axis=1))
-    indices: FloatArray = np.where(closed, np.where(closed[:, None], lengths, 0.0).std(axis=1, ddof=1), np.inf)
-    return indices
+    return np.where(closed, np.where(closed[:, None], lengths, 0.0).std(axis=1, ddof=1), np.inf)
 
 
 def index_ends(estimates: Sequence[Resampled], *, jackknifed: bool) -> tuple[float, float]:

@@ -184,8 +184,7 @@ def bends(moments: QuadricMoments, fit: Callable[[FloatArray, QuadricMoments], S
         size = np.linalg.norm(bend, axis=1)
         # parts of a wide cloud look at the centre from different sides, which is no other way of bending
         other_way = (size * moments.scale < _NEARLY_FLAT) & (bend @ towards < 0.0)
-        signed_size: FloatArray = np.where(other_way, -size, size)[:, None]
-        return signed_size
+        return np.where(other_way, -size, size)[:, None]
 
     return resampled(moments.sums, signed, extent=extent)
 

@@ -178,8 +178,7 @@ def _step(weighted: FloatArray, over: FloatArray) -> FloatArray:
     """Newton's step of `1 / sqrt(f)` towards 1, where `over` is one over `squares + t`."""
     terms = weighted * over**2
     level, fall = terms.sum(axis=0), (terms * over).sum(axis=0)
-    step: FloatArray = level * (np.sqrt(level) - 1.0) / np.where(fall > 0.0, fall, 1.0)
-    return step
+    return level * (np.sqrt(level) - 1.0) / np.where(fall > 0.0, fall, 1.0)
 
 
 _FEW = 20_000

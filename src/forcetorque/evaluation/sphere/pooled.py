@@ -246,8 +246,7 @@ def _with_unknown_centres(
 
 def _inverse(own: OwnCentres) -> FloatArray:
     """One over axis intersections and half-widths; shape (6,)."""
-    lengths: FloatArray = inverse_lengths(np.linalg.inv(own.ellipsoid.shape)[None])[0]
-    return lengths
+    return inverse_lengths(np.linalg.inv(own.ellipsoid.shape)[None])[0]
 
 
 def _mapped(
@@ -293,8 +292,7 @@ def _centred(mean: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def _extent(mean: FloatArray) -> FloatArray:
     """Root mean square distances of references from the means of their trials; shape (m,)."""
-    extents: FloatArray = np.sqrt(np.maximum(np.trace(_centred(mean)[0][:, :3, :3], axis1=1, axis2=2), 0.0))
-    return extents
+    return np.sqrt(np.maximum(np.trace(_centred(mean)[0][:, :3, :3], axis1=1, axis2=2), 0.0))
 
 
 def _maps(mean: FloatArray) -> tuple[FloatArray, FloatArray]:

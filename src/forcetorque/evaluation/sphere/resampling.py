@@ -103,8 +103,7 @@ def jackknife_margin(without_one: FloatArray) -> FloatArray:
 
     b = len(without_one)
     scatter = ((without_one - without_one.mean(axis=0)) ** 2).sum(axis=0)
-    margin: FloatArray = stdtrit(b - 1, _UPPER) * np.sqrt((b - 1) / b * scatter)
-    return margin
+    return stdtrit(b - 1, _UPPER) * np.sqrt((b - 1) / b * scatter)
 
 
 def resampled(
@@ -199,5 +198,4 @@ def _widened(ends: tuple[FloatArray, FloatArray], values: FloatArray) -> tuple[F
 
 
 def _mean(sums: FloatArray) -> FloatArray:
-    mean: FloatArray = sums / sums[:, -1:, -1:]
-    return mean
+    return sums / sums[:, -1:, -1:]

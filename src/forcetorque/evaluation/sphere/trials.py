@@ -91,14 +91,12 @@ class Drift:
     @property
     def intersections_exceed(self) -> BoolArray:
         """The same for each axis intersection; shape (3,)."""
-        exceed: BoolArray = self.identifiable & (np.abs(self.intersections) > self.intersection_margin)
-        return exceed
+        return self.identifiable & (np.abs(self.intersections) > self.intersection_margin)
 
     @property
     def centre_exceeds(self) -> BoolArray:
         """The same for the centre along each axis; shape (3,)."""
-        exceed: BoolArray = self.identifiable & (np.abs(self.centre) > self.centre_margin)
-        return exceed
+        return self.identifiable & (np.abs(self.centre) > self.centre_margin)
 
 
 def drift_between(first: EllipsoidFit, last: EllipsoidFit) -> Drift | None:

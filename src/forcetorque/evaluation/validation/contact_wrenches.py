@@ -66,8 +66,7 @@ class ContactForces:
         """
         if candidate not in self.candidates:
             raise EstimationError(f"no candidate {candidate!r}; {known_names(candidate, self.candidates)}")
-        wrench: FloatArray = self.at_sensor[self.candidates.index(candidate)]
-        return wrench
+        return self.at_sensor[self.candidates.index(candidate)]
 
     def at_contact(self, candidate: str) -> FloatArray:
         """Give the wrenches of one candidate as the estimator has them.
@@ -79,8 +78,7 @@ class ContactForces:
             What the environment does to the robot, in and about the contact frame; shape (n, 6); N, N m.
         """
         in_direction = transform_wrench(invert_pose(self.sensor_H_contact), self.of(candidate))
-        wrench: FloatArray = self.validation.direction * in_direction
-        return wrench
+        return self.validation.direction * in_direction
 
 
 def contact_forces(

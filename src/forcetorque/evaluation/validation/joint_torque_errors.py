@@ -95,8 +95,7 @@ class TorqueMap:
         """
         wrenches = np.asarray(wrench, dtype=np.float64)
         require_shape(wrenches, name="wrench", shape=(len(self.rows), 6))
-        torques: FloatArray = np.einsum("nji,ni->nj", self.rows, wrenches)
-        return torques
+        return np.einsum("nji,ni->nj", self.rows, wrenches)
 
 
 def torque_map(

@@ -132,8 +132,7 @@ class Assumptions:
         require_shape(matrix, name="matrix", shape=(6, len(self.full_scale)))
         if self.accuracy is not None:
             return self.accuracy
-        accuracy: FloatArray = ACCURACY_SHARE * np.linalg.norm(matrix * self.full_scale, axis=1)
-        return accuracy
+        return ACCURACY_SHARE * np.linalg.norm(matrix * self.full_scale, axis=1)
 
 
 LOADS = 6
@@ -212,12 +211,10 @@ def rows_of(matrix: FloatArray, assumptions: Assumptions, *, in_wrench: bool) ->
 def _channel_accuracy(response: FloatArray, accuracy: FloatArray, assumptions: Assumptions) -> FloatArray:
     if assumptions.accuracy is None:
         return np.full(len(response), ACCURACY_SHARE)
-    share: FloatArray = np.sqrt(response**2 @ accuracy**2)
-    return share
+    return np.sqrt(response**2 @ accuracy**2)
 
 
 def _root(square: FloatArray) -> FloatArray:
     """L with L L^T the given matrix."""
     vectors, values, _ = np.linalg.svd(square)
-    root: FloatArray = vectors * np.sqrt(values)
-    return root
+    return vectors * np.sqrt(values)

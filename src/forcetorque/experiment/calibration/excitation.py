@@ -258,5 +258,4 @@ def _variables_outside(calibration: Calibration, values: FloatArray) -> BoolArra
     low = np.array([variable.minimum for variable in calibration.variables])
     high = np.array([variable.maximum for variable in calibration.variables])
     margin = MARGIN * (high - low)
-    outside: BoolArray = (values < low - margin) | (values > high + margin)
-    return outside
+    return (values < low - margin) | (values > high + margin)

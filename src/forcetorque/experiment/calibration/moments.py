@@ -140,8 +140,7 @@ class Moments:
             Second moment about it; shape (m, m).
         """
         step = (self.origin - origin) + self.step
-        moved: FloatArray = self.second + np.outer(step, step)
-        return moved
+        return self.second + np.outer(step, step)
 
     def without_variables(self) -> Moments:
         """Take out of raw readings and reference what the variables explain of them.
@@ -171,8 +170,7 @@ class Moments:
         error_of = np.hstack([from_zero.matrix, from_zero.coefficients, -np.eye(6)])  # (6, m)
         bias = error_of @ self.mean + from_zero.offset
         spread = np.einsum("ij,jk,ik->i", error_of, self.second, error_of)
-        error: FloatArray = np.maximum(spread, 0.0) + bias**2
-        return error
+        return np.maximum(spread, 0.0) + bias**2
 
 
 def _reduce(parts: tuple[FloatArray, ...]) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -125,8 +125,7 @@ class Posterior(Part):
             return None
         after = self.learnt_error_covariance(np.eye(6))
         ratios = np.einsum("kii->ki", after) / np.einsum("kii->ki", before)
-        shares: FloatArray = 1.0 - np.sqrt(ratios.mean(axis=1))
-        return shares
+        return 1.0 - np.sqrt(ratios.mean(axis=1))
 
     def matrix_error(self, matrix: FloatArray) -> FloatArray:
         """Give the standard errors of the calibration matrix.
@@ -138,8 +137,7 @@ class Posterior(Part):
             Standard errors, to first order; shape (6, c); N/count, N m/count.
         """
         variance = np.einsum("jb,ijk,kb->ib", matrix, self.covariance[:, :6, :6], matrix)
-        error: FloatArray = np.sqrt(np.maximum(self.to_wrench**2 @ variance, 0.0))
-        return error
+        return np.sqrt(np.maximum(self.to_wrench**2 @ variance, 0.0))
 
     def coefficient_error(self, coefficients: FloatArray) -> FloatArray:
         """Give the standard errors of the coefficients of the variables.
@@ -172,12 +170,10 @@ class Posterior(Part):
         design = np.zeros(self.mean.shape[1])
         design[:6], design[place] = wrench, 1.0
         variance = np.einsum("j,ijk,k->i", design, self.covariance, design)
-        spread: FloatArray = np.sqrt(np.maximum(self.to_wrench**2 @ variance, 0.0))
-        return spread
+        return np.sqrt(np.maximum(self.to_wrench**2 @ variance, 0.0))
 
     def _in_wrench(self, variance: FloatArray) -> FloatArray:
-        covariance: FloatArray = np.einsum("ai,...i,bi->...ab", self.to_wrench, variance, self.to_wrench)
-        return covariance
+        return np.einsum("ai,...i,bi->...ab", self.to_wrench, variance, self.to_wrench)
 
 
 class LoadError(Part):

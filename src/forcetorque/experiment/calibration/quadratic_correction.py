@@ -34,8 +34,7 @@ def quadratic_terms(shares: FloatArray) -> FloatArray:
     Returns:
         The 21 products; shape (..., 21).
     """
-    terms: FloatArray = shares[..., PAIRS[0]] * shares[..., PAIRS[1]]
-    return terms
+    return shares[..., PAIRS[0]] * shares[..., PAIRS[1]]
 
 
 def steepness(coefficients: FloatArray, directions: FloatArray, minimum: FloatArray, maximum: FloatArray) -> float:
@@ -107,8 +106,7 @@ class QuadraticCorrection(Part):
         wrench = np.asarray(load, dtype=np.float64)
         require_last_axis(wrench, name="load", length=6)
         along = np.clip(self._along(wrench), self.minimum, self.maximum)
-        added: FloatArray = quadratic_terms(along @ self.directions) @ self.coefficients.T
-        return added
+        return quadratic_terms(along @ self.directions) @ self.coefficients.T
 
     def corrected(self, reading: Any) -> FloatArray:
         """Find the loads that were read.
@@ -146,8 +144,7 @@ class QuadraticCorrection(Part):
         return 1 + math.ceil(math.log(_LEFT) / math.log(max(self.steepness, _LEFT)))
 
     def _along(self, load: FloatArray) -> FloatArray:
-        along: FloatArray = (load @ self.to_full_scale.T - self.centre) @ self.directions.T
-        return along
+        return (load @ self.to_full_scale.T - self.centre) @ self.directions.T
 
 
 CLEARLY: Final = 0.9
@@ -192,14 +189,12 @@ class NonlinearTrial(Part):
     def ratios(self) -> FloatArray:
         """Error of all recordings together with the correction over that without, force and moment; shape (2,)."""
         before, after = (self.samples @ rms**2 for rms in (self.linear_rms, self.corrected_rms))
-        ratios: FloatArray = np.sqrt(np.divide(after, before, out=np.ones(2), where=before > 0.0))
-        return ratios
+        return np.sqrt(np.divide(after, before, out=np.ones(2), where=before > 0.0))
 
     @property
     def shares(self) -> FloatArray:
         """Share of the recordings that are not worse with the correction, force and moment; shape (2,)."""
-        shares: FloatArray = (self.corrected_rms <= WORSE * self.linear_rms).mean(axis=0)
-        return shares
+        return (self.corrected_rms <= WORSE * self.linear_rms).mean(axis=0)
 
     @property
     def kept(self) -> tuple[Half, ...]:

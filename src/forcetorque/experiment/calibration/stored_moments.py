@@ -171,8 +171,7 @@ def _ends(data: DataSet, moments: Moments) -> IntArray:
     scale = np.sqrt(np.maximum(np.diag(moments.reference_reference), np.finfo(float).tiny))
     _, of_loads = np.linalg.eigh(moments.reference_reference / np.outer(scale, scale))
     along = np.hstack([data.raw, data.raw @ of_raw, data.reference, data.reference / scale @ of_loads])
-    ends: IntArray = np.unique([along.argmin(axis=0), along.argmax(axis=0)])
-    return ends
+    return np.unique([along.argmin(axis=0), along.argmax(axis=0)])
 
 
 class VariableDescription(Part):

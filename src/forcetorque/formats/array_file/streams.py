@@ -138,8 +138,7 @@ def _row(place: str, row: int) -> str:
 def _column(place: str, values: FloatArray, number: int) -> FloatArray:
     if number > values.shape[1]:
         raise FormatError(f"{place}: expected at least {number} columns, got {values.shape[1]}")
-    column: FloatArray = values[:, number - 1]
-    return column
+    return values[:, number - 1]
 
 
 def _stamps(place: str, array: FloatArray, number: int, unit: str) -> IntArray:

@@ -126,8 +126,7 @@ def _moved(matrix: FloatArray, transform: Element | None, calibration: Element) 
     force, moment = (factor for _, factor in (_force(calibration), _moment(calibration)))
     # m per force over moments in the units of the file
     old_H_new = make_pose(np.eye(3), position * force / moment)
-    moved: FloatArray = wrench_matrix(invert_pose(old_H_new)) @ matrix
-    return moved
+    return wrench_matrix(invert_pose(old_H_new)) @ matrix
 
 
 def _refuse_unknown(calibration: Element) -> None:

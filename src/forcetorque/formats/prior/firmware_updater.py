@@ -183,5 +183,4 @@ def _parsed(path: Path, text: str) -> FirmwareFile:
 
 def _codes(texts: list[str]) -> IntArray:
     unsigned = np.array([int(text, 16) & 0xFFFF for text in texts], dtype=np.int64)
-    codes: IntArray = np.where(unsigned >= 0x8000, unsigned - 0x10000, unsigned).reshape(6, 6)
-    return codes
+    return np.where(unsigned >= 0x8000, unsigned - 0x10000, unsigned).reshape(6, 6)

@@ -88,8 +88,7 @@ class Cursor:
     def _whole(self) -> int:
         start = self._take(4, 4)
         self.shared.append((start, start + 4))
-        value: int = struct.unpack_from("<I", self.data, start)[0]
-        return value
+        return struct.unpack_from("<I", self.data, start)[0]
 
     def _take(self, size: int, align: int) -> int:
         if self.cdr and self.place >= 4:

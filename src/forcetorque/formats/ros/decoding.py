@@ -54,8 +54,7 @@ class Batch:
             The stamps; shape (n,); ns.
         """
         seconds, nanoseconds = self._as(start, 8, "<u4").astype(np.int64).T
-        stamps: IntArray = seconds * 1_000_000_000 + nanoseconds
-        return stamps
+        return seconds * 1_000_000_000 + nanoseconds
 
     def counters(self, start: int) -> IntArray:
         """Read counters.

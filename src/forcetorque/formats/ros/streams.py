@@ -206,8 +206,7 @@ def _missing(samples: Samples, quantity: str) -> BoolArray:
     covariance = not_measured(quantity)
     if covariance not in samples.numbers[0]:
         return np.zeros(sum(map(len, samples.stamps)), dtype=bool)
-    first: BoolArray = samples.joined(covariance)[:, 0] == -1.0
-    return first
+    return samples.joined(covariance)[:, 0] == -1.0
 
 
 def _joint_unit(quantity: str, unit: str) -> str:

@@ -97,8 +97,7 @@ def _is_structure(characters: npt.NDArray[np.uint8]) -> BoolArray:
     is_exponent = (characters | _LOWER_CASE) == ord("e")
     is_digit_sign_or_point = (characters - np.uint8(ord("+"))) <= ord("9") - ord("+")  # of + , - . / 0 to 9
     is_neither = (characters == ord(",")) | (characters == ord("/"))
-    structure: BoolArray = ~(is_exponent | is_digit_sign_or_point) | is_neither
-    return structure
+    return ~(is_exponent | is_digit_sign_or_point) | is_neither
 
 
 def _beginnings(text: bytes, ends: IntArray, line_ends: IntArray) -> bytes:

@@ -185,8 +185,7 @@ def _sensor_values(stream: Stream, sensor: MeasuresSensor) -> FloatArray:
     if sensor.quantity == "orientation":
         return angles_of(stream.signal("orientation"))
     factors = [si_factor(unit)[1] for unit in READ_LISTS[sensor.list].logged_units]
-    logged: FloatArray = stream.signal(sensor.quantity).values / factors
-    return logged
+    return stream.signal(sensor.quantity).values / factors
 
 
 def _in_place(port: DevicePort, name: MeasuresList) -> list[MeasuresSensor]:
@@ -213,8 +212,7 @@ def _inertial_values(stream: Stream) -> FloatArray:
 
 def _in_degrees(signal: Signal) -> FloatArray:
     factors = np.where([unit.startswith("rad") for unit in signal.units], si_factor("deg")[1], 1.0)
-    degrees: FloatArray = signal.values / factors
-    return degrees
+    return signal.values / factors
 
 
 def _finite(stream: Stream, values: FloatArray, *, what: str = "a value") -> FloatArray:

@@ -77,8 +77,7 @@ class Hanging:
     @property
     def is_free(self) -> BoolArray:
         """Windows in which nothing seems to touch; shape (n,)."""
-        free: BoolArray = self.left <= self.tolerance
-        return free
+        return self.left <= self.tolerance
 
     @property
     def typical(self) -> float:
@@ -244,8 +243,7 @@ def _fitted(at_ns: IntArray, wrench: FloatArray, link_R_support: FloatArray, mov
 
 def _spread(values: FloatArray) -> FloatArray:
     """Columns by which every component of three may have a share of each of these; shape (3 n, 9)."""
-    spread: FloatArray = np.einsum("ij,nk->nijk", np.eye(3), values).reshape(3 * len(values), 9)
-    return spread
+    return np.einsum("ij,nk->nijk", np.eye(3), values).reshape(3 * len(values), 9)
 
 
 def _robust(design: FloatArray, reading: FloatArray, prior: FloatArray | None = None) -> FloatArray:
@@ -262,8 +260,7 @@ def _robust(design: FloatArray, reading: FloatArray, prior: FloatArray | None = 
         rest = scaled @ coefficients - reading
         noise = max(MAD_TO_DEVIATION * float(np.median(np.abs(rest))), 1e-9)
         weights = 1.0 / np.sqrt(1.0 + (rest / noise) ** 2)
-    unscaled: FloatArray = coefficients / scale
-    return unscaled
+    return coefficients / scale
 
 
 def free_spans(stamp_ns: IntArray, free: BoolArray) -> list[tuple[int, int]]:

@@ -202,8 +202,7 @@ class NetContact:
 def _shortest_rotation(start: FloatArray, end: FloatArray) -> FloatArray:
     """Rotations that turn unit vectors into others, by less than half a turn; shape (n, 3, 3)."""
     axis, cosine = skew(np.cross(start, end)), np.einsum("ni,ni->n", start, end)
-    rotation: FloatArray = np.eye(3) + axis + axis @ axis / (1.0 + cosine)[:, None, None]
-    return rotation
+    return np.eye(3) + axis + axis @ axis / (1.0 + cosine)[:, None, None]
 
 
 def _upright(asked: IntervalQuestion) -> FloatArray:
@@ -217,8 +216,7 @@ def _upright(asked: IntervalQuestion) -> FloatArray:
     heading = np.array([1.0, 0.0, 0.0]) if np.nanmean(np.abs(z[..., 0])) < 0.9 else np.array([0.0, 0.0, -1.0])
     x = heading - z * (z @ heading)[..., None]
     x /= np.linalg.norm(x, axis=-1, keepdims=True)
-    rotation: FloatArray = np.stack([x, np.cross(z, x), z], axis=-2)
-    return rotation
+    return np.stack([x, np.cross(z, x), z], axis=-2)
 
 
 def _demanded(asked: IntervalQuestion) -> FloatArray | None:

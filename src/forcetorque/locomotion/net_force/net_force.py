@@ -87,8 +87,7 @@ def force_error(force: FloatArray, weight: float) -> FloatArray:
     Returns:
         The forces less (0, 0, weight); shape (..., 3); N.
     """
-    error: FloatArray = np.asarray(force, dtype=np.float64) - np.array([0.0, 0.0, weight])
-    return error
+    return np.asarray(force, dtype=np.float64) - np.array([0.0, 0.0, weight])
 
 
 def _mass(experiment: Experiment) -> float:
@@ -159,8 +158,7 @@ def _moment_error(phase: NetContact, wrench: FloatArray) -> FloatArray:
         return np.full((len(wrench), 3), np.nan)
     error, (force, moment) = wrench - phase.demanded, np.split(phase.demanded, 2, axis=1)
     point = np.stack([-moment[:, 1], moment[:, 0], np.zeros(len(force))], axis=1) / force[:, 2:]
-    about: FloatArray = error[:, 3:] - np.cross(point, error[:, :3])
-    return about
+    return error[:, 3:] - np.cross(point, error[:, :3])
 
 
 def _offset_half_width(experiment: Experiment, reader: Reader, phase: NetContact, row: int) -> FloatArray:
@@ -178,8 +176,7 @@ def _offset_half_width(experiment: Experiment, reader: Reader, phase: NetContact
             half = reader.offsets[sensor.name].estimate.half_width
             gain = answers[:, k]
             squares += (np.where(np.abs(gain) > 1e-12, gain * half, 0.0) ** 2).sum(axis=1)
-    root: FloatArray = np.sqrt(squares)
-    return root
+    return np.sqrt(squares)
 
 
 def _axes(values: FloatArray) -> ThreeOrNull:

@@ -122,8 +122,7 @@ def pieces(values: FloatArray, parts: int) -> FloatArray:
     from scipy.signal import detrend  # here because importing it takes longer than most commands
 
     length = len(values) // parts
-    cut: FloatArray = detrend(values[: parts * length].reshape(parts, length), axis=1)
-    return cut
+    return detrend(values[: parts * length].reshape(parts, length), axis=1)
 
 
 def _levels(n: int, highest: float) -> list[int]:
@@ -207,8 +206,7 @@ def _noncentrality(chance: FloatArray, degrees: int) -> FloatArray:
     # it is smooth, and takes long: some of it, and lines between
     grid = np.linspace(float(np.log(chance.min())), float(np.log(chance.max())), _GRID)
     threshold = degrees * (np.exp(-grid / degrees) - 1.0)
-    needed: FloatArray = np.interp(np.log(chance), grid, ncfdtrinc(2.0, 2.0 * degrees, 1.0 - POWER, threshold))
-    return needed
+    return np.interp(np.log(chance), grid, ncfdtrinc(2.0, 2.0 * degrees, 1.0 - POWER, threshold))
 
 
 def _ranges(highest: float) -> list[tuple[TaperFamily, float, float]]:
@@ -227,5 +225,4 @@ def _inside(cycles: FloatArray, low: float, high: float, excluded: Sequence[tupl
 
 def _weight(cycles: FloatArray, highest: float) -> FloatArray:
     """Prior of one cycle per record: the same for every octave between the lowest and the highest."""
-    weight: FloatArray = 1.0 / (cycles * math.log(highest / LEAST_CYCLES))
-    return weight
+    return 1.0 / (cycles * math.log(highest / LEAST_CYCLES))

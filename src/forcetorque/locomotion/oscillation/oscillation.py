@@ -49,8 +49,7 @@ class TaperedSwings:
             Real parts over imaginary ones; shape (2 k, ...).
         """
         numbers = self.carrier @ signals
-        both: FloatArray = np.concatenate([numbers.real, numbers.imag])
-        return both
+        return np.concatenate([numbers.real, numbers.imag])
 
     def cosine_and_sine(self, shape: Any) -> FloatArray:
         """Give the two swings of a shape of which all others are sums.
@@ -65,8 +64,7 @@ class TaperedSwings:
 
         cycles, growth = shape
         envelope, angle = np.exp(growth * self.place), 2.0 * np.pi * cycles * self.place
-        swings: FloatArray = detrend(np.column_stack([envelope * np.cos(angle), envelope * np.sin(angle)]), axis=0)
-        return swings
+        return detrend(np.column_stack([envelope * np.cos(angle), envelope * np.sin(angle)]), axis=0)
 
     def columns(self, shape: Any) -> FloatArray:
         """Tell what the tapers see of these two.
@@ -163,8 +161,7 @@ def _closest_shape(swings: TaperedSwings, data: FloatArray, candidate: Candidate
 
     def residual(shape: Any) -> FloatArray:
         columns = swings.columns(shape)
-        left: FloatArray = data - columns @ np.linalg.lstsq(columns, data, rcond=None)[0]
-        return left
+        return data - columns @ np.linalg.lstsq(columns, data, rcond=None)[0]
 
     reach = float(candidate.family.half_bandwidth)
     solved = least_squares(
@@ -272,8 +269,7 @@ class _Parts:
 
     def explained(self, cycles: float) -> FloatArray:
         """Power of each part that a swing which keeps its phase within it explains; shape (parts,)."""
-        square: FloatArray = np.abs(self.numbers(cycles) @ self.steady) ** 2 / self.size
-        return square
+        return np.abs(self.numbers(cycles) @ self.steady) ** 2 / self.size
 
     def strongest(self, about: float) -> float:
         """Cycles per part near some that explain most over all parts."""

@@ -47,8 +47,7 @@ class EvenedSignal:
     @property
     def time_s(self) -> FloatArray:
         """Instants; shape (n,); s."""
-        time: FloatArray = self.start_s + np.arange(len(self.values)) / self.rate_hz
-        return time
+        return self.start_s + np.arange(len(self.values)) / self.rate_hz
 
 
 def evened(time_s: Any, values: Any, *, name: str) -> EvenedSignal:

@@ -72,8 +72,7 @@ def command_steps(time_s: FloatArray, command: FloatArray, *, name: str) -> Floa
             f"{100.0 * float(changed.mean()):.0f} % of samples; state the instants of steps"
         )
     first = np.flatnonzero(changed & ~np.concatenate([[False], changed[:-1]]))
-    instants: FloatArray = time_s[first + 1]
-    return instants
+    return time_s[first + 1]
 
 
 def settlings(signal: EvenedSignal, steps_s: Sequence[float], *, band_share: float, name: str) -> list[Settling]:
@@ -162,8 +161,7 @@ def _smooth(values: FloatArray, window: int) -> FloatArray:
     odd = window // 2 * 2 + 1
     if odd <= _ORDER + 1:
         return values
-    smooth: FloatArray = savgol_filter(values, min(odd, len(values) // 2 * 2 - 1), _ORDER)
-    return smooth
+    return savgol_filter(values, min(odd, len(values) // 2 * 2 - 1), _ORDER)
 
 
 _ROUNDING = 1e-12

@@ -100,5 +100,4 @@ def growth_pattern(tapers: FloatArray, growth: float) -> FloatArray:
     """
     n = tapers.shape[1]
     place = (np.arange(n) - 0.5 * (n - 1)) / n
-    pattern: FloatArray = tapers @ np.exp(growth * place)
-    return pattern
+    return tapers @ np.exp(growth * place)

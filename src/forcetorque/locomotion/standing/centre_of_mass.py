@@ -115,8 +115,7 @@ def pendulum_acceleration(com: FloatArray, point: FloatArray, gravity: FloatArra
         Acceleration along x and y; shape (n, 2); m/s2.
     """
     rate = -gravity[2] / com[:, 2]
-    acceleration: FloatArray = (com[:, :2] - point) * rate[:, None] + gravity[:2]
-    return acceleration
+    return (com[:, :2] - point) * rate[:, None] + gravity[:2]
 
 
 def com_acceleration(

@@ -211,5 +211,4 @@ def half_widths(covariance: FloatArray) -> FloatArray:
     Returns:
         Half-widths; shape (n, 2); m.
     """
-    half: FloatArray = NORMAL_95 * np.sqrt(np.maximum(np.einsum("nii->ni", covariance), 0.0))
-    return half
+    return NORMAL_95 * np.sqrt(np.maximum(np.einsum("nii->ni", covariance), 0.0))

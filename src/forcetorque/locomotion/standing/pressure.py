@@ -33,8 +33,7 @@ class PressureCentres:
     @property
     def known(self) -> BoolArray:
         """Whether there is a point; shape (n,)."""
-        known: BoolArray = np.all(np.isfinite(self.points), axis=1)
-        return known
+        return np.all(np.isfinite(self.points), axis=1)
 
 
 def centre_of_pressure(
@@ -183,8 +182,7 @@ class Sole:
         require_last_axis(points, name="points", length=2)
         if not len(self.edges):
             return np.full(len(points), np.nan)
-        farthest: FloatArray = (points @ self.edges[:, :2].T + self.edges[:, 2]).max(axis=1)
-        return farthest
+        return (points @ self.edges[:, :2].T + self.edges[:, 2]).max(axis=1)
 
 
 def _convex_edges(frame: str, outline: FloatArray) -> FloatArray:

@@ -169,8 +169,7 @@ class BalanceScene:
         Returns:
             Its pose in the support; shape (n, 4, 4), those around the interval included; m.
         """
-        pose: FloatArray = link_pose(self.tree, self.joints, sole.frame) @ sole.contact.link_H_contact
-        return pose
+        return link_pose(self.tree, self.joints, sole.frame) @ sole.contact.link_H_contact
 
     def ground_H_sole(self, sole: Sole) -> FloatArray:
         """Find where a sole is on the ground.
@@ -181,8 +180,7 @@ class BalanceScene:
         Returns:
             Its pose in the ground's frame in the interval; shape (n, 4, 4); m.
         """
-        pose: FloatArray = (invert_pose(self.root_H_sole(self.ground)) @ self.root_H_sole(sole))[self.samples.inside]
-        return pose
+        return (invert_pose(self.root_H_sole(self.ground)) @ self.root_H_sole(sole))[self.samples.inside]
 
     def upward(self) -> FloatArray:
         """Give the direction away from the ground: against gravity, or the ground's normal where it is not known.
@@ -192,8 +190,7 @@ class BalanceScene:
         """
         if isinstance(self.support, Support):
             return np.broadcast_to(-self.support.gravity_direction, (len(self.stamp_ns), 3))
-        normal: FloatArray = self.root_H_sole(self.ground)[self.samples.inside, :3, 2]
-        return normal
+        return self.root_H_sole(self.ground)[self.samples.inside, :3, 2]
 
     def demanded_wrench(self) -> FloatArray:
         """Give what the ground has to do to the robot, by its motion.

@@ -197,8 +197,7 @@ def _bump(seconds: FloatArray, start: float, end: float) -> FloatArray:
 def _rate(values: FloatArray, period_s: float) -> FloatArray:
     if len(values) < 2:
         return np.zeros_like(values)
-    rate: FloatArray = np.gradient(values, period_s, axis=0)
-    return rate
+    return np.gradient(values, period_s, axis=0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -231,8 +230,7 @@ class Balance:
         borne = np.einsum("bscv,bsc->bv", posture.sole_jacobian, wrench)[:, 6:]
         pull = self.posture_stiffness * (reference.position[k, 7:] - posture.position[:, 7:])
         pull += self.posture_damping * (reference.velocity[k] - posture.velocity[:, 6:])
-        torque: FloatArray = posture.bias[:, 6:] - borne + pull
-        return torque
+        return posture.bias[:, 6:] - borne + pull
 
     def sole_wrenches(self, posture: Posture, reference: Reference, k: int) -> FloatArray:
         """Give what the ground is to do to each sole.
@@ -250,8 +248,7 @@ class Balance:
         share = reference.share[k]
         lever = posture.centre_of_mass - np.tensordot(posture.sole_position, share, axes=([1], [0])) - middle
         moment = cross(lever, force) + cross(np.broadcast_to(middle, force.shape), force)
-        wrench: FloatArray = share[:, None] * np.concatenate([force, moment], axis=1)[:, None]
-        return wrench
+        return share[:, None] * np.concatenate([force, moment], axis=1)[:, None]
 
     def _force(self, posture: Posture, reference: Reference, k: int) -> FloatArray:
         """What the ground is to do to the robot; shape (B, 3)."""

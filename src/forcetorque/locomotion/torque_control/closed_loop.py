@@ -78,8 +78,7 @@ class LoopRun:
     @property
     def tracking_rms(self) -> FloatArray:
         """Root mean square of torque errors over joints and the time before a fall; shape (B,); N m."""
-        rms: FloatArray = np.sqrt(np.nanmean(self.torque_error**2, axis=(1, 2)))
-        return rms
+        return np.sqrt(np.nanmean(self.torque_error**2, axis=(1, 2)))
 
 
 def run_loop(
@@ -171,5 +170,4 @@ def _tiled(gains: TorqueGains, copies: int) -> TorqueGains:
 def _down(posture: Posture, reference: Reference, k: int) -> BoolArray:
     low = posture.position[:, 2] < reference.position[k, 2] - _FALLEN_M
     upright = rotations(posture.position[:, 3:7])[:, 2, 2]
-    down: BoolArray = low | (upright < _FALLEN_UPRIGHT)
-    return down
+    return low | (upright < _FALLEN_UPRIGHT)

@@ -261,8 +261,7 @@ class TorqueController:
         room = np.clip(integral, -self._gains.limit - besides, self._gains.limit - besides)
         # it stops at the limit, or stays where it was if the rest alone is beyond; winding back is always free
         low, high = np.minimum(self._integral, integral), np.maximum(self._integral, integral)
-        stopped: FloatArray = np.clip(room, low, high)
-        return stopped
+        return np.clip(room, low, high)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -254,10 +254,8 @@ def _estimator(biped: Biped, position: FloatArray, ways: FloatArray) -> tuple[Fl
 def _null_space(jacobian: FloatArray) -> FloatArray:
     """Ways that leave the feet where they are, orthonormal; shape (18, n)."""
     _, sizes, rows = np.linalg.svd(jacobian)
-    ways: FloatArray = rows[int((sizes > 1e-9 * sizes[0]).sum()) :].T
-    return ways
+    return rows[int((sizes > 1e-9 * sizes[0]).sum()) :].T
 
 
 def _raised(position: FloatArray) -> FloatArray:
-    raised: FloatArray = position + np.concatenate([[0.0, 0.0, _ABOVE_M], np.zeros(position.shape[1] - 3)])
-    return raised
+    return position + np.concatenate([[0.0, 0.0, _ABOVE_M], np.zeros(position.shape[1] - 3)])

@@ -98,8 +98,7 @@ def drawn_matrices(size: float, length: float, rng: np.random.Generator, copies:
         E; shape (B, 4, 6, 6).
     """
     unit = np.array([1.0, 1.0, 1.0, length, length, length])
-    matrices: FloatArray = size * unit[:, None] / unit * rng.standard_normal((copies, len(SENSORS), 6, 6))
-    return matrices
+    return size * unit[:, None] / unit * rng.standard_normal((copies, len(SENSORS), 6, 6))
 
 
 def torque_question(biped: Biped) -> Question:

@@ -217,5 +217,4 @@ def error_in_torques(torques_of_wrenches: Any, error: Any, wrenches_of_torques: 
     require_shape(matrix, name="error", shape=(len(matrix), len(matrix)))
     wrenches = np.asarray(wrenches_of_torques, dtype=np.float64)
     require_shape(wrenches, name="wrenches_of_torques", shape=(len(matrix), len(estimator)))
-    mapped: FloatArray = estimator @ matrix @ wrenches
-    return mapped
+    return estimator @ matrix @ wrenches

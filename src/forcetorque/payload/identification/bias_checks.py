@@ -228,5 +228,4 @@ def _worth(fitted: Fit, number: int, block: np.ndarray, steps: FloatArray, noise
     """`s' V^-1 s` of steps within one axis of one session; shape (k,)."""
     line = fitted.groups[number].line
     part = type(line).of(line.time_s[block], share=line.share[block])
-    worth: FloatArray = (steps * part.solve(steps, noise)[0]).sum(axis=0)
-    return worth
+    return (steps * part.solve(steps, noise)[0]).sum(axis=0)

@@ -166,8 +166,7 @@ def _step(problem: LoadProblem, guess: Guess, design: FloatArray, values: FloatA
     basis = directions_of(design, precision).basis
     flat = design.reshape(-1, design.shape[2]) @ basis
     inner = flat.T @ flat + basis.T @ precision @ basis
-    step: FloatArray = basis @ np.linalg.solve(inner, flat.T @ values.reshape(-1) + basis.T @ sides)
-    return step
+    return basis @ np.linalg.solve(inner, flat.T @ values.reshape(-1) + basis.T @ sides)
 
 
 def directions_of(design: FloatArray, precision: FloatArray) -> Directions:

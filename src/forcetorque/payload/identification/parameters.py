@@ -229,5 +229,4 @@ def rotation_by(vector: FloatArray) -> FloatArray:
     hat = skew(vector)
     if angle < 1e-12:
         return np.eye(3) + hat
-    rotation: FloatArray = np.eye(3) + np.sin(angle) / angle * hat + (1.0 - np.cos(angle)) / angle**2 * hat @ hat
-    return rotation
+    return np.eye(3) + np.sin(angle) / angle * hat + (1.0 - np.cos(angle)) / angle**2 * hat @ hat

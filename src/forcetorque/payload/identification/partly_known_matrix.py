@@ -89,8 +89,7 @@ class MatrixSpread:
             That of each row; shape (6, 6, 6).
         """
         scaled = self.roots * sizes[self.group].T[:, :, None, None]
-        covariance: FloatArray = np.einsum("kiab,kicb->iac", scaled, scaled)
-        return covariance
+        return np.einsum("kiab,kicb->iac", scaled, scaled)
 
     def told(self, sizes: FloatArray, deviation: FloatArray, posterior: FloatArray) -> FloatArray:
         """Give the sizes that deviations have.
@@ -156,8 +155,7 @@ def _covariance_of_rows(problem: LoadProblem, guess: Guess, noise: FloatArray) -
     wrench = _about_sessions(problem, load_wrench(problem, guess))
     information = np.einsum("n,ni,nj->ij", problem.rows.share, wrench, wrench)
     prior = np.linalg.inv(np.zeros((6, 6, 6)) if problem.matrix_prior is None else problem.matrix_prior)
-    covariance: FloatArray = np.linalg.inv(prior + information / noise[:, None, None] ** 2)
-    return covariance
+    return np.linalg.inv(prior + information / noise[:, None, None] ** 2)
 
 
 def _slope(problem: LoadProblem, guess: Guess, posterior: FloatArray, noise: FloatArray) -> tuple[FloatArray, ...]:

@@ -214,8 +214,7 @@ def _difference(problem: LoadProblem, guess: Guess, place: int) -> FloatArray:
     step = np.zeros(len(guess.values))
     step[place] = _SMALL
     ahead, behind = (load_wrench(problem, replace(guess, values=guess.values + side * step)) for side in (1.0, -1.0))
-    change: FloatArray = (ahead - behind) / (2.0 * _SMALL) @ guess.response.T
-    return change
+    return (ahead - behind) / (2.0 * _SMALL) @ guess.response.T
 
 
 def variable_about_mean(rows: LoadRows, number: int) -> FloatArray:
@@ -229,8 +228,7 @@ def variable_about_mean(rows: LoadRows, number: int) -> FloatArray:
         Shape (n,).
     """
     values = np.zeros(len(rows)) if rows.variables is None else rows.variables[:, number]
-    about: FloatArray = values - values.mean()
-    return about
+    return values - values.mean()
 
 
 def since_middle(rows: LoadRows) -> FloatArray:
@@ -307,8 +305,7 @@ def first_mount(problem: LoadProblem) -> FloatArray:
     moment = force_response(problem)
     left, _, right = np.linalg.svd(sign * moment)
     flip = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(left @ right))) or 1.0])
-    rotation: FloatArray = left @ flip @ right
-    return rotation
+    return left @ flip @ right
 
 
 def force_response(problem: LoadProblem) -> FloatArray:
@@ -322,5 +319,4 @@ def force_response(problem: LoadProblem) -> FloatArray:
     """
     rows = problem.rows
     force, moved = rows.moved(rows.wrench[:, FORCE]), rows.moved(rows.proper_acceleration)
-    response: FloatArray = force.T @ moved @ np.linalg.pinv(moved.T @ moved, rcond=1e-6, hermitian=True)
-    return response
+    return force.T @ moved @ np.linalg.pinv(moved.T @ moved, rcond=1e-6, hermitian=True)

@@ -231,5 +231,4 @@ class LoadSolution:
     @property
     def residual_rms(self) -> FloatArray:
         """Root mean square residual of each component; shape (6,); N, N m."""
-        rms: FloatArray = np.sqrt((self.residual**2).mean(axis=0))
-        return rms
+        return np.sqrt((self.residual**2).mean(axis=0))

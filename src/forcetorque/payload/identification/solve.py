@@ -166,8 +166,7 @@ def _inertia_half_width(
     hat, axes = skew(centre), skew(np.eye(3))
     by_first = six_of(axes @ hat + hat @ axes)
     change = np.hstack([-six_of(hat @ hat)[:, None], by_first.T, np.eye(6)])
-    half: FloatArray = inertia_of(widening * np.sqrt(np.einsum("ia,ab,ib->i", change, covariance, change)))
-    return half
+    return inertia_of(widening * np.sqrt(np.einsum("ia,ab,ib->i", change, covariance, change)))
 
 
 def _absent(load: Load) -> LoadEstimate:

@@ -55,8 +55,7 @@ class PaddedSamples:
         """
         if self.window is not None:
             values = smooth(self.stamp_ns, values, self.window, grid=self.grid)
-        kept: FloatArray = values[self.inside]
-        return kept
+        return values[self.inside]
 
 
 def padded_samples(

@@ -46,8 +46,7 @@ class EvenRecord:
     @property
     def time_s(self) -> FloatArray:
         """Instants; shape (n,); s."""
-        time: FloatArray = self.start_s + np.arange(len(self)) / self.rate_hz
-        return time
+        return self.start_s + np.arange(len(self)) / self.rate_hz
 
 
 def even_record(time_s: Any, signals: Any, *, name: str) -> EvenRecord:

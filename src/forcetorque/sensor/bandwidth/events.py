@@ -113,13 +113,11 @@ def outstanding(record: EvenRecord) -> FloatArray:
     width = 2 * int(0.5 * SLOW_S * record.rate_hz) + 1
     fast = np.abs(record.signals - median_filter(record.signals, size=(width, 1), mode="nearest"))
     scale = MAD_TO_DEVIATION * np.median(fast, axis=0)
-    standing: FloatArray = fast / np.maximum(scale, _resolution(record.signals))
-    return standing
+    return fast / np.maximum(scale, _resolution(record.signals))
 
 
 def _resolution(signals: FloatArray) -> FloatArray:
     """Smallest step of each signal, which a quiet one does not even reach; shape (k,)."""
     steps = np.abs(np.diff(signals, axis=0))
     least = np.where(steps > 0.0, steps, np.inf).min(axis=0)
-    resolution: FloatArray = np.where(np.isfinite(least), least, np.inf)
-    return resolution
+    return np.where(np.isfinite(least), least, np.inf)

@@ -66,8 +66,7 @@ class FrequencyResponse:
     @property
     def driven(self) -> BoolArray:
         """Which frequencies the force drives; shape (m,)."""
-        driven: BoolArray = self.force_power >= DRIVEN * self.force_power.max()
-        return driven
+        return self.force_power >= DRIVEN * self.force_power.max()
 
     @property
     def liveliest_hz(self) -> float:
@@ -91,8 +90,7 @@ class FrequencyResponse:
         """Noise averaged over neighbouring frequencies; shape (m,)."""
         from scipy.ndimage import uniform_filter1d
 
-        smooth: FloatArray = uniform_filter1d(self.noise_power, 2 * _BINS + 1, mode="nearest")
-        return smooth
+        return uniform_filter1d(self.noise_power, 2 * _BINS + 1, mode="nearest")
 
 
 def overlapping(series: FloatArray, segment: int) -> FloatArray:
@@ -106,8 +104,7 @@ def overlapping(series: FloatArray, segment: int) -> FloatArray:
         Shape (k, segment).
     """
     step = segment - segment // 2
-    segments: FloatArray = np.lib.stride_tricks.sliding_window_view(series, segment)[::step]
-    return segments
+    return np.lib.stride_tricks.sliding_window_view(series, segment)[::step]
 
 
 def frequency_response(
@@ -175,8 +172,7 @@ def frequency_response(
 
 def _noise(coherence: FloatArray, reading_power: FloatArray, averages: float) -> FloatArray:
     """What the force does not explain, for the response has taken some of the noise; shape (m,)."""
-    noise: FloatArray = (1.0 - coherence) * reading_power * averages / (averages - 1.0)
-    return noise
+    return (1.0 - coherence) * reading_power * averages / (averages - 1.0)
 
 
 def require_coherence(response: FrequencyResponse, *, name: str) -> None:

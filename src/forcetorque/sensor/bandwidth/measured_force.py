@@ -78,8 +78,7 @@ def _force_along(record: ExcitedRecord, direction: FloatArray, mass_kg: float | 
         raise ExperimentError(f"{record.name}: expected a measured force, got none")
     values = record.force.signals
     if values.shape[1] == len(direction):
-        along: FloatArray = values @ direction
-        return along
+        return values @ direction
     if direction[3:].any():
         raise ExperimentError(
             f"{record.name}: an acceleration excites forces; choose fx, fy or fz by --component, from Python component"

@@ -210,8 +210,7 @@ def _fit(time: FloatArray, decay: FloatArray, count: int) -> _Fit:
 
     def left(shape: FloatArray) -> FloatArray:
         columns = design(shape)
-        residual: FloatArray = decay - columns @ np.linalg.lstsq(columns, decay, rcond=None)[0]
-        return residual
+        return decay - columns @ np.linalg.lstsq(columns, decay, rcond=None)[0]
 
     lower, upper = np.tile([0.0, 0.0], count), np.tile([0.5 * rate, rate], count)
     start = np.clip(poles, lower + 1e-6, 0.99 * upper)
@@ -221,8 +220,7 @@ def _fit(time: FloatArray, decay: FloatArray, count: int) -> _Fit:
 
     def model(at: FloatArray) -> FloatArray:
         modes = at[2:].reshape(-1, 4)
-        read: FloatArray = design(modes[:, 2:].ravel()) @ np.concatenate([at[:2], modes[:, :2].ravel()])
-        return read
+        return design(modes[:, 2:].ravel()) @ np.concatenate([at[:2], modes[:, :2].ravel()])
 
     return _Fit(parameters=parameters, model=model, left=2.0 * float(solved.cost) / (len(decay) - len(parameters)))
 
@@ -238,8 +236,7 @@ def _poles(decay: FloatArray, count: int, rate: float) -> FloatArray:
     roots = np.linalg.eigvals(np.linalg.lstsq(axes[:-1], axes[1:], rcond=None)[0])
     logs = np.log(np.where(np.abs(roots) > 0.0, roots, 1e-6).astype(np.complex128)) * rate / step
     kept = np.resize(logs[np.argsort(-np.abs(logs.imag))][::2], count)
-    shape: FloatArray = np.column_stack([np.abs(kept.imag) / (2.0 * np.pi), np.maximum(-kept.real, 1e-3)]).ravel()
-    return shape
+    return np.column_stack([np.abs(kept.imag) / (2.0 * np.pi), np.maximum(-kept.real, 1e-3)]).ravel()
 
 
 def _strongest(fit: _Fit, time: FloatArray) -> tuple[float, float, FloatArray] | None:
@@ -271,8 +268,7 @@ def _jacobian(model: Callable[[FloatArray], FloatArray], at: FloatArray) -> Floa
 def _detrended(values: FloatArray) -> FloatArray:
     from scipy.signal import detrend
 
-    flat: FloatArray = detrend(values)
-    return flat
+    return detrend(values)
 
 
 def _autocovariance(stretches: list[FloatArray]) -> FloatArray:
@@ -285,8 +281,7 @@ def _autocovariance(stretches: list[FloatArray]) -> FloatArray:
         noise = _detrended(stretch)
         own = correlate(noise, noise, method="fft")[len(noise) - 1 :][:lags]
         products[: len(own)] += own
-    tapered: FloatArray = products / sum(map(len, stretches)) * (1.0 - np.arange(lags) / lags)
-    return tapered
+    return products / sum(map(len, stretches)) * (1.0 - np.arange(lags) / lags)
 
 
 def _covariance(jacobian: FloatArray, autocovariance: FloatArray) -> FloatArray:
@@ -297,8 +292,7 @@ def _covariance(jacobian: FloatArray, autocovariance: FloatArray) -> FloatArray:
     symmetric = np.concatenate([autocovariance[:0:-1], autocovariance])
     noisy = fftconvolve(columns, symmetric[:, None], mode="full", axes=0)[len(autocovariance) - 1 :][: len(columns)]
     spread = np.linalg.pinv(columns.T @ columns, hermitian=True)
-    covariance: FloatArray = spread @ (columns.T @ noisy) @ spread / np.outer(scale, scale)
-    return covariance
+    return spread @ (columns.T @ noisy) @ spread / np.outer(scale, scale)
 
 
 SETTLED = 0.3
@@ -347,5 +341,4 @@ def gains(
 
 def _step(force: FloatArray, event: Event) -> FloatArray:
     behind = force[event.peak : event.after]
-    step: FloatArray = behind[: max(1, int(SETTLED * len(behind)))].mean(axis=0) - force[event.quiet].mean(axis=0)
-    return step
+    return behind[: max(1, int(SETTLED * len(behind)))].mean(axis=0) - force[event.quiet].mean(axis=0)

@@ -41,8 +41,7 @@ class SecondOrder:
     @property
     def half_width(self) -> FloatArray:
         """Half-widths of the 95 % intervals of natural frequency, damping and gain; shape (3,)."""
-        half: FloatArray = NORMAL_95 * np.sqrt(np.diag(self.covariance))
-        return half
+        return NORMAL_95 * np.sqrt(np.diag(self.covariance))
 
     @property
     def determined(self) -> bool:
@@ -254,8 +253,7 @@ class InverseFilter:
         values = np.asarray(reading, dtype=np.float64)
         settled = lfilter_zi(self.numerator, self.denominator)
         state = np.multiply.outer(settled, values[0]) if len(values) else np.zeros((_ORDER, *values.shape[1:]))
-        corrected: FloatArray = lfilter(self.numerator, self.denominator, values, axis=0, zi=state)[0]
-        return corrected
+        return lfilter(self.numerator, self.denominator, values, axis=0, zi=state)[0]
 
     @property
     def noise_gain(self) -> float:

@@ -76,8 +76,7 @@ class ElasticElement:
             wrench (N, N m) per displacement (m, then rad).
         """
         maps = self._hub_X_arm_ends()
-        total: FloatArray = (maps @ self.beam.stiffness() @ np.swapaxes(maps, 1, 2)).sum(axis=0)
-        return total
+        return (maps @ self.beam.stiffness() @ np.swapaxes(maps, 1, 2)).sum(axis=0)
 
     def arm_wrenches(self) -> FloatArray:
         """Give what each arm carries of a load.
@@ -88,8 +87,7 @@ class ElasticElement:
         """
         maps = self._hub_X_arm_ends()
         # the displacement map is the transpose of the wrench map
-        wrenches: FloatArray = self.beam.stiffness() @ np.swapaxes(maps, 1, 2) @ np.linalg.inv(self.stiffness())
-        return wrenches
+        return self.beam.stiffness() @ np.swapaxes(maps, 1, 2) @ np.linalg.inv(self.stiffness())
 
     def strain_matrix(self) -> FloatArray:
         """Give the strain of each channel per component of a load.

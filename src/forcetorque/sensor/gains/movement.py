@@ -43,8 +43,7 @@ def moved_channels(run: SensorRun, counts: RawCounts) -> BoolArray:
         return np.zeros(values.shape[1], dtype=bool)
     noise = np.sqrt(white_variance(stamps, values)) + smallest_steps(values)
     _, means, _ = means_over(seconds_since(stamps, int(stamps[0])), values, _WINDOW_S)
-    moved: BoolArray = np.ptp(means, axis=0) > _BEYOND_NOISE * noise
-    return moved
+    return np.ptp(means, axis=0) > _BEYOND_NOISE * noise
 
 
 def has_contact(run: SensorRun) -> bool:

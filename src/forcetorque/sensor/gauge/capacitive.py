@@ -77,8 +77,7 @@ class ParallelPlates:
         References:
             [1] Thesis (1.12). There q is called a current in A; it is a charge in C.
         """
-        charges: FloatArray = self.capacitance(gap) * np.asarray(voltage, dtype=np.float64)
-        return charges
+        return self.capacitance(gap) * np.asarray(voltage, dtype=np.float64)
 
     def _strength(self) -> float:
         return self.relative_permittivity * VACUUM_PERMITTIVITY * self.area

@@ -56,8 +56,7 @@ class ReflectedIntensity:
         if not (distances >= 0.0).all():
             raise SensorError(f"distance: expected at least 0 m, got {distances.min():g}")
         radius = self.core_radius + 2.0 * distances * math.tan(self.cone_angle)
-        intensities: FloatArray = self.contact_intensity * (self.core_radius / radius) ** 2
-        return intensities
+        return self.contact_intensity * (self.core_radius / radius) ** 2
 
     def distance(self, intensity: Any) -> FloatArray:
         """Give the distance that an intensity tells.
@@ -78,8 +77,7 @@ class ReflectedIntensity:
                 f"got {intensities.min():g} to {intensities.max():g}"
             )
         growth = np.sqrt(self.contact_intensity / intensities) - 1.0
-        distances: FloatArray = 0.5 * self.core_radius * growth / math.tan(self.cone_angle)
-        return distances
+        return 0.5 * self.core_radius * growth / math.tan(self.cone_angle)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -137,10 +135,7 @@ class FibreBraggGrating:
             Shifts; broadcast shape; m.
         """
         strains, warming = np.asarray(strain, dtype=np.float64), np.asarray(temperature_change, dtype=np.float64)
-        shifts: FloatArray = self.wavelength * (
-            self.strain_sensitivity * strains + self.temperature_sensitivity * warming
-        )
-        return shifts
+        return self.wavelength * (self.strain_sensitivity * strains + self.temperature_sensitivity * warming)
 
     def strain(self, shift: Any, temperature_change: Any = 0.0) -> FloatArray:
         """Give the strain that a shift tells at a known temperature.
@@ -154,5 +149,4 @@ class FibreBraggGrating:
         """
         warming = np.asarray(temperature_change, dtype=np.float64)
         relative = np.asarray(shift, dtype=np.float64) / self.wavelength
-        strains: FloatArray = (relative - self.temperature_sensitivity * warming) / self.strain_sensitivity
-        return strains
+        return (relative - self.temperature_sensitivity * warming) / self.strain_sensitivity

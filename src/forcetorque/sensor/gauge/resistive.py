@@ -72,8 +72,7 @@ class ResistiveGauge:
         """
         change = np.asarray(resistance, dtype=np.float64) / self.resistance - 1.0
         warming = self.temperature_coefficient * np.asarray(temperature_change, dtype=np.float64)
-        strains: FloatArray = (change - warming) / self.gauge_factor
-        return strains
+        return (change - warming) / self.gauge_factor
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

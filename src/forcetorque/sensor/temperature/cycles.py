@@ -131,8 +131,7 @@ class Cycles:
     @property
     def time_s(self) -> FloatArray:
         """Instants; shape (m,); s."""
-        time: FloatArray = self.line.time_s * self.window_s
-        return time
+        return self.line.time_s * self.window_s
 
     def on_branches(self) -> Cycles:
         """Leave out what is near a turn, where the reading changes its branch.

@@ -163,8 +163,7 @@ def _speed(cycles: Cycles, lag_s: float) -> FloatArray:
     """How fast the temperature changes after a lag; shape (m,); degC/s."""
     beside = _SPEED_MEANS * cycles.window_s
     ahead, behind = (cycles.temperature_after(lag_s + side * beside) for side in (1.0, -1.0))
-    speed: FloatArray = (ahead - behind) / (2.0 * beside)
-    return speed
+    return (ahead - behind) / (2.0 * beside)
 
 
 def _speed_noise(cycles: Cycles) -> float:

@@ -55,8 +55,7 @@ class Network(TransferFunction):
         places = np.linspace(self.lowest, self.highest, _LOOKS)
         hidden = np.tanh(places[:, None] * self.weights + self.biases)
         directions = np.sign((1.0 - hidden**2) @ (self.weights * self.output_weights))
-        turns: FloatArray = places[1:][directions[1:] != directions[:-1]]
-        return turns
+        return places[1:][directions[1:] != directions[:-1]]
 
 
 def fit_network(stimulus: Any, output: Any, *, neurons: int = 4, seed: int = 0, weight_decay: float = 1e-6) -> Network:

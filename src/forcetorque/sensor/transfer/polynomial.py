@@ -45,8 +45,7 @@ class Polynomial(TransferFunction):
         # the slope may touch zero without changing its sign, as that of s^3 does: that is no turn
         edges = np.concatenate([[self.lowest], inside, [self.highest]])
         signs = np.sign(slope(0.5 * (edges[:-1] + edges[1:])))
-        turns: FloatArray = inside[signs[:-1] != signs[1:]]
-        return turns
+        return inside[signs[:-1] != signs[1:]]
 
 
 def fit_polynomial(stimulus: Any, output: Any, *, degree: int = 3) -> Polynomial:

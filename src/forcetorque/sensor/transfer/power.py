@@ -97,8 +97,7 @@ class Power(TransferFunction):
         return self.slope * stimulus**self.exponent + self.offset
 
     def _stimulus(self, output: FloatArray) -> FloatArray:
-        stimuli: FloatArray = ((output - self.offset) / self.slope) ** (1.0 / self.exponent)
-        return stimuli
+        return ((output - self.offset) / self.slope) ** (1.0 / self.exponent)
 
     def _turning_points(self) -> FloatArray:
         return np.zeros(0)

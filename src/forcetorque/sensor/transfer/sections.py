@@ -89,15 +89,13 @@ class PiecewiseLinear(TransferFunction):
         directions = np.sign(np.diff(self._output(np.concatenate([[self.lowest], inside, [self.highest]]))))
         # a level line is as bad as a turn: its output tells no single stimulus
         is_turn = (directions[:-1] != directions[1:]) | (directions[1:] == 0.0)
-        turns: FloatArray = inside[is_turn]
-        return turns
+        return inside[is_turn]
 
 
 def _along_lines(stimulus: FloatArray, knots: FloatArray, values: FloatArray) -> FloatArray:
     section = np.clip(np.searchsorted(knots, stimulus, side="right") - 1, 0, len(knots) - 2)
     part = (stimulus - knots[section]) / np.diff(knots)[section]
-    along: FloatArray = (1.0 - part) * values[section] + part * values[section + 1]
-    return along
+    return (1.0 - part) * values[section] + part * values[section + 1]
 
 
 def fit_piecewise_linear(stimulus: Any, output: Any, *, sections: int = 4) -> PiecewiseLinear:
@@ -158,8 +156,7 @@ class Spline(TransferFunction):
         inside = np.unique(roots[(roots > self.lowest) & (roots < self.highest)])
         edges = np.concatenate([[self.lowest], inside, [self.highest]])
         signs = np.sign(slope(0.5 * (edges[:-1] + edges[1:])))
-        turns: FloatArray = inside[(signs[:-1] != signs[1:]) | (signs[1:] == 0.0)]
-        return turns
+        return inside[(signs[:-1] != signs[1:]) | (signs[1:] == 0.0)]
 
 
 def fit_spline(stimulus: Any, output: Any, *, sections: int = 4) -> Spline:

@@ -86,8 +86,7 @@ class TransferFunction(ABC):
                 f"{high:g}, such as {values[outside].flat[0]:g}; limit them with np.clip, or state a wider range "
                 "with dataclasses.replace"
             )
-        stimuli: FloatArray = np.clip(self._stimulus(np.clip(values, low, high)), self.lowest, self.highest)
-        return stimuli
+        return np.clip(self._stimulus(np.clip(values, low, high)), self.lowest, self.highest)
 
     def output_ends(self) -> tuple[float, float]:
         """Give the outputs at the ends of the range.

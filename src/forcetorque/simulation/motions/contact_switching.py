@@ -153,8 +153,7 @@ class _Resting:
     def pose(self, link: str) -> FloatArray:
         """Where a link is; shape (4, 4); m."""
         at_rest = JointMotion.at_rest(self.stand.joints, self.stand.rest[None])
-        world_H_link: FloatArray = self.world_H_first @ link_pose(self.stand.tree, at_rest, link)[0]
-        return world_H_link
+        return self.world_H_first @ link_pose(self.stand.tree, at_rest, link)[0]
 
     def held_at(self, link: str) -> Stand:
         """The robot in the same posture and place, held at another link."""

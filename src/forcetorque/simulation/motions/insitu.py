@@ -103,8 +103,7 @@ def _named(stand: Stand, limb: Limb, joints: tuple[str, str]) -> tuple[str, str]
 def _axis(stand: Stand, joint: str) -> FloatArray:
     """Axis of a joint in the support, at rest; shape (3,)."""
     index = next(k for k, body in enumerate(stand.tree.bodies) if body.joint == joint)
-    axis: FloatArray = body_pose(stand.tree, JointMotion.at_rest(stand.joints, stand.rest[None]), index)[0, :3, 2]
-    return axis
+    return body_pose(stand.tree, JointMotion.at_rest(stand.joints, stand.rest[None]), index)[0, :3, 2]
 
 
 def _listed(names: Iterable[str]) -> str:
@@ -261,5 +260,4 @@ def balancing_postures(
     wrench = weight_at_support(stand, drawn.reshape(-1, len(stand.joints))).reshape(postures, candidates, 6)
     # the moment about the support's origin is the weight times the level way to the centre of mass
     lever = np.linalg.norm(wrench[:, :, 3:], axis=2)
-    best: FloatArray = drawn[np.arange(postures), lever.argmin(axis=1)]
-    return best
+    return drawn[np.arange(postures), lever.argmin(axis=1)]

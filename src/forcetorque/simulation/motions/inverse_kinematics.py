@@ -152,8 +152,7 @@ def carried_poses(displacement: JointMotion, world_H_rest: FloatArray) -> FloatA
         `world_H_link`; shape (n, 4, 4); m.
     """
     moved = link_pose(_world(), displacement, "carried")
-    pose: FloatArray = make_pose(moved[:, :3, :3] @ world_H_rest[:3, :3], moved[:, :3, 3] + world_H_rest[:3, 3])
-    return pose
+    return make_pose(moved[:, :3, :3] @ world_H_rest[:3, :3], moved[:, :3, 3] + world_H_rest[:3, 3])
 
 
 @cache

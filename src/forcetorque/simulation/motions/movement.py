@@ -201,8 +201,7 @@ class Movement:
     @property
     def gravity_direction(self) -> FloatArray:
         """Unit vector along which things fall, in the axes of the support at rest; shape (3,)."""
-        down: FloatArray = -self.world_H_support[2, :3]
-        return down
+        return -self.world_H_support[2, :3]
 
     @property
     def touched(self) -> tuple[str, ...]:
@@ -266,8 +265,7 @@ class Movement:
         world_H_support = self.world_H_support
         if self.carriage is not None:
             world_H_support = self.carriage.poses(at, self.world_H_support)
-        pose: FloatArray = world_H_support @ link_pose(self.tree, self.joints(at), link)
-        return pose
+        return world_H_support @ link_pose(self.tree, self.joints(at), link)
 
     def external_wrenches(self, seconds: Any) -> Wrenches:
         """Give what the touches beside the support do to the robot.

@@ -99,8 +99,7 @@ class Spline:
         Returns:
             Values; shape (n, names).
         """
-        values: FloatArray = self._curves[0](seconds)
-        return values
+        return self._curves[0](seconds)
 
     def motion(self, seconds: FloatArray) -> JointMotion:
         """Give the motion of joints whose positions its values are.

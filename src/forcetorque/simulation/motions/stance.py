@@ -83,8 +83,7 @@ class Steps:
             that; shape (n, 2).
         """
         x = np.clip(_progress(self._phase(seconds), _LIFTED), 0.0, 1.0)
-        lifts: FloatArray = 64.0 * (x * (1.0 - x)) ** 3
-        return lifts
+        return 64.0 * (x * (1.0 - x)) ** 3
 
     def displacements(self, seconds: FloatArray) -> FloatArray:
         """Tell how far each foot is away from where it stands.
@@ -108,19 +107,16 @@ class Steps:
         Returns:
             From -1 over the first foot to 1 over the second; shape (n,).
         """
-        lean: FloatArray = np.sin(2.0 * np.pi / self.cycle_s * seconds)
-        return lean
+        return np.sin(2.0 * np.pi / self.cycle_s * seconds)
 
     def _phase(self, seconds: FloatArray) -> FloatArray:
         """Time since each foot's cycle began, as a share of it; shape (n, 2)."""
-        phase: FloatArray = (seconds[:, None] / self.cycle_s + [0.0, 0.5]) % 1.0
-        return phase
+        return (seconds[:, None] / self.cycle_s + [0.0, 0.5]) % 1.0
 
 
 def _progress(phase: FloatArray, span: tuple[float, float]) -> FloatArray:
     """Part of a span of the cycle that is over; below 0 before it, above 1 after it."""
-    progress: FloatArray = (phase - span[0]) / (span[1] - span[0])
-    return progress
+    return (phase - span[0]) / (span[1] - span[0])
 
 
 _LEG_JOINTS: Final = 6
@@ -341,8 +337,7 @@ def random_placement(rng: np.random.Generator) -> FloatArray:
     Returns:
         A `Stance.placement` of up to 2 cm forwards or back, 1.5 cm sideways and 9 degrees; shape (2, 3).
     """
-    placement: FloatArray = rng.uniform(-1.0, 1.0, (2, 3)) * _REPLACED
-    return placement
+    return rng.uniform(-1.0, 1.0, (2, 3)) * _REPLACED
 
 
 def _placed(world_H_foot: FloatArray, gravity_direction: FloatArray, shift: FloatArray) -> FloatArray:

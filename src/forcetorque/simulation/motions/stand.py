@@ -171,8 +171,7 @@ class Stand:
         """
         rest = self.rest[self.columns(joints)]
         limits = np.array([self.range_of(joint) for joint in joints]).reshape(-1, 2).T
-        bounds: FloatArray = rest + share * (limits - rest)
-        return bounds
+        return rest + share * (limits - rest)
 
     def columns(self, joints: Iterable[str]) -> list[int]:
         """Find the columns of joints in postures.
@@ -264,8 +263,7 @@ def shortest_turn_down(direction: FloatArray) -> FloatArray:
         Rotation matrix; shape (3, 3).
     """
     hat = skew(np.cross(direction, [0.0, 0.0, -1.0]))
-    turn: FloatArray = np.eye(3) + hat + hat @ hat / (1.0 - direction[2])
-    return turn
+    return np.eye(3) + hat + hat @ hat / (1.0 - direction[2])
 
 
 def _unit(direction: object) -> FloatArray:

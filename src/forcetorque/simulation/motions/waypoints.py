@@ -115,8 +115,7 @@ def minimum_jerk(x: FloatArray) -> FloatArray:
         Share of the way, 0 to 1; its first two derivatives are continuous; the same shape.
     """
     inside = np.clip(x, 0.0, 1.0)
-    share: FloatArray = inside**3 * (10.0 - 15.0 * inside + 6.0 * inside**2)
-    return share
+    return inside**3 * (10.0 - 15.0 * inside + 6.0 * inside**2)
 
 
 def shortest_moves(ways: FloatArray, speeds: FloatArray) -> FloatArray:
@@ -129,5 +128,4 @@ def shortest_moves(ways: FloatArray, speeds: FloatArray) -> FloatArray:
     Returns:
         Durations; shape (n,); s.
     """
-    durations: FloatArray = (_PEAK * np.abs(ways) / speeds).max(axis=1, initial=0.0)
-    return durations
+    return (_PEAK * np.abs(ways) / speeds).max(axis=1, initial=0.0)

@@ -38,8 +38,7 @@ def workbench_errors(workbench: FloatArray, mounted: FloatArray, changes: Sequen
     Returns:
         Measured minus true wrenches of all recordings; shape (sum of n, 6); N, N m.
     """
-    errors: FloatArray = np.concatenate(list(changes)) @ matrix_error(workbench, mounted).T
-    return errors
+    return np.concatenate(list(changes)) @ matrix_error(workbench, mounted).T
 
 
 def mounted_with_error(

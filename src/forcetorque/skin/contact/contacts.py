@@ -68,8 +68,7 @@ class SkinContacts:
     @property
     def force_N(self) -> FloatArray:
         """Norm of the force, (7.4); shape (c,)."""
-        force: FloatArray = np.linalg.norm(self.wrench[:, :3], axis=1)
-        return force
+        return np.linalg.norm(self.wrench[:, :3], axis=1)
 
     @property
     def force_sd_N(self) -> FloatArray:
@@ -160,15 +159,13 @@ class _Groups:
         """Sums over the taxels of each contact, of rows by taxel; shape (c, k)."""
         if not len(self.starts):
             return np.zeros((0, columns.shape[1]))
-        sums: FloatArray = np.add.reduceat(columns, self.starts, axis=0)
-        return sums
+        return np.add.reduceat(columns, self.starts, axis=0)
 
     def largest(self, values: FloatArray) -> FloatArray:
         """Largest value in each contact, of values by taxel; shape (c,)."""
         if not len(self.starts):
             return np.zeros(0)
-        largest: FloatArray = np.maximum.reduceat(values, self.starts)
-        return largest
+        return np.maximum.reduceat(values, self.starts)
 
 
 def _areas(patch: SkinPatch, groups: _Groups, frame: PressureFrame) -> FloatArray:

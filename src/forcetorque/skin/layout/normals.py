@@ -80,8 +80,7 @@ class TouchingPlanes:
         terms = np.column_stack([np.ones(len(along)), along / _REACH_M])
         # few planes do not tell how the normal turns: then it turns least
         constant = np.linalg.lstsq(root * terms, root * self.normals[near], rcond=1e-6)[0][0]
-        normal: FloatArray = constant / np.linalg.norm(constant)
-        return normal
+        return constant / np.linalg.norm(constant)
 
 
 def module_planes(surface: SkinSurface, modules: IntArray) -> TouchingPlanes | None:

@@ -88,16 +88,14 @@ def _axes(module: PlannedModule, paper: FloatArray, link: FloatArray, mirrored: 
             "axes of its own"
         )
     left, _, right = np.linalg.svd(np.linalg.lstsq(terms, wanted, rcond=None)[0][:2], full_matrices=False)
-    axes: FloatArray = left @ right
-    return axes
+    return left @ right
 
 
 def _neighbours(paper: FloatArray, link: FloatArray) -> BoolArray:
     """Modules about the one at the origin that are as far on paper as on the link; it is none itself."""
     drawn, real = np.linalg.norm(paper, axis=1), np.linalg.norm(link, axis=1)
     joined = (real < _STRETCH * drawn + _ROUNDING_M) & (drawn < _STRETCH * real + _ROUNDING_M)
-    near: BoolArray = joined & (drawn > 0.0) & (np.maximum(drawn, real) < _FARTHEST_M)
-    return near
+    return joined & (drawn > 0.0) & (np.maximum(drawn, real) < _FARTHEST_M)
 
 
 def _pose(module: PlannedModule, centre: FloatArray, axes: FloatArray) -> FloatArray:

@@ -150,14 +150,12 @@ def warm_recording(
 
 def _rise(since: FloatArray, constant_s: float) -> FloatArray:
     """Share of a rise that begins at 0."""
-    rise: FloatArray = 1.0 - np.exp(-np.maximum(since, 0.0) / constant_s)
-    return rise
+    return 1.0 - np.exp(-np.maximum(since, 0.0) / constant_s)
 
 
 def _passing(since: FloatArray, warm: Warmth) -> FloatArray:
     """Share of the heat of a contact that begins at 0 and ends after the hold."""
-    passing: FloatArray = _rise(since, warm.outside_s) - _rise(since - warm.hold_s, warm.outside_s)
-    return passing
+    return _rise(since, warm.outside_s) - _rise(since - warm.hold_s, warm.outside_s)
 
 
 def _near(layout: SkinLayout, pressure: FloatArray) -> FloatArray:
@@ -168,11 +166,9 @@ def _near(layout: SkinLayout, pressure: FloatArray) -> FloatArray:
     if not len(touched):
         return np.zeros(len(layout))
     distance, _ = KDTree(touched).query(layout.positions)
-    near: FloatArray = np.exp(-0.5 * (distance / _BESIDE_M) ** 2)
-    return near
+    return np.exp(-0.5 * (distance / _BESIDE_M) ** 2)
 
 
 def _read(level: FloatArray, noise: FloatArray | float, rng: np.random.Generator) -> FloatArray:
     """Whole counts of 8 bits, with noise."""
-    counts: FloatArray = np.clip(np.rint(level + noise * rng.standard_normal(level.shape)), 0.0, 255.0)
-    return counts
+    return np.clip(np.rint(level + noise * rng.standard_normal(level.shape)), 0.0, 255.0)

@@ -112,8 +112,7 @@ class ClothStrip:
     def pressure(self, along: FloatArray, across: FloatArray) -> FloatArray:
         """Pressure over its pressure inside, by distances along the limb and around it."""
         sides = (self.width_m / 2.0 - np.abs(along), self.arc_m / 2.0 - np.abs(across))
-        even: FloatArray = np.prod([np.clip(0.5 + side / self.hem_m, 0.0, 1.0) for side in sides], axis=0)
-        return even
+        return np.prod([np.clip(0.5 + side / self.hem_m, 0.0, 1.0) for side in sides], axis=0)
 
 
 RigidObject = FlatWeight | Sphere | Palm

@@ -93,8 +93,7 @@ def _normals_at(surface: SkinSurface) -> FloatArray:
     codes = directed[:, 0] * len(surface) + directed[:, 1]
     order = np.argsort(codes)
     wanted = surface.boundary[:, 0] * len(surface) + surface.boundary[:, 1]
-    normals: FloatArray = surface.facet_normals[order[np.searchsorted(codes, wanted, sorter=order)] // 3]
-    return normals
+    return surface.facet_normals[order[np.searchsorted(codes, wanted, sorter=order)] // 3]
 
 
 def _edge_before(surface: SkinSurface) -> IntArray:

@@ -132,8 +132,7 @@ def _neighbours(edges: IntArray, count: int) -> IntArray:
 def _unit(vectors: FloatArray) -> FloatArray:
     """Directions of vectors; zero stays zero."""
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
-    unit: FloatArray = np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0.0)
-    return unit
+    return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0.0)
 
 
 def unrolled(surface: SkinSurface) -> FloatArray:

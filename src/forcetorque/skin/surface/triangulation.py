@@ -58,8 +58,7 @@ def _triangles_between(points: bytes, longest_edge_m: float) -> IntArray:
 def _circumradius(corners: FloatArray, sides: FloatArray) -> FloatArray:
     """Radius of the circle through three corners each; shape (m,); m."""
     doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    radius: FloatArray = sides.prod(axis=1) / np.maximum(2.0 * doubled, np.finfo(np.float64).tiny)
-    return radius
+    return sides.prod(axis=1) / np.maximum(2.0 * doubled, np.finfo(np.float64).tiny)
 
 
 def _voted_triangles(positions: FloatArray, longest_edge_m: float) -> tuple[IntArray, IntArray]:
@@ -88,8 +87,7 @@ def _delaunay(points: FloatArray, lift: FloatArray) -> IntArray:
     if len(points) == 3:
         return np.array([[0, 1, 2]])
     hull = ConvexHull(np.column_stack([points, (points**2).sum(axis=1) + lift]))
-    lower: IntArray = hull.simplices[hull.equations[:, 2] < 0.0].astype(np.int64)
-    return lower
+    return hull.simplices[hull.equations[:, 2] < 0.0].astype(np.int64)
 
 
 def _tangent_plane(points: FloatArray) -> FloatArray | None:

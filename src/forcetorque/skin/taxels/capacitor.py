@@ -57,5 +57,4 @@ def pressure(share: FloatArray, coefficients: FloatArray) -> FloatArray:
     """
     s, q = coefficients
     u = np.maximum(share, 0.0)
-    value: FloatArray = s * u / (1.0 + q * u)
-    return value
+    return s * u / (1.0 + q * u)

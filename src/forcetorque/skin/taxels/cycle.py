@@ -67,8 +67,7 @@ class PressureCycle:
     @property
     def top_fall(self) -> FloatArray:
         """Mean fall of each column near the highest pressure; shape (c,); counts."""
-        top: FloatArray = self.fall[self.pressure >= TOP_SHARE * self.highest].mean(axis=0)
-        return top
+        return self.fall[self.pressure >= TOP_SHARE * self.highest].mean(axis=0)
 
 
 def pressure_cycle(counts: FloatArray, pressure: FloatArray) -> PressureCycle:
@@ -141,8 +140,7 @@ def _onset(pressure: FloatArray, smooth: FloatArray, swing: float, risen: int) -
 def _median_filtered(values: FloatArray) -> FloatArray:
     padded = np.pad(values, _SMOOTH_ROWS // 2, mode="edge")
     windows = np.lib.stride_tricks.sliding_window_view(padded, _SMOOTH_ROWS)
-    filtered: FloatArray = np.median(windows, axis=1)
-    return filtered
+    return np.median(windows, axis=1)
 
 
 def _unloading(pressure: FloatArray, turn: float) -> BoolArray:

@@ -177,8 +177,7 @@ class CurveComparison:
         """
         errors = self.pooled.get(kind)
         nothing: FloatArray = np.full((2, self.taxels), np.nan)
-        values: list[list[float]] = (nothing if errors is None else errors.rmse).tolist()
-        return values
+        return (nothing if errors is None else errors.rmse).tolist()
 
     @property
     def least_inside(self) -> str | None:

@@ -55,8 +55,7 @@ def pressure(share: FloatArray, coefficients: FloatArray) -> FloatArray:
     Returns:
         Pressure; shape (...); Pa.
     """
-    value: FloatArray = _basis(share) @ coefficients[:DEGREE] + coefficients[DEGREE] * np.maximum(share - 1.0, 0.0)
-    return value
+    return _basis(share) @ coefficients[:DEGREE] + coefficients[DEGREE] * np.maximum(share - 1.0, 0.0)
 
 
 def _basis(share: FloatArray) -> FloatArray:

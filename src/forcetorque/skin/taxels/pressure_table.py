@@ -83,8 +83,7 @@ class PressureTable:
             require_last_axis(array, name=f"{where}: {name}", length=self.columns)
         chosen = message[..., self.taxels]
         require_counts(chosen, where=where)
-        fall: FloatArray = level[self.taxels] - chosen
-        return fall
+        return level[self.taxels] - chosen
 
     def pressures(self, counts: Any, rest: Any) -> FloatArray:
         """Turn counts into pressures; between whole counts, as means have them, the table is interpolated.
@@ -128,8 +127,7 @@ class PressureTable:
         Returns:
             Whether each does; shape (..., n).
         """
-        beyond: BoolArray = self.live & (self.fall(counts, rest) > self.range_counts)
-        return beyond
+        return self.live & (self.fall(counts, rest) > self.range_counts)
 
     def falls(self) -> BoolArray:
         """Tell which tables fall anywhere: there a higher pressure reads as a lower one.
@@ -137,8 +135,7 @@ class PressureTable:
         Returns:
             Whether each does; shape (n,).
         """
-        falling: BoolArray = np.any(np.diff(self.values, axis=0) < 0.0, axis=0)
-        return falling
+        return np.any(np.diff(self.values, axis=0) < 0.0, axis=0)
 
     def require_patch(self, patch: str, *, columns: int, serial: str | None = None) -> None:
         """Refuse counts of another patch.

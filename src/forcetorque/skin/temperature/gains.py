@@ -156,8 +156,7 @@ class HeatGains:
             Standard deviation; shape (n,); counts.
         """
         number = np.maximum(self.follows.sum(axis=1), 1)
-        noise: FloatArray = np.sqrt(((self.gains * np.where(self.follows, pad_sd, 0.0)) ** 2).sum(axis=1)) / number
-        return noise
+        return np.sqrt(((self.gains * np.where(self.follows, pad_sd, 0.0)) ** 2).sum(axis=1)) / number
 
 
 def require_pads(layout: SkinLayout) -> None:

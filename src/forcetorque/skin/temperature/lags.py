@@ -85,8 +85,7 @@ def means_of(values: FloatArray, averaged: int) -> FloatArray:
         Means; shape (k // averaged, ...).
     """
     whole = len(values) // averaged * averaged
-    means: FloatArray = values[:whole].reshape(-1, averaged, *values.shape[1:]).mean(axis=1)
-    return means
+    return values[:whole].reshape(-1, averaged, *values.shape[1:]).mean(axis=1)
 
 
 def _squares(
@@ -106,8 +105,7 @@ def _squares(
     left = (y**2).mean(axis=0) - gains**2 * (x**2).mean(axis=0)[:, None]
     more = left - y_noise - gains**2 * x_noise[:, None]
     number = np.maximum(follows.sum(axis=0), 1)
-    squares: FloatArray = np.stack([(one * follows.T).sum(axis=1) / number for one in (left, more)], axis=1)
-    return squares
+    return np.stack([(one * follows.T).sum(axis=1) / number for one in (left, more)], axis=1)
 
 
 def _lag(left: FloatArray, more: FloatArray, number: int) -> tuple[float, float]:

@@ -74,8 +74,7 @@ class PadFilter:
         return np.where((self.lags > 0.0) & (share > 0.0), sd * np.sqrt(np.maximum(variance, 0.0)), 0.0)
 
     def _share(self, passed: float) -> FloatArray:
-        share: FloatArray = -np.expm1(-passed / self._constants)
-        return share
+        return -np.expm1(-passed / self._constants)
 
     def _lead(self, passed: float) -> FloatArray:
         """Lag of each pad, over the time by which one average is behind the other."""

@@ -42,8 +42,7 @@ def stuck_pads(counts: FloatArray) -> BoolArray:
         Whether each is; shape (t,).
     """
     change = np.ptp(counts, axis=0)
-    stuck: BoolArray = ~sound_columns(counts) | ((change == 0.0) & (np.median(change) >= LEAST_CHANGE_COUNTS))
-    return stuck
+    return ~sound_columns(counts) | ((change == 0.0) & (np.median(change) >= LEAST_CHANGE_COUNTS))
 
 
 def followed_pads(layout: SkinLayout, alive: BoolArray) -> BoolArray:
@@ -64,8 +63,7 @@ def followed_pads(layout: SkinLayout, alive: BoolArray) -> BoolArray:
     distance = np.linalg.norm(centres[:, None] - centres[has_pad], axis=2)
     source = modules[has_pad][distance.argmin(axis=1)]
     own = source[np.searchsorted(modules, layout.modules)]
-    follows: BoolArray = (own[:, None] == layout.thermal_modules) & alive
-    return follows
+    return (own[:, None] == layout.thermal_modules) & alive
 
 
 class ThermalGain(Part):

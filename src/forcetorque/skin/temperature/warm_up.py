@@ -118,8 +118,7 @@ def _block_means(seconds: FloatArray, counts: FloatArray) -> tuple[FloatArray, F
 
 def _change(means: FloatArray) -> FloatArray:
     """How far each column goes, by means of ten seconds; shape (c,); counts."""
-    change: FloatArray = np.ptp(means_of(means, _SMOOTH_BLOCKS), axis=0)
-    return change
+    return np.ptp(means_of(means, _SMOOTH_BLOCKS), axis=0)
 
 
 def _living_pads(layout: SkinLayout, counts: FloatArray, means: FloatArray) -> BoolArray:
@@ -137,8 +136,7 @@ def _living_pads(layout: SkinLayout, counts: FloatArray, means: FloatArray) -> B
             f"thermal pads: expected to change by at least {LEAST_CHANGE_COUNTS:g} counts, got {usual:.1f} (the median "
             f"of {int(sound.sum())}): they never warm; record from a cold start until the motors are warm"
         )
-    alive: BoolArray = sound & (change >= LEAST_SHARE * usual)
-    return alive
+    return sound & (change >= LEAST_SHARE * usual)
 
 
 def _refuse_steps(columns: IntArray, instants: FloatArray, taxels: FloatArray) -> None:
@@ -209,8 +207,7 @@ def _beyond_noise(left: FloatArray) -> FloatArray:
     """Largest of each column, less what noise from row to row makes of it; shape (n,)."""
     # a median, for what a lag leaves comes in a few rows
     noise = NOISE_SD / _MEDIAN_OF_NORMAL * np.median(np.abs(np.diff(left, axis=0)), axis=0)
-    worst: FloatArray = np.sqrt(np.maximum((left**2).max(axis=0) - noise**2, 0.0))
-    return worst
+    return np.sqrt(np.maximum((left**2).max(axis=0) - noise**2, 0.0))
 
 
 def _taxel_heat(

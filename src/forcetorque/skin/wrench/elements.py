@@ -59,8 +59,7 @@ class SkinElements:
     @property
     def centres(self) -> FloatArray:
         """Mean of the points of each piece; shape (m, 3); m."""
-        centres: FloatArray = self.positions.mean(axis=1)
-        return centres
+        return self.positions.mean(axis=1)
 
 
 def skin_elements(surface: SkinSurface, rim: Rim) -> SkinElements:
@@ -96,15 +95,13 @@ def _middle(corners: FloatArray, normals: FloatArray, side: IntArray) -> FloatAr
     # of a circle: the arc rises above its chord by an eighth of the chord times the turn of the normal
     rise = np.where(is_bent, ((normals[end] - normals[start]) * along).sum(axis=1) / 8.0, 0.0)
     length = np.maximum(np.linalg.norm(mean, axis=1), np.finfo(np.float64).tiny)
-    middle: FloatArray = 0.5 * (corners[start] + corners[end]) + (rise / length)[:, None] * mean
-    return middle
+    return 0.5 * (corners[start] + corners[end]) + (rise / length)[:, None] * mean
 
 
 def _positions(nodes: FloatArray, middles: FloatArray) -> FloatArray:
     at_corners = POINTS * (2.0 * POINTS - 1.0)
     at_middles = np.stack([4.0 * POINTS[:, a] * POINTS[:, b] for a, b in _SIDES], axis=1)
-    positions: FloatArray = at_corners @ nodes + at_middles @ middles
-    return positions
+    return at_corners @ nodes + at_middles @ middles
 
 
 def _slopes(nodes: FloatArray, middles: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -147,8 +147,7 @@ def touched_at_rest(reader: PatchReader, seconds: FloatArray, counts: FloatArray
     together = (freed & reader.live).sum(axis=1) >= _FEWEST
     let_go = (freed[together] & reader.live).any(axis=0)
     touched = let_go | (begun if np.count_nonzero(begun) >= _FEWEST else np.zeros(len(begun), dtype=np.bool_))
-    columns: IntArray = reader.table.taxels[touched]
-    return columns
+    return reader.table.taxels[touched]
 
 
 def stuck_taxels(reader: PatchReader, counts: FloatArray) -> IntArray:
@@ -165,14 +164,12 @@ def stuck_taxels(reader: PatchReader, counts: FloatArray) -> IntArray:
     constant = np.ptp(counts[:, columns], axis=0) == 0.0
     noise = reader.noise[columns][reader.live & ~constant]
     plain = len(counts) >= _MANY_MESSAGES and len(noise) > 0 and float(np.median(noise)) > _NOISY_COUNTS
-    stuck: IntArray = columns[constant & reader.live & plain]
-    return stuck
+    return columns[constant & reader.live & plain]
 
 
 def _short_noise(counts: FloatArray) -> FloatArray:
     """Noise from one message to the next, by a mean that few large changes hardly move; shape (n,); counts."""
-    noise: FloatArray = np.sqrt(np.mean(np.minimum(np.abs(np.diff(counts, axis=0)), 5.0) ** 2, axis=0) / 2.0)
-    return noise
+    return np.sqrt(np.mean(np.minimum(np.abs(np.diff(counts, axis=0)), 5.0) ** 2, axis=0) / 2.0)
 
 
 def _is_sick(whole: Sequence[Ailment], resting: Sequence[Ailment]) -> bool:

@@ -81,15 +81,13 @@ def kriging_shares(taxels: FloatArray, points: FloatArray) -> FloatArray:
     system[:, number, number] = 0.0
     right = np.ones((count, number + 1, points.shape[1]))
     right[:, :number] = _matern(taxels[:, :, None], points[:, None])
-    shares: FloatArray = np.linalg.solve(system, right)[:, :number].transpose(0, 2, 1)
-    return shares
+    return np.linalg.solve(system, right)[:, :number].transpose(0, 2, 1)
 
 
 def _matern(first: FloatArray, second: FloatArray) -> FloatArray:
     """Correlation of a field that is twice differentiable: Matern with smoothness 5/2."""
     distance = np.sqrt(5.0) / LENGTH_M * np.linalg.norm(first - second, axis=-1)
-    correlation: FloatArray = (1.0 + distance + distance**2 / 3.0) * np.exp(-distance)
-    return correlation
+    return (1.0 + distance + distance**2 / 3.0) * np.exp(-distance)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -132,5 +130,4 @@ class ForetoldPressures:
             Surprise at each of those; shape (t,); Pa.
         """
         foretold = np.einsum("tk,tk->t", pressures[self.neighbours[taxels]], self.shares[taxels])
-        surprise: FloatArray = pressures[taxels] - foretold
-        return surprise
+        return pressures[taxels] - foretold

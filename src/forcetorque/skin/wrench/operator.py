@@ -60,8 +60,7 @@ class WrenchOperator:
             Wrench on the link about its origin; shape (..., 6); N, N m.
         """
         require_last_axis(pressures, name="pressures", length=len(self.live))
-        wrench: FloatArray = pressures @ self.weights.T
-        return wrench
+        return pressures @ self.weights.T
 
     def normal_force(self, pressures: FloatArray) -> FloatArray:
         """Give the integral of the pressure, (7.12), which on a flat patch is the size of the force, (3.27).
@@ -75,8 +74,7 @@ class WrenchOperator:
             Normal force; shape (...); N.
         """
         require_last_axis(pressures, name="pressures", length=len(self.live))
-        force: FloatArray = pressures @ self.areas
-        return force
+        return pressures @ self.areas
 
 
 def summed_weights(
@@ -98,9 +96,8 @@ def summed_weights(
     sizes = np.linalg.norm(areas, axis=1)
 
     def summed(size: FloatArray) -> FloatArray:
-        weights: FloatArray = np.bincount(
-            taxels.ravel(), weights=(size[:, None] * shares).ravel(), minlength=count
-        ).astype(np.float64, copy=False)
-        return weights
+        return np.bincount(taxels.ravel(), weights=(size[:, None] * shares).ravel(), minlength=count).astype(
+            np.float64, copy=False
+        )
 
     return np.stack([summed(push) for push in pushes.T]), summed(sizes)

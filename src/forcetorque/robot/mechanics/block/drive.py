@@ -84,5 +84,4 @@ def driver() -> Callable[..., bool]:
                 gap |= work.gap[k] != 0.0
         return gap
 
-    evaluator: Callable[..., bool] = drive
-    return evaluator
+    return drive

@@ -62,8 +62,7 @@ def _pieces(surface: SkinSurface) -> IntArray:
 
     start, end = surface.edges.T
     joined = coo_array((np.ones(len(start)), (start, end)), shape=(len(surface), len(surface)))
-    piece: IntArray = connected_components(joined, directed=False)[1].astype(np.int64)
-    return piece
+    return connected_components(joined, directed=False)[1].astype(np.int64)
 
 
 def _holes(surface: SkinSurface, piece: IntArray) -> list[IntArray]:

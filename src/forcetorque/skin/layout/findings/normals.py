@@ -142,5 +142,4 @@ def _faceted(patch: PatchDescription, unit: FloatArray, surface: FloatArray) -> 
 
 def _mean(directions: FloatArray) -> FloatArray:
     total = directions.sum(axis=0)
-    mean: FloatArray = total / np.linalg.norm(total)
-    return mean
+    return total / np.linalg.norm(total)

@@ -100,8 +100,7 @@ def _misled(entries: IntArray, placed: BoolArray) -> IntArray:
     chosen = entries[taxels]
     inside = np.minimum(chosen, len(entries) - 1)
     sound = (chosen < len(entries)) & placed[inside] & (entries[inside] == chosen)
-    misled: IntArray = taxels[~sound]
-    return misled
+    return taxels[~sound]
 
 
 def _finding(patch: PatchDescription, columns: IntArray, message: str, remedy: str) -> LayoutFinding:
