@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays with a checked shape that nobody can change: in data classes, in pydantic models, and mappings of them."""
+"""Arrays with a checked shape that are read-only: in data classes, in pydantic models, and mappings of them."""
 
 from __future__ import annotations
 
 import copyreg
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from functools import cache
 from types import MappingProxyType
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -65,6 +66,116 @@ def read_only_integers(values: Any, *, name: str, shape: tuple[int | None, ...])
         raise ShapeError(f"{name}: expected whole numbers, got {numbers[array != numbers].flat[0]}")
     array.setflags(write=False)
     return array
+
+
+Axis = int | str | None
+"""Length of an axis: a number, a name that stands for one length throughout a record, or None for any."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Declared:
+    shape: tuple[Axis, ...]
+    dtype: Literal["float", "int", "bool", "tuple"] = "float"
+    of_mapping: bool = False
+
+
+def array(*shape: Axis, dtype: Literal["float", "int", "bool"] = "float") -> dict[str, _Declared]:
+    """Declare a field of an `ArrayRecord` as a read-only array: `matrix: FloatArray = field(metadata=array(6, "c"))`.
+
+    Args:
+        *shape: Length of every axis; an axis of the same name has the same length in all fields of the record.
+        dtype: Kind of numbers: float64, int64 or bool.
+
+    Returns:
+        Metadata of the field; a value of None is left alone.
+    """
+    return {"declared": _Declared(shape, dtype)}
+
+
+def names(length: Axis = None) -> dict[str, _Declared]:
+    """Declare a field of an `ArrayRecord` as a tuple, whose length may name an axis of its arrays.
+
+    Args:
+        length: Its length.
+
+    Returns:
+        Metadata of the field.
+    """
+    return {"declared": _Declared((length,), "tuple")}
+
+
+def mapping(*shape: Axis) -> dict[str, _Declared]:
+    """Declare a field of an `ArrayRecord` as a read-only mapping.
+
+    Args:
+        *shape: Shape of its values where they are arrays; nothing to leave them as they are.
+
+    Returns:
+        Metadata of the field.
+    """
+    return {"declared": _Declared(shape, of_mapping=True)}
+
+
+def check_arrays(record: Any) -> None:
+    """Check and freeze the declared fields of a record; its own `__post_init__` calls this first.
+
+    Args:
+        record: A frozen dataclass that is being made.
+
+    Raises:
+        ShapeError: If a shape differs from what is declared, or a whole number has a fraction.
+    """
+    lengths: dict[str, int] = {}
+    for name, declared in _declared(type(record)):
+        value = getattr(record, name)
+        if value is None:
+            continue
+        if declared.of_mapping:
+            items = dict(value)
+            if declared.shape:
+                items = {key: _settled(item, f"{name} of {key!r}", declared, lengths) for key, item in items.items()}
+            object.__setattr__(record, name, read_only_mapping(items))
+        else:
+            object.__setattr__(record, name, _settled(value, name, declared, lengths))
+
+
+class ArrayRecord:
+    """Base of frozen data classes with declared fields, which are checked and frozen when one is made."""
+
+    __slots__ = ()
+
+    def __post_init__(self) -> None:
+        """Check and freeze the declared fields."""
+        check_arrays(self)
+
+
+@cache
+def _declared(record: type) -> tuple[tuple[str, _Declared], ...]:
+    return tuple((one.name, one.metadata["declared"]) for one in fields(record) if "declared" in one.metadata)
+
+
+def _settled(value: Any, name: str, declared: _Declared, lengths: dict[str, int]) -> Any:
+    """The value as it is declared; `lengths` learns the axes that it names."""
+    if declared.dtype == "tuple":
+        value = tuple(value)
+    shape = tuple(lengths.get(axis) if isinstance(axis, str) else axis for axis in declared.shape)
+    if declared.dtype == "tuple":
+        if shape[0] is not None and len(value) != shape[0]:
+            raise ShapeError(f"{name}: expected {shape[0]}, got {len(value)}")
+        got: tuple[int, ...] = (len(value),)
+    else:
+        make = {"float": read_only, "int": read_only_integers, "bool": _read_only_flags}[declared.dtype]
+        value = make(value, name=name, shape=shape)
+        got = value.shape
+    lengths |= {axis: length for axis, length in zip(declared.shape, got, strict=True) if isinstance(axis, str)}
+    return value
+
+
+def _read_only_flags(values: Any, *, name: str, shape: tuple[int | None, ...]) -> BoolArray:
+    flags = np.array(values, dtype=np.bool_)
+    require_shape(flags, name=name, shape=shape)
+    flags.setflags(write=False)
+    return flags
 
 
 def _is_frozen(values: Any) -> bool:
