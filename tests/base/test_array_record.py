@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Declared fields of records: shapes that agree, kinds of numbers, tuples, mappings, and nothing that can be changed."""
+"""Declared fields of records: shapes that agree, kinds of numbers, tuples, mappings, and nothing to change."""
 
 from __future__ import annotations
 
@@ -56,8 +56,10 @@ def test_values_become_what_is_declared() -> None:
     """Lists become arrays and tuples; None stays where nothing is given."""
     one = _samples(loads={"left": np.zeros((3, 6))}, saturated=[0, 1, 0])
     assert one.channels == ("a", "b")
-    assert one.raw.dtype == np.float64 and one.stamp_ns.dtype == np.int64
-    assert one.saturated is not None and one.saturated.tolist() == [False, True, False]
+    assert one.raw.dtype == np.float64
+    assert one.stamp_ns.dtype == np.int64
+    assert one.saturated is not None
+    assert one.saturated.tolist() == [False, True, False]
     assert _samples().saturated is None
 
 

@@ -116,7 +116,7 @@ def mapping(*shape: Axis) -> dict[str, _Declared]:
     return {"declared": _Declared(shape, of_mapping=True)}
 
 
-def check_arrays(record: Any) -> None:
+def check_arrays(record: object) -> None:
     """Check and freeze the declared fields of a record; its own `__post_init__` calls this first.
 
     Args:
@@ -126,7 +126,7 @@ def check_arrays(record: Any) -> None:
         ShapeError: If a shape differs from what is declared, or a whole number has a fraction.
     """
     lengths: dict[str, int] = {}
-    for name, declared in _declared(type(record)):
+    for name, declared in _declared(type(record)):  # type: ignore[arg-type]  # a class is hashable
         value = getattr(record, name)
         if value is None:
             continue
