@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import forcetorque
-from forcetorque.app.command_line import app
+from forcetorque.app.command_line import whole_program
 from forcetorque.app.python.experiment import Experiment
 from forcetorque.app.python.run import Run
 from tests.app.commands import typed_commands
@@ -117,7 +117,7 @@ def test_the_index_says_when_to_take_every_command() -> None:
     """Each stands in its table."""
     _, _, table = INDEX.read_text(encoding="utf-8").partition("## Which command when")
     named = set(re.findall(r"`([a-z]+(?:[ -][a-z]+)*)`", table.partition("\n## ")[0]))
-    assert named == set(typed_commands(app))
+    assert named == set(typed_commands(whole_program()))
 
 
 def _absent(code: str) -> list[str]:
@@ -130,7 +130,7 @@ def test_the_page_on_python_has_a_line_for_every_command() -> None:
     """Each names what is there."""
     page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
     rows = dict(re.findall(r"^\| `([a-z -]+)` \| (.+) \|$", page, re.MULTILINE))
-    assert list(rows) == sorted(typed_commands(app))
+    assert list(rows) == sorted(typed_commands(whole_program()))
     assert {command: _absent(line) for command, line in rows.items()} == dict.fromkeys(rows, [])
     assert all(re.search(rf"`({'|'.join(HOLDERS)})\.\w+", line) for line in rows.values())
 

@@ -11,43 +11,20 @@ import tomllib
 from collections.abc import Iterable, Iterator
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 import forcetorque
+from forcetorque.results.capability import all_named, named
 
 KERNEL = ("base", "recording", "robot", "formats", "experiment", "results")
 """What every capability stands on."""
 TOP = ("report", "viewer", "app")
 """What shows capabilities to people."""
-NEEDS: dict[str, set[str]] = {
-    "sensor": set(),
-    "simulation": {"sensor"},
-    "skin": {"simulation"},
-    "estimation": {"skin"},
-    "inspection": {"skin"},
-    "payload": {"inspection"},
-    "calibration": {"inspection", "payload"},
-    "evaluation": {"sensor", "simulation", "payload", "calibration"},
-    "locomotion": {"sensor", "simulation", "estimation", "calibration"},
-    "planning": {"simulation", "calibration", "evaluation"},
-    "study": {"simulation", "estimation", "calibration", "evaluation"},
-    "workbench": {"simulation", "calibration", "evaluation"},
-    "contests": {"sensor", "calibration", "workbench"},
-    "device": {"simulation", "calibration", "planning", "workbench"},
-}
+NEEDS = {name: set(import_module(f"forcetorque.{name}").CAPABILITY.needs) for name in sorted(forcetorque.CAPABILITIES)}
 """Capabilities, and the capabilities that each needs."""
-SECTIONS = {"calibration", "estimation", "evaluation", "locomotion", "payload", "planning", "skin"}
-"""Capabilities with sections of the experiment file, which the kernel still imports by name."""
-READS_SECTIONS = {
-    "experiment/campaign.py",
-    "experiment/experiment.py",
-    "experiment/file.py",
-    "experiment/loading.py",
-    "results/terminal/reading.py",
-}
-"""Files of the kernel that do."""
 SHOWS_ASSESSMENTS = {"report_blocks.py"}
 """Files of capabilities that make blocks of a report of what it assessed."""
 ROOT = Path(forcetorque.__file__).parent
@@ -82,7 +59,7 @@ def _allowed(package: str) -> set[str]:
 def _violations(file: str, imported: set[str]) -> set[str]:
     """Packages that a file, by its path in the library, must not import."""
     package, name = file.split("/")[0], file.rpartition("/")[2]
-    exempt = SECTIONS if file in READS_SECTIONS else {"report"} if name in SHOWS_ASSESSMENTS else set()
+    exempt = {"report"} if name in SHOWS_ASSESSMENTS else set()
     return imported - _allowed(package) - exempt
 
 
@@ -107,11 +84,11 @@ def test_imports_go_where_they_may(package: str) -> None:
     assert {path: names for path, names in against.items() if names} == {}
 
 
-def test_every_exemption_is_used() -> None:
-    """An exemption that is no longer needed goes."""
-    imported = {file: _imports(ROOT / file) - set(KERNEL) for file in READS_SECTIONS}
-    assert set().union(*imported.values()) == SECTIONS
-    assert all(imported.values())
+def test_what_a_capability_names_is_there() -> None:
+    """Commands and sections of the experiment file are imported by their names."""
+    references = [reference for kind in ("commands", "sections") for _, reference in all_named(kind)]
+    assert len(references) > 30
+    assert all(named(reference) is not None for reference in references)
 
 
 def test_capabilities_need_each_other_in_no_circle() -> None:

@@ -30,6 +30,24 @@ if TYPE_CHECKING:
     from forcetorque.robot.urdf import read_urdf
 
 
+CAPABILITIES = (
+    "calibration",
+    "evaluation",
+    "inspection",
+    "payload",
+    "planning",
+    "estimation",
+    "sensor",
+    "workbench",
+    "device",
+    "locomotion",
+    "skin",
+    "simulation",
+    "study",
+    "contests",
+)
+"""Folders of capabilities, whose `CAPABILITY` says which commands and sections of the experiment file they have."""
+
 __all__ = [
     "Calibration",
     "DataSet",

@@ -6,13 +6,11 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 import forcetorque
-from forcetorque.app.command_line import app
 
 TOY = Path(__file__).parents[1] / "toys" / "command"
 NAME = "extent"
@@ -23,17 +21,15 @@ GROUP_COMMAND = "toy count"
 
 @contextmanager
 def added_command(folder: Path = TOY) -> Iterator[None]:
-    """Its folder in the library, and its name in the list of commands."""
+    """Its folder in the library, and its line in the tuple of capabilities."""
     with _folder(folder, NAME):
-        app.command(NAME)(import_module(f"forcetorque.{NAME}.command").extent)
         yield
 
 
 @contextmanager
 def added_group(folder: Path = TOY_GROUP) -> Iterator[None]:
-    """Its folder in the library, and its name in the list of groups."""
+    """Its folder in the library, and its line in the tuple of capabilities."""
     with _folder(folder, GROUP):
-        app.add_typer(import_module(f"forcetorque.{GROUP}.commands").toy)
         yield
 
 
@@ -44,8 +40,7 @@ def _folder(folder: Path, name: str) -> Iterator[None]:
         patch.setattr(forcetorque, "__path__", [*forcetorque.__path__, str(folder)])
         # what the import leaves behind in the package goes with the rest
         patch.setattr(forcetorque, name, None, raising=False)
-        patch.setattr(app, "registered_commands", [*app.registered_commands])
-        patch.setattr(app, "registered_groups", [*app.registered_groups])
+        patch.setattr(forcetorque, "CAPABILITIES", (*forcetorque.CAPABILITIES, name))
         try:
             yield
         finally:

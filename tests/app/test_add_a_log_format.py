@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.experiment.file import ExperimentFile
+from forcetorque.experiment.file import ExperimentFile, experiment_file
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats import registry as formats
 from forcetorque.recording.storage import read_recording
@@ -31,9 +31,14 @@ def added(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The line of the registry; schemas are built once, with the import of their module, so here once more."""
     with monkeypatch.context() as patch:
         patch.setattr(formats, "LOG_FORMATS", (*formats.LOG_FORMATS, ToyFormat()))
-        ExperimentFile.model_rebuild(force=True)
+        _rebuild()
         yield
+    _rebuild()
+
+
+def _rebuild() -> None:
     ExperimentFile.model_rebuild(force=True)
+    experiment_file.cache_clear()
 
 
 @pytest.fixture

@@ -14,8 +14,8 @@ from forcetorque.base.errors import ForceTorqueError, FormatError
 from forcetorque.contests.entries import read_entries
 from forcetorque.device.file import DEFAULT_DEVICE, read_device
 from forcetorque.evaluation.acceptance.file import read_acceptance
+from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.locomotion.torque_control.file import read_torque_loop
-from forcetorque.planning.planned_experiment import load_planned
 from forcetorque.report.sources import sort_sources
 from forcetorque.simulation.scenario.file import bundled_scenario
 from forcetorque.simulation.scenario.run import load_scenario
@@ -31,7 +31,7 @@ def test_an_experiment_file_with_a_mark_is_the_same_experiment(arm: Path, run: R
     plain = run("evaluate", PARQUET, "-c", "fitted.json", "--format", "json").result()
     Path(PARQUET).write_bytes(codecs.BOM_UTF8 + Path(PARQUET).read_bytes())
     assert run("evaluate", PARQUET, "-c", "fitted.json", "--format", "json").result() == plain
-    assert load_planned(Path(PARQUET)).sensors[0].name == "arm_ft"
+    assert load_experiment(Path(PARQUET), Purpose.PLANNING).sensors[0].name == "arm_ft"
     assert sort_sources([Path(PARQUET)]).experiments == (Path(PARQUET),)
 
 

@@ -11,15 +11,16 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.app.command_line import app
+from forcetorque.app.command_line import whole_program
 from forcetorque.recording.stream import QUANTITIES
 from tests.app.commands import question_of, typed_commands
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.scenes.experiments import TEXTS
 
-COMMANDS = typed_commands(app)
-GROUPS = sorted(str(group.typer_instance.info.name) for group in app.registered_groups if group.typer_instance)
+PROGRAM = whole_program()
+COMMANDS = typed_commands(PROGRAM)
+GROUPS = sorted(str(group.typer_instance.info.name) for group in PROGRAM.registered_groups if group.typer_instance)
 ROOT = Path(__file__).parents[2]
 FILES = (
     "experiment",

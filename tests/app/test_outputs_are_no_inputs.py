@@ -11,7 +11,7 @@ import pytest
 from typer import Typer
 from typer.models import OptionInfo
 
-from forcetorque.app.command_line import app
+from forcetorque.app.command_line import whole_program
 from tests.app.outcome import Run
 from tests.scenes.benches import write_bench
 from tests.scenes.experiments import PARQUET, TWO, YARP, edit, snapshot
@@ -96,7 +96,7 @@ def _path_options(program: Typer, group: str = "") -> Iterator[tuple[str, str]]:
                     yield f"{group}{command.name}", next(iter(declared), f"--{name.replace('_', '-')}")
 
 
-OPTIONS = sorted(_path_options(app))
+OPTIONS = sorted(_path_options(whole_program()))
 OUTPUTS = [each for each in OPTIONS if each[1] not in INPUT_OPTIONS and each != TABLE_THAT_IS_READ]
 FILES = [each for each in OUTPUTS if each not in NEW_FOLDERS | FOLDERS]
 FORCED = {words for words, option in FILES if option == "--output"}

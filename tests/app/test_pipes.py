@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from forcetorque.app.command_line import app
+from forcetorque.app.command_line import whole_program
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.experiment.input_files import Inputs
 from forcetorque.formats.registry import LOG_FORMATS, format_name
@@ -38,7 +38,7 @@ def pipe(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     signal.signal(signal.SIGALRM, before)
 
 
-@pytest.mark.parametrize("command", [*typed_commands(app), "calibrate -o new.json", "init --urdf pipe"])
+@pytest.mark.parametrize("command", [*typed_commands(whole_program()), "calibrate -o new.json", "init --urdf pipe"])
 def test_no_command_waits_for_its_file(pipe: Path, command: str) -> None:
     """As the first file of each command, and as the robot of a new file."""
     outcome = typed(*command.split(), pipe)

@@ -17,7 +17,7 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 
-from forcetorque.app.command_line import app
+from forcetorque.app.command_line import whole_program
 from forcetorque.results.result import Result
 from forcetorque.workbench.simulated_benches import BenchFaults
 from tests.app.commands import question_of, typed_commands
@@ -157,7 +157,7 @@ def shown_widths(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_every_command_is_here() -> None:
     """A new command gets its picture."""
-    assert set(typed_commands(app)) == COMMANDS.keys() | WITHOUT_TABLE
+    assert set(typed_commands(whole_program())) == COMMANDS.keys() | WITHOUT_TABLE
 
 
 @pytest.fixture

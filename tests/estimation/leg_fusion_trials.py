@@ -17,7 +17,7 @@ from typing import Final
 import numpy as np
 
 from forcetorque.estimation.torque.fusion import fuse_experiment
-from forcetorque.experiment.loading import load_touched_robot
+from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_models import corrections_of
 from tests.scenes.moving_leg import DRIVEN, FILE, Faults, write_moving_leg
 
@@ -59,7 +59,7 @@ def trials(broken: str | None, seeds: int = SEEDS) -> Iterator[Trial]:
 
 def _trial(folder: Path, seed: int, faults: Faults) -> Trial:
     simulation = write_moving_leg(folder, seed=seed, faults=faults, along=ROWS)
-    experiment = load_touched_robot(folder / FILE)
+    experiment = load_experiment(folder / FILE, Purpose.FORCES)
     (_, judged), _ = fuse_experiment(experiment, corrections_of(experiment, {}))
     fusion = judged.fusion
     rows = np.searchsorted(experiment.clock_stream.stamp_ns, fusion.stamp_ns)

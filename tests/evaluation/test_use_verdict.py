@@ -17,6 +17,7 @@ from forcetorque.evaluation.load_cases.evidence import Evidence, JudgedExcitatio
 from forcetorque.evaluation.load_cases.judgement import UseJudge, use_verdicts
 from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
 from forcetorque.evaluation.load_cases.prior_comparison import compare_with_prior
+from forcetorque.evaluation.load_cases.section import LOAD_CASES
 from forcetorque.evaluation.load_cases.verdict import UseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
@@ -205,7 +206,7 @@ def test_pushes_at_a_frame_that_does_not_pass_the_sensor_are_refused(arm: Path) 
 def test_one_name_for_two_uses_is_refused(arm: Path) -> None:
     """Also in the file and in what is asked for besides; the same use twice is one."""
     run = _run(arm)
-    (stated,) = run.experiment.load_cases
+    (stated,) = run.experiment.section(LOAD_CASES)
     assert len(loads_of_use([run], [stated])) == 1
     with pytest.raises(ExperimentError, match="two different load cases are called 'push'"):
         loads_of_use([run], [stated.model_copy(update={"force_error_N": 7.0})])

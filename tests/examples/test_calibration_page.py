@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.calibration.section import CalibrationTable
+from forcetorque.experiment.calibration_section import CalibrationTable
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "calibration.md").read_text(encoding="utf-8")

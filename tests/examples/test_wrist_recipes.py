@@ -14,6 +14,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.payload import weigh_load
+from forcetorque.payload.wrist_load import wrist_loads
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
@@ -144,8 +145,9 @@ def test_a_second_at_rest_is_read_without_time_or_pose(data_dir: Path, tmp_path:
     assert [len(still.stream(name)) for name in ("wrench", "imu")] == [698, 256]
     reading = still.stream("wrench").signal("wrench").values.mean(axis=0)
     experiment = _load((EXAMPLES / "07_wrist_payload.toml").read_text(), data_dir, tmp_path)
-    assert experiment.wrist is not None
-    solution = experiment.wrist.solution(experiment)
+    loads = wrist_loads(experiment)
+    assert loads is not None
+    solution = loads.solution(experiment)
     (load,), (session,) = solution.loads, solution.sessions
     wrench = reading - session.bias
     gravity = 9.82085

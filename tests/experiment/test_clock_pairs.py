@@ -16,7 +16,7 @@ from forcetorque.base.errors import RecordingError
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.clocks import aligned_clocks
-from forcetorque.experiment.file import ExperimentFile
+from forcetorque.experiment.file import experiment_file
 from forcetorque.recording.clock import ClockShift
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
@@ -189,7 +189,7 @@ def told(pair: Pair, seed: int, *, delay_s: float, drift: float = 0.0, still: bo
         support='support = "base"' if pair.model else "",
         drift='drift = "estimate"' if drift else "",
     )
-    parsed = ExperimentFile.model_validate(tomllib.loads(text))
+    parsed = experiment_file().model_validate(tomllib.loads(text))
     recording = Recording(streams=streams)
     known = _up_to_the_sensor(arm.model) if pair.ends_at_sensor else arm.model
     aligned = aligned_clocks(parsed, Path("clocks.toml"), recording, known if pair.model else None)

@@ -32,7 +32,7 @@ def test_a_complete_experiment_is_loaded(arm: Path, form: str) -> None:
     assert sensor.prior is not None
     assert np.array_equal(sensor.prior, read_matrix_file(arm / "matrix_SIM001.txt").matrix)
     assert sensor.prior_source == "matrix_SIM001.txt"
-    assert experiment.regularisation is None
+    assert experiment.fit_options.regularisation is None
     assert experiment.processing.gravity == 9.80665
     assert [interval.label for interval in experiment.intervals(Use.CALIBRATION)] == ["fit"]
 
@@ -64,7 +64,11 @@ def test_settings_of_the_file_arrive(arm: Path) -> None:
     add(arm / PARQUET, "smoothing = { window_s = 0.5, order = 2 }\n[calibration]\nlambda_counts2 = 7\n")
     experiment = load_experiment(arm / PARQUET)
     processing = experiment.processing
-    assert (processing.gravity, experiment.regularisation, processing.logged_derivatives) == (9.81, 7.0, False)
+    assert (processing.gravity, experiment.fit_options.regularisation, processing.logged_derivatives) == (
+        9.81,
+        7.0,
+        False,
+    )
     assert (processing.derivative_window.window_s, processing.derivative_window.order) == (0.4, 4)
     assert processing.smoothing is not None
     assert (processing.smoothing.window_s, processing.smoothing.order) == (0.5, 2)

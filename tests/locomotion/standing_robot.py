@@ -14,7 +14,8 @@ from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_reading import Correction
-from forcetorque.locomotion.soles import ExperimentSole
+from forcetorque.locomotion.section import SOLES as SECTION
+from forcetorque.locomotion.section import ExperimentSole
 from forcetorque.locomotion.standing.pressure import Sole
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Interval, Recording, Support, Use
@@ -57,7 +58,7 @@ def switching(folder: Path) -> Standing:
     (simulated,) = simulate(scenario)
     experiment = load_experiment(folder / f"{DAY}.toml")
     return Standing(
-        experiment=replace(experiment, soles=SOLES),
+        experiment=experiment.with_section(SECTION, SOLES),
         corrections={
             name: Correction(
                 model=WrenchModel(matrix=sensor.matrix, offset=sensor.offset),

@@ -16,6 +16,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.locomotion.foot_forces import load_foot_forces
+from forcetorque.locomotion.section import SOLES
 from forcetorque.locomotion.standing.interval import BalanceOptions
 from forcetorque.locomotion.standing.standing import balance
 from forcetorque.locomotion.standing.support_phases import NO_FOOT, ContactThresholds, ForceLimit, support_phases
@@ -225,7 +226,7 @@ def test_feet_that_bear_another_weight_are_doubted(standing: Standing) -> None:
 def test_what_is_missing_is_named(standing: Standing, tilted: Standing) -> None:
     """No sole, no interval, no experiment; a joint that was not logged takes the centre of mass, not the feet."""
     with pytest.raises(ExperimentError, match=r"expected \[\[sole\]\]"):
-        balance([replace(standing.experiment, soles=())], [standing.corrections])
+        balance([standing.experiment.with_section(SOLES, ())], [standing.corrections])
     with pytest.raises(ExperimentError, match="expected an experiment at least"):
         balance([])
     streams = dict(tilted.experiment.recording.streams)

@@ -11,6 +11,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
+from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.experiment.experiment import Experiment
@@ -106,7 +107,7 @@ def test_the_printed_errors_follow_from_the_printed_forces() -> None:
 def _expected(switched: Switched, label: str, offset_label: str, errors: Mapping[str, FloatArray]) -> FloatArray:
     """What the errors of the matrices make of a phase in the mean; (3,)."""
     experiment, movement, start = switched.experiment, switched.simulated.movement, switched.simulated.start_ns
-    stamps, phase, gave = experiment.clock_stream.stamp_ns, switched.interval(label), switched.interval(offset_label)
+    stamps, phase, gave = clock_stream(experiment).stamp_ns, switched.interval(label), switched.interval(offset_label)
     offset_stamps = stamps_in(stamps, gave.start_ns, gave.end_ns)
     offset_stamps = offset_stamps[still_seconds(experiment.recording, gave).hold(offset_stamps)]
     return net_force_errors(

@@ -17,6 +17,7 @@ from forcetorque.calibration.reduce_recordings import recording_moments
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments, read_moments
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.payload.link_loads import link_loads
 from tests.scenes.robots import example_robot
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "27_arm_and_tools.py"
@@ -34,8 +35,9 @@ def test_a_calibration_does_not_take_an_estimated_tool_for_known(arm: tuple[Path
     file = tmp_path / "gripper.toml"
     experiment = load_experiment(file)
     (estimated,) = recording_moments(SensorRun(experiment, "wrist_ft"))
-    assert experiment.link_loads is not None
-    (load,) = experiment.link_loads.solution(experiment).loads
+    loads = link_loads(experiment)
+    assert loads is not None
+    (load,) = loads.solution(experiment).loads
     text = file.read_text(encoding="utf-8")
     said = 'link = "ee_link"\nmass_kg = 1.3\ncentre_of_mass_m = [0.01, 0.02, 0.06]\n'
     file.write_text(text.replace('link = "ee_link"\n', said), encoding="utf-8")

@@ -14,6 +14,7 @@ from forcetorque.base.noise.means import means_over, window_for
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.payload.link_loads import link_loads
 from forcetorque.recording.recording import Use
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.urdf import read_urdf
@@ -114,7 +115,7 @@ def _moved(folder: Path) -> Moved:
 
 
 def _columns(moved: Moved) -> FloatArray:
-    loads = moved.experiment.link_loads
+    loads = link_loads(moved.experiment)
     assert loads is not None
     columns = loads.problem(moved.experiment, use=Use.CALIBRATION).rows.columns
     assert columns is not None

@@ -23,6 +23,7 @@ from forcetorque.payload.diagnostics import overweight_loads, reference_doubts
 from forcetorque.payload.identification.solution import LoadSolution
 from forcetorque.payload.identification.solve import solve
 from forcetorque.payload.payload import weigh_load
+from forcetorque.payload.wrist_load import wrist_loads
 from forcetorque.recording.recording import Use
 
 MASS, CENTRE = 1.1, np.array([0.01, -0.005, 0.07])
@@ -118,8 +119,9 @@ def test_counts_without_a_prior_weigh_nothing(tmp_path: Path) -> None:
 
 def _solution(path: Path) -> LoadSolution:
     experiment = load_experiment(path)
-    assert experiment.wrist is not None
-    return experiment.wrist.solution(experiment)
+    loads = wrist_loads(experiment)
+    assert loads is not None
+    return loads.solution(experiment)
 
 
 def test_nothing_is_estimated_before_it_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -241,8 +243,9 @@ def test_a_given_load_is_taken(tmp_path: Path) -> None:
     """With mass and centre given nothing is estimated, and the reference is their weight."""
     given = f"mass_kg = {MASS}\ncentre_of_mass_m = {CENTRE.tolist()}\n"
     experiment = load_experiment(_write(tmp_path, text=TEXT.replace("\n[recording]", f"{given}\n[recording]")))
-    assert experiment.wrist is not None
-    assert experiment.wrist.are_stated
+    loads = wrist_loads(experiment)
+    assert loads is not None
+    assert loads.are_stated
     (part,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.VALIDATION)
     assert len(part.samples) == POSES - 40
     force = np.linalg.norm(part.samples.reference[:, :3], axis=1)
@@ -464,7 +467,10 @@ def test_the_real_wrist_example(data_dir: Path, tmp_path: Path) -> None:
     sensor = experiment.sensors[0]
     assert weigh_load(SensorRun(experiment, sensor)).loads[0].mass_kg == pytest.approx(0.932, abs=0.003)
     calibration = calibrate_sensor(
-        SensorRun(experiment, sensor), code_version="1", created="now", regularisation=experiment.regularisation
+        SensorRun(experiment, sensor),
+        code_version="1",
+        created="now",
+        regularisation=experiment.fit_options.regularisation,
     )
     errors = evaluate(SensorRun(experiment, sensor), {"new": calibration}).verdicts
     assert errors[0].samples == 8

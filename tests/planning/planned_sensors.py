@@ -16,9 +16,9 @@ from forcetorque.experiment.calibration.assumptions import REPEATABILITY, Assump
 from forcetorque.experiment.calibration.linear_variable import LinearVariable
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
-from forcetorque.planning.planned_experiment import load_planned
 from forcetorque.planning.proposal import Proposal
 from forcetorque.recording.recording import Interval, Recording, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
@@ -138,5 +138,5 @@ def planned_run(
     stands = "\n".join(f'[[support]]\nframe = "{name}"\ngravity_direction = [0.0, 0.0, -1.0]' for name in supports)
     text = _FILE.format(urdf=scenario.urdf, sensor=sensor, serial=own.serial, supports=stands, rest=rest)
     (folder / "planned.toml").write_text(text, encoding="utf-8")
-    run = SensorRun(load_planned(folder / "planned.toml"), sensor)
+    run = SensorRun(load_experiment(folder / "planned.toml", Purpose.PLANNING), sensor)
     return SensorRun(run.experiment, replace(run.sensor, prior=own.workbench))

@@ -14,7 +14,7 @@ from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.planning.information import Knowledge, Nuisance
 from forcetorque.planning.proposal import Demand, Effort, proposals
 from forcetorque.planning.search import Criterion
-from forcetorque.planning.section import PlanTable
+from forcetorque.planning.section import PLAN, PlanTable
 from forcetorque.planning.workplace import Workplace, supports_of, workplaces
 from forcetorque.simulation.scenario.file import bundled_scenario
 from forcetorque.simulation.scenario.run import Scenario, load_scenario
@@ -78,7 +78,7 @@ class Lab:
     def _places(self, outcome: Outcome) -> list[Workplace]:
         case = outcome.case
         run = planned_run(self.folder, self.scenario, case.sensor, ("root_link",), self.rest, case.specimen)
-        table = run.experiment.plan or PlanTable()
+        table = run.experiment.section(PLAN) or PlanTable()
         return workplaces(run, table, _CLEARANCE_DEG, supports_of([run], table))
 
 

@@ -13,13 +13,12 @@ import pytest
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.tabular.row_blocks import StampColumn, TableLayout, TableSignal
 from forcetorque.formats.tabular.table import read_table
 from forcetorque.formats.yarp.plain_ports import read_state
 from forcetorque.planning.files import write_plan
-from forcetorque.planning.planned_experiment import load_planned
 from forcetorque.planning.planning import Plan, plan, plan_sentence
 from tests.scenes.experiments import JOINTS, PARQUET
 
@@ -42,7 +41,7 @@ centre_of_mass_m = [0.15, 0.0, 0.0]
 def _run(folder: Path, rest: str = PLAN) -> SensorRun:
     file = folder / "planned.toml"
     file.write_text((folder / PARQUET).read_text(encoding="utf-8") + rest, encoding="utf-8")
-    return SensorRun(load_planned(file), "arm_ft")
+    return SensorRun(load_experiment(file, Purpose.PLANNING), "arm_ft")
 
 
 def _fitted(run: SensorRun) -> Calibration:
@@ -64,7 +63,7 @@ frame = "base"
 gravity_direction = [0.0, 0.0, -1.0]
 {rest}"""
     (folder / "new.toml").write_text(text, encoding="utf-8")
-    return SensorRun(load_planned(folder / "new.toml"), "arm_ft")
+    return SensorRun(load_experiment(folder / "new.toml", Purpose.PLANNING), "arm_ft")
 
 
 @pytest.fixture(scope="module")
@@ -158,10 +157,10 @@ def test_a_full_scale_alone_is_enough_to_begin_with(arm: Path) -> None:
     text = file.read_text(encoding="utf-8").replace('prior = "matrix_SIM001.txt"', "")
     file.write_text(text, encoding="utf-8")
     with pytest.raises(ExperimentError, match="expected a prior matrix or full_scale"):
-        plan(SensorRun(load_planned(file), "arm_ft"))
+        plan(SensorRun(load_experiment(file, Purpose.PLANNING), "arm_ft"))
     scale = "full_scale = [500.0, 500.0, 500.0, 20.0, 20.0, 20.0]\n[[support]]"
     file.write_text(text.replace("[[support]]", scale, 1), encoding="utf-8")
-    first = plan(SensorRun(load_planned(file), "arm_ft"), recordings=1, seconds=30.0).recordings[0]
+    first = plan(SensorRun(load_experiment(file, Purpose.PLANNING), "arm_ft"), recordings=1, seconds=30.0).recordings[0]
     assert first.force_after_N < first.force_before_N
 
 
@@ -214,7 +213,9 @@ def test_temperatures_are_gone_through_where_the_use_changes_them(arm: Path) -> 
         file = _unrecorded(arm, use + temperatures).experiment.file
         text = file.read_text(encoding="utf-8").replace('prior = "matrix_SIM001.txt"', variable)
         file.write_text(text, encoding="utf-8")
-        first = plan(SensorRun(load_planned(file), "arm_ft"), recordings=1, seconds=30.0).recordings[0]
+        first = plan(
+            SensorRun(load_experiment(file, Purpose.PLANNING), "arm_ft"), recordings=1, seconds=30.0
+        ).recordings[0]
         return first.temperature_start_degC, first.temperature_end_degC
 
     assert asked("") == (20.0, 20.0)

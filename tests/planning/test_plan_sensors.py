@@ -22,7 +22,7 @@ from forcetorque.planning.information import Knowledge, Nuisance
 from forcetorque.planning.planning import Plan, plan
 from forcetorque.planning.proposal import Demand, Effort, propose
 from forcetorque.planning.search import Criterion
-from forcetorque.planning.section import PlanTable
+from forcetorque.planning.section import PLAN, PlanTable
 from forcetorque.planning.workplace import Workplace, supports_of, workplaces
 from forcetorque.simulation.motions.movement import Movement, MovementKind
 from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
@@ -116,7 +116,7 @@ class Leg:
 
     def workplace(self, run: SensorRun) -> Workplace:
         """Where plans are made: on the pole, with nothing attached."""
-        table = run.experiment.plan or PlanTable()
+        table = run.experiment.section(PLAN) or PlanTable()
         (place,) = workplaces(run, table, 5.0, supports_of([run], table))
         return place
 

@@ -22,7 +22,8 @@ MOVE = Reason(against="data", text="the load hardly moved; judge data that move"
 def _steps(*uses: UseVerdict, undecided: tuple[Undecided, ...] = (), stands: bool = True) -> tuple[str, ...]:
     names = dict.fromkeys(row.candidate for row in (*uses, *undecided) if row.candidate is not None)
     calibrations = {name: make_calibration() for name in names}
-    experiment = SimpleNamespace(plan=None, stands=stands, load_cases=[SimpleNamespace(name="push")])
+    contents = {"plan": None, "load_case": (SimpleNamespace(name="push"),)}
+    experiment = SimpleNamespace(stands=stands, section=lambda section: contents[section.key])
     run = cast("SensorRun", SimpleNamespace(experiment=experiment))
     return next_steps(KEY, uses, undecided, calibrations, {"walk.toml": run}).steps
 

@@ -16,7 +16,7 @@ from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.estimation.skin.known_wrenches import frames_of_patches
 from forcetorque.estimation.torque.fusion import fuse_experiment
-from forcetorque.experiment.loading import load_touched_robot
+from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.skin.wrench.wrench import PatchFrames
 from tests.app.outcome import Run
@@ -43,7 +43,7 @@ def sound_leg(tmp_path_factory: pytest.TempPathFactory) -> Leg:
 @pytest.fixture(scope="module", name="patches")
 def read_patches(sound: Leg) -> Sequence[PatchFrames]:
     """What its skin says; read once, as surfaces are built slowly."""
-    return frames_of_patches(load_touched_robot(sound[0] / FILE))
+    return frames_of_patches(load_experiment(sound[0] / FILE, Purpose.FORCES))
 
 
 def test_all_sources_stand_beside_each_other_and_together(run: Run, sound: Leg) -> None:
@@ -84,7 +84,7 @@ def test_any_two_sources_are_fused(
 ) -> None:
     """What the file does not state is not asked: friction of motors is fitted to skin where no sensor is."""
     folder, truth = sound
-    experiment = load_touched_robot(changed(folder, "some.toml", *((text, "") for text in without)))
+    experiment = load_experiment(changed(folder, "some.toml", *((text, "") for text in without)), Purpose.FORCES)
     own = patches if "skin" in names else ()
     (_, judge), _ = fuse_experiment(experiment, corrections_of(experiment, {}), patches=own)
     assert tuple(source.name for source in judge.sources) == names
@@ -99,7 +99,7 @@ def test_a_contact_where_the_offset_is_taken_is_warned_of(sound: Leg, patches: S
     """Nothing may touch in a calibration interval unless a calibration gives the offset of the sensor."""
     folder, _ = sound
     spans = ("end_s = 9.0", "end_s = 11.0"), ("start_s = 9.0", "start_s = 11.0")
-    experiment = load_touched_robot(changed(folder, "touched.toml", *spans))
+    experiment = load_experiment(changed(folder, "touched.toml", *spans), Purpose.FORCES)
     corrections = corrections_of(experiment, {})
     spans_told = estimate_experiment(experiment, corrections, patches=patches)
     warnings = summarise_estimates(experiment, corrections, spans_told).warnings
@@ -131,7 +131,7 @@ def test_what_skin_lacks_as_a_source_is_asked_for(
     changes: tuple[tuple[str, str], ...], words: str, sound: Leg, patches: Sequence[PatchFrames]
 ) -> None:
     """By its key in the file, with the interval that it is about."""
-    experiment = load_touched_robot(changed(sound[0], "lacking.toml", *changes))
+    experiment = load_experiment(changed(sound[0], "lacking.toml", *changes), Purpose.FORCES)
     own = [replace(frames, patch=patch) for frames, patch in zip(patches, experiment.force_patches, strict=True)]
     with pytest.raises(ForceTorqueError, match=words):
         fuse_experiment(experiment, corrections_of(experiment, {}), patches=own)

@@ -12,7 +12,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.estimation.estimate import estimate_experiment
-from forcetorque.experiment.loading import load_touched_robot
+from forcetorque.experiment.loading import Purpose, load_experiment
 from tests.app.outcome import Run
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.moving_leg import AT_REST, BY_IMU, CURRENT, FT, JOINTS, RATE_HZ, changed, write_moving_leg
@@ -66,7 +66,7 @@ def test_torques_follow_from_skin_encoders_and_an_imu(run: Run, leg: Leg) -> Non
 
 def test_without_the_motion_of_the_base_torques_are_wrong(leg: Leg) -> None:
     """The negative control: the same encoders, and a base that is said to rest."""
-    experiment = load_touched_robot(changed(leg[0], "rest.toml", *ALONE, (BY_IMU, AT_REST)))
+    experiment = load_experiment(changed(leg[0], "rest.toml", *ALONE, (BY_IMU, AT_REST)), Purpose.FORCES)
     # what skin feels does not matter here, and is not read again
     spans = estimate_experiment(experiment, {}, patches=())
     for joint in ("hip_roll", "hip_pitch"):

@@ -18,6 +18,7 @@ from forcetorque.report.assessment.assessment import Demands
 from forcetorque.report.assessment.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.results.document.content import Figure, List, Section, Text
 from forcetorque.results.table import Table
+from forcetorque.skin.experiment import PATCHES
 from forcetorque.skin.figures import skin_event_figure
 from forcetorque.skin.report_blocks import skin_section
 from forcetorque.skin.wrench.result import skin_event_rows
@@ -80,7 +81,7 @@ def test_another_clock_is_not_laid_beside(folder: Path) -> None:
 def test_without_skin_there_is_no_section(intact: Path) -> None:
     """An experiment of sensors alone says nothing of skin."""
     experiment = load_experiment(intact / PARQUET)
-    assert experiment.skin is None
+    assert experiment.section(PATCHES) is None
     assessed = assess_experiment(experiment, {}, file=PARQUET, demands=Demands())
     assert skin_section(assessed).blocks == ()
 

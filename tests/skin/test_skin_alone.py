@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ExperimentError
-from forcetorque.experiment.loading import load_experiment, load_shown
+from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Use
 from forcetorque.robot.kinematics import link_pose
@@ -22,7 +22,7 @@ from tests.scenes.touched import write_table, write_touched
 
 def test_contacts_of_a_skin_manager_need_nothing_else(tmp_path: Path) -> None:
     """Neither sensor nor patch nor robot: a link for each frame, and intervals that nothing is estimated in."""
-    experiment = load_shown(write_events(tmp_path))
+    experiment = load_experiment(write_events(tmp_path), Purpose.DISPLAY)
     assert experiment.sensors == ()
     assert tuple(experiment.recording.streams) == EVENTS
     assert tuple(experiment.model.links) == (ROOT, *FRAMES)
@@ -46,7 +46,7 @@ def test_a_patch_is_on_the_link_of_its_layout(tmp_path: Path) -> None:
     write_table(tmp_path)
     file = tmp_path / "touched.toml"
     file.write_text(file.read_text().replace("[[interval]]", 'table = "shank.json"\n\n[[interval]]'), encoding="utf-8")
-    experiment = load_shown(file)
+    experiment = load_experiment(file, Purpose.DISPLAY)
     assert tuple(experiment.model.links) == (ROOT, "shank")
     assert [patch.link for patch in experiment.force_patches] == ["shank"]
 
@@ -61,4 +61,4 @@ def test_what_is_about_neither_sensors_nor_skin_is_refused(tmp_path: Path) -> No
     text = counts.read_text(encoding="utf-8")
     counts.write_text(text[: text.index("[[patch]]")] + text[text.index("[[interval]]") :], encoding="utf-8")
     with pytest.raises(ExperimentError, match=r"expected \[robot\], or skin on links of some name: a \[\[patch\]\]"):
-        load_shown(counts)
+        load_experiment(counts, Purpose.DISPLAY)

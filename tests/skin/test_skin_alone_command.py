@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.experiment.loading import load_shown
+from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.build import BuiltScene, scene_of
 from forcetorque.viewer.scene import SkinEventSeries
@@ -48,7 +48,7 @@ def test_contacts_of_a_skin_manager_are_shown_alone(run: Run, tmp_path: Path) ->
     assert sum("heuristic, not newtons" in note for note in shown["notes"]) == 2
     assert any("no [robot]: links with skin are drawn side by side" in note for note in shown["notes"])
     assert any("the dumper's clock is +169382480 s from the one that stamped" in words for words in outcome.log)
-    built = scene_of(file, load_shown(file), {})
+    built = scene_of(file, load_experiment(file, Purpose.DISPLAY), {})
     right, left = built.scene.skin_events
     drawn = _drawn(built, right)
     np.testing.assert_allclose(list(drawn), np.array(TOUCHED) * PERIOD_S, atol=1e-6)
@@ -93,7 +93,7 @@ def test_logs_of_a_real_robot_open(data_dir: Path, tmp_path: Path, name: str) ->
     port.mkdir()
     for kind in ("data", "info"):
         (port / f"{kind}.log").symlink_to(data_dir / "icub_skin_events_pps" / f"{name}_{kind}.log")
-    built = scene_of(file, load_shown(file), {})
+    built = scene_of(file, load_experiment(file, Purpose.DISPLAY), {})
     drawn = [events.contacts.force.shape[0] for events in built.scene.skin_events]
     for logged, shown in zip(REAL[name], drawn, strict=True):
         assert logged - REPEATED <= shown <= logged

@@ -19,7 +19,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.estimation.estimate import estimate_experiment
-from forcetorque.experiment.loading import load_touched_robot
+from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.recording import Loading
@@ -91,7 +91,7 @@ def experiment(
 
 def _knee(file: Path) -> Iterator[tuple[IntArray, FloatArray]]:
     """Stamps and torque of the knee in each interval."""
-    content = load_touched_robot(file)
+    content = load_experiment(file, Purpose.FORCES)
     for span in estimate_experiment(content, corrections_of(content, {})):
         yield span.stamp_ns, span.estimates.torque(KNEE)
 

@@ -55,7 +55,7 @@ def _experiment(small: Path, model: RobotModel, support: str, motion: JointMotio
     )
     recording = Recording(streams={stream.name: stream for stream in streams}, intervals=(interval,))
     sensor = replace(loaded.sensors[0], name=next(iter(model.sensors)))
-    return replace(loaded, model=model, recording=recording, sensors=(sensor,), sphere_intervals=None)
+    return replace(loaded, model=model, recording=recording, sensors=(sensor,))
 
 
 def _scene(small: Path, model: RobotModel, support: str, *, seed: int) -> tuple[BuiltScene, JointMotion]:

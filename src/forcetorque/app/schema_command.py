@@ -44,7 +44,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.evaluation.acceptance.file import AcceptanceFile
     from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.calibration.stored_moments import RecordingMoments
-    from forcetorque.experiment.file import ExperimentFile
+    from forcetorque.experiment.file import experiment_file
     from forcetorque.locomotion.torque_control.file import TorqueLoopFile
     from forcetorque.recording.storage import recording_schema
     from forcetorque.simulation.scenario.file import ScenarioFile
@@ -53,7 +53,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.workbench.file import BenchFile
 
     return {
-        "experiment": ExperimentFile.model_json_schema,
+        "experiment": experiment_file().model_json_schema,
         "acceptance": AcceptanceFile.model_json_schema,
         "bench": BenchFile.model_json_schema,
         "device_file": DeviceFile.model_json_schema,

@@ -4,6 +4,7 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.calibration.calibrate import calibrate_sensor
@@ -17,7 +18,19 @@ if TYPE_CHECKING:
     from forcetorque.calibration.reduce_recordings import recording_moments, store_moments
     from forcetorque.calibration.sensor_calibration import calibrate_for_file
 
+CAPABILITY = Capability(
+    needs=(
+        "inspection",
+        "payload",
+    ),
+    commands=(
+        "forcetorque.calibration.calibrate_command:calibrate",
+        "forcetorque.calibration.export.command:export",
+    ),
+)
+
 __all__ = [
+    "CAPABILITY",
     "calibrate_for_file",
     "calibrate_jointly",
     "calibrate_sensor",

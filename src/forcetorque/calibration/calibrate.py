@@ -99,7 +99,7 @@ def _fitted(
     if isinstance(regularisation, str) and regularisation != "held-out":
         raise FitError(f"regularisation: expected lambda in counts2, or 'held-out', got {regularisation!r}")
     named = estimation_type(kind) if isinstance(kind, str) else kind
-    given = experiment.regularisation if regularisation is None else regularisation
+    given = experiment.fit_options.regularisation if regularisation is None else regularisation
     return thesis_calibration(
         campaign,
         options.kind(has_variables=bool(campaign.sensor.variables)) if named is None else named,
@@ -122,7 +122,7 @@ def _require_one_estimator(campaign: Campaign) -> None:
 
 def _estimator(experiment: Experiment) -> tuple[object, ...]:
     options = experiment.fit_options
-    of_thesis = (options.offset, options.from_reference, experiment.regularisation)
+    of_thesis = (options.offset, options.from_reference, experiment.fit_options.regularisation)
     return options.generative, options.with_variables, None if options.generative else of_thesis
 
 

@@ -19,6 +19,7 @@ from forcetorque.experiment.campaign_intervals import CampaignInterval, Campaign
 from forcetorque.experiment.full_scale import full_scale_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.diagnostics import reference_doubts
+from forcetorque.payload.link_loads import link_loads
 from forcetorque.recording.recording import Use
 
 
@@ -91,7 +92,7 @@ def _assumptions(recording: CampaignRecording) -> Assumptions:
 
 def _load_error(run: SensorRun) -> LoadError | None:
     """What is not known of loads on links that the sensor itself weighed, with the matrix of the same fit."""
-    loads = run.experiment.link_loads
+    loads = link_loads(run.experiment)
     if loads is None or loads.are_stated or loads.weigher.name != run.sensor.name:
         return None
     return load_error_of(loads.solution(run.experiment))

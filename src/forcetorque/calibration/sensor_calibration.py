@@ -30,6 +30,7 @@ from forcetorque.experiment.free_sub_model import possible_touch
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import doubtful_spans
 from forcetorque.payload.diagnostics import contradicted_statements, load_doubts
+from forcetorque.payload.wrist_load import wrist_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import Result
 from forcetorque.results.row import Row
@@ -184,7 +185,7 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         finding in a fitted interval; of many of one kind the first few, and how many more there are.
     """
     experiment = run.experiment
-    if experiment.wrist is not None and not experiment.wrist.are_stated:
+    if (loads := wrist_loads(experiment)) is not None and not loads.are_stated:
         yield (
             "the load was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
             "give mass_kg and centre_of_mass_m to judge it"

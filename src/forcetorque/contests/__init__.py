@@ -4,12 +4,23 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.contests.entries import read_entries
     from forcetorque.contests.ranking import contest
 
+CAPABILITY = Capability(
+    needs=(
+        "sensor",
+        "calibration",
+        "workbench",
+    ),
+    commands=("forcetorque.contests.command:contest",),
+)
+
 __all__ = [
+    "CAPABILITY",
     "contest",
     "read_entries",
 ]

@@ -96,11 +96,12 @@ def _fitted_runs(
 
 def _suits(method: Method, experiment: Experiment) -> bool:
     """Whether what says the reference of an experiment is what a method goes by."""
-    wrist = experiment.wrist
+    loads = experiment.loads
+    wrist = loads if loads is not None and loads.in_place_of_robot else None
     if method is Method.REFERENCE_SENSOR:
-        return wrist is not None and wrist.table.applied is not None
+        return wrist is not None and wrist.applied is not None
     if method is Method.KNOWN_MASSES:
-        return wrist is not None and wrist.table.applied is None and wrist.are_stated
+        return wrist is not None and wrist.applied is None and wrist.are_stated
     return wrist is None
 
 
@@ -175,7 +176,7 @@ class Phases:
 def _motion(run: SensorRun, interval: Interval) -> tuple[IntArray, Sequence[str], FloatArray]:
     """Instants, names and positions of what moves: joints, the direction of gravity, or the wrench that is applied."""
     experiment = run.experiment
-    if experiment.wrist is not None and experiment.wrist.table.applied is not None:
+    if experiment.loads is not None and experiment.loads.applied is not None:
         samples = run.interval_samples(interval).samples
         force, moment = samples.reference[:, :3], samples.reference[:, 3:]
         sizes = [max(float(np.sqrt((part**2).mean())), 1e-9) for part in (force, moment)]

@@ -4,12 +4,24 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.device.device import design_device
     from forcetorque.device.files import write_device
 
+CAPABILITY = Capability(
+    needs=(
+        "simulation",
+        "calibration",
+        "planning",
+        "workbench",
+    ),
+    commands=("forcetorque.device.command:device",),
+)
+
 __all__ = [
+    "CAPABILITY",
     "design_device",
     "write_device",
 ]

@@ -4,13 +4,25 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.estimation.estimate import estimate_experiment
     from forcetorque.estimation.result import summarise_estimates
     from forcetorque.estimation.torque.fusion import fuse_experiment
 
+CAPABILITY = Capability(
+    needs=("skin",),
+    commands=("forcetorque.estimation.command:estimate",),
+    sections=(
+        "forcetorque.estimation.section:MOTORS",
+        "forcetorque.estimation.section:FUSION",
+        "forcetorque.estimation.section:LENGTH_SCALE",
+    ),
+)
+
 __all__ = [
+    "CAPABILITY",
     "estimate_experiment",
     "fuse_experiment",
     "summarise_estimates",

@@ -77,10 +77,10 @@ def estimate(
     from forcetorque.estimation.result import estimates_of_recordings
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.input_files import stated_in
-    from forcetorque.experiment.loading import load_touched_robot
+    from forcetorque.experiment.loading import Purpose, load_experiment
     from forcetorque.formats.sample_table import SUFFIXES
     from forcetorque.results.terminal.output import refuse_figure
-    from forcetorque.results.terminal.reading import read_calibrations, read_touched_robot
+    from forcetorque.results.terminal.reading import read_calibrations, read_experiment
 
     log = start_logging()
     _refuse_ending(output, SUFFIXES)
@@ -91,12 +91,12 @@ def estimate(
     declare_outputs(*written, force=force)
     if len(experiments) > 1 and any(file.exists() for file in written):
         for path in experiments:  # what is written first may be an input of what is read last
-            load_touched_robot(path)
+            load_experiment(path, Purpose.FORCES)
     calibrations = read_calibrations(calibration)
     summaries = {}
     for path, file in files.items():
         # a recording goes when its estimates are written: there may be more of them than memory holds
-        content = read_touched_robot(path, log)
+        content = read_experiment(path, log, Purpose.FORCES)
         with stated_in(str(path)):
             summaries[str(path)] = _estimated(
                 content,

@@ -10,7 +10,9 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
+from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.interval import IntervalQuestion
+from forcetorque.estimation.section import LENGTH_SCALE
 from forcetorque.estimation.skin.known_wrenches import SkinSource, frames_of_patches, uncertainty_of, with_skin
 from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
 from forcetorque.estimation.uncertain.estimates import UncertainEstimates
@@ -83,8 +85,8 @@ def estimate_experiment(
     if not intervals:
         raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")
     named = experiment.contacts if contacts is None else tuple(contacts)
-    scale = experiment.length_scale if length_scale is None else length_scale
-    source = experiment.clock_stream
+    scale = experiment.section(LENGTH_SCALE) if length_scale is None else length_scale
+    source = clock_stream(experiment)
     skinned = frames_of_patches(experiment) if patches is None else patches
     recording, smoothing = experiment.recording, experiment.processing.smoothing
     taken = [

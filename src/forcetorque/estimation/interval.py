@@ -10,6 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import IntArray
 from forcetorque.base.errors import ExperimentError
+from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.skin.known_wrenches import SkinSource, sources_at
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in
 from forcetorque.experiment.experiment import Experiment, ExperimentContact
@@ -24,6 +25,7 @@ from forcetorque.robot.mechanics.samples import PaddedSamples, robot_motion_at
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.sub_model import outboard_bodies
 from forcetorque.robot.tree import build_tree
+from forcetorque.skin.experiment import force_patches
 from forcetorque.skin.wrench.wrench import PatchFrames
 
 
@@ -168,7 +170,7 @@ class IntervalQuestion:
         question = _question(experiment, support, present, skin, asked=named, length_scale=length_scale)
         available = set(experiment.recording.joint_signals("position"))
         question, left_out = narrowed(question, available, required={entry.contact.name for entry in present})
-        source = experiment.clock_stream
+        source = clock_stream(experiment)
         joints, root = robot_motion_at(
             experiment.recording,
             experiment.model,
@@ -209,7 +211,7 @@ class IntervalQuestion:
             correction = corrections[sensor.name]
             streams = [sensor.stream, *(sensor.variable(name).source.stream for name in correction.variables)]
             for stream in streams:
-                require_overlap(experiment.clock_stream, experiment.recording.stream(stream))
+                require_overlap(clock_stream(experiment), experiment.recording.stream(stream))
             readings[sensor.name] = wrench_at(
                 experiment, sensor, correction, self.samples.stamp_ns, interval=self.interval
             )
@@ -250,7 +252,7 @@ def _question(
         contacts=(*contacts, *(source.contact for source in skin)),
         torques=moving_joints(tree),
         # errors leave nothing in a sub-model that its neighbours' torques would need
-        torque_sum=TorqueSum.SUB_MODEL if experiment.force_patches else TorqueSum.WHOLE_TREE,
+        torque_sum=TorqueSum.SUB_MODEL if force_patches(experiment) else TorqueSum.WHOLE_TREE,
         expected=sensors,
         minimum_norm=None if length_scale is None else MinimumNorm(length_scale=length_scale),
     )

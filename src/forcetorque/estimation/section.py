@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What an experiment file says for the fusion of joint torques: motors, and how far wrenches and model may be off."""
+"""Sections for estimates: length scale, motors, and how far wrenches and model may be off in joint torques."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.section import Loading, Section
 
 
 class MotorTable(Table):
@@ -60,3 +63,72 @@ class FusionTable(Table):
     """Largest rate of intervals, or windows, with a conflict though all is as stated."""
     window_s: Positive = 1.0
     """Length of the windows in which sources are compared; s."""
+
+
+class EstimationTable(Table):
+    """How contacts are told apart."""
+
+    length_scale_m: Positive | None = None
+    """Moment that weighs as much as one newton; needed where a sub-model has more than six unknowns."""
+
+
+def _checked(motors: tuple[MotorTable, ...], loading: Loading) -> tuple[MotorTable, ...]:
+    """Motors of joints that the robot has, and of which the recording holds what they tell."""
+    file, model, recording = loading.file, loading.model, loading.recording
+    for index, motor in enumerate(motors):
+        where = f"{file}: motor[{index}]"
+        if motor.joint not in model.joints:
+            raise ExperimentError(
+                f"{where}: robot {model.name!r} has no joint {motor.joint!r}; {known_names(motor.joint, model.joints)}"
+            )
+        if motor.joint in [earlier.joint for earlier in motors[:index]]:
+            raise ExperimentError(f"{where}: the joint {motor.joint!r} is listed twice; keep one motor")
+        if motor.quantity != motors[0].quantity:
+            raise ExperimentError(
+                f"{where}: expected the quantity {motors[0].quantity}, as of the motors before, got {motor.quantity}; "
+                "motors are one source"
+            )
+        with stated_in(where):
+            signals = recording.joint_signals(motor.quantity)
+        if motor.joint not in signals:
+            raise ExperimentError(
+                f"{where}: no stream holds {motor.quantity} of joint {motor.joint!r}; "
+                f"{known_names(motor.joint, signals)}"
+            )
+    return motors
+
+
+def _as_stated(table: FusionTable | None, loading: Loading) -> FusionTable | None:
+    return table
+
+
+def _length_scale(table: EstimationTable, loading: Loading) -> float | None:
+    return table.length_scale_m
+
+
+MOTORS: Section[tuple[MotorTable, ...], tuple[MotorTable, ...]] = Section(
+    key="motor",
+    type=tuple[MotorTable, ...],
+    default=(),
+    description="Motors whose current or PWM tells joint torques, for `estimate --fuse`.",
+    read=_checked,
+    empty=(),
+)
+FUSION: Section[FusionTable | None, FusionTable | None] = Section(
+    key="fusion",
+    type=FusionTable | None,
+    default=None,
+    description="How joint torques of several sources are made one; needed for `estimate --fuse`.",
+    read=_as_stated,
+    empty=None,
+)
+LENGTH_SCALE: Section[EstimationTable, float | None] = Section(
+    key="estimation",
+    type=EstimationTable,
+    default=EstimationTable(),
+    description="How contacts are told apart.",
+    read=_length_scale,
+    empty=None,
+    of_robot=False,
+)
+"""Moment that weighs as much as one newton, where contacts leave something undetermined; m."""

@@ -16,6 +16,7 @@ from forcetorque.estimation.torque.fusion import FUSED, IntervalFusion
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.robot.model import JointType
+from forcetorque.skin.experiment import force_patches
 
 MOST_JOINTS: Final = 6
 """Joints that have room in one figure."""
@@ -99,7 +100,7 @@ def _of_fusion(one: IntervalFusion) -> _Piece:
 
 
 def _of_estimates(experiment: Experiment, span: IntervalEstimates) -> _Piece:
-    there = {"sensors": experiment.sensors, "skin": experiment.force_patches}
+    there = {"sensors": experiment.sensors, "skin": force_patches(experiment)}
     name = " and ".join(what for what, some in there.items() if some)
     deviation = None if span.uncertain is None else span.uncertain.torque_sd
     told = {name: (span.estimates.torques, deviation)}

@@ -4,6 +4,7 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.evaluation.acceptance.acceptance import accept
@@ -15,7 +16,28 @@ if TYPE_CHECKING:
     from forcetorque.evaluation.validation.validation import Validation, validate
     from forcetorque.experiment.error_statistics import wrench_errors
 
+CAPABILITY = Capability(
+    needs=(
+        "sensor",
+        "simulation",
+        "payload",
+        "calibration",
+    ),
+    commands=(
+        "forcetorque.evaluation.commands:accept",
+        "forcetorque.evaluation.commands:compare",
+        "forcetorque.evaluation.commands:evaluate",
+        "forcetorque.evaluation.commands:sphere",
+        "forcetorque.evaluation.commands:validate",
+    ),
+    sections=(
+        "forcetorque.evaluation.load_cases.section:LOAD_CASES",
+        "forcetorque.evaluation.trials.section:TRIAL",
+    ),
+)
+
 __all__ = [
+    "CAPABILITY",
     "Evaluation",
     "Validation",
     "accept",

@@ -16,10 +16,9 @@ from forcetorque.experiment.campaign_intervals import (
     joined_inputs,
     joined_sphere,
 )
-from forcetorque.experiment.experiment import ExperimentSensor
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.identified_load import weighed_together
 from forcetorque.recording.recording import Use
 
 
@@ -197,7 +196,11 @@ class Campaign:
 
 def _weighing_together(runs: Mapping[str, SensorRun]) -> tuple[SensorRun, ...]:
     """Runs whose unknown loads on the robot are weighed by all of them; the same runs where there are none."""
-    experiments = weighed_together({name: run.experiment for name, run in runs.items()})
+    experiments: Mapping[str, Experiment] = {name: run.experiment for name, run in runs.items()}
+    for experiment in tuple(experiments.values()):
+        if experiment.loads is not None:
+            experiments = experiment.loads.pooled(experiments)
+            break
     return tuple(
         run if experiments[name] is run.experiment else SensorRun(experiments[name], run.sensor)
         for name, run in runs.items()

@@ -74,7 +74,7 @@ class CampaignRecording:
             channels=run.channels,
             roles={label: experiment.roles[label] for label in labels},
             start_ns=experiment.recording.start_ns,
-            sphere=experiment.sphere_intervals,
+            sphere=experiment.fit_options.sphere_intervals,
             inputs_sha256=experiment.inputs_sha256,
             added=added_to(experiment.recording),
         )

@@ -156,7 +156,7 @@ def _motion(stated: _Stated) -> Motion:
         model=stated.model,
         support=supports[0] if supports else None,
         sensors={entry.stream: entry.name for entry in parsed.sensor},
-        loaded=frozenset(load.link for load in parsed.link_load),
+        loaded=frozenset() if parsed.robot is None else parsed.loaded_links,
         processing=Processing(gravity=gravity),
     )
 

@@ -4,32 +4,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any, Protocol, TypeVar, cast
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
-from forcetorque.estimation.section import FusionTable, MotorTable
-from forcetorque.evaluation.load_cases.section import LoadCaseTable
 from forcetorque.experiment.calibration.assumptions import REPEATABILITY
 from forcetorque.experiment.calibration.estimation_type import EstimationType, OffsetStrategy
 from forcetorque.experiment.calibration.linear_variable import LinearVariable
 from forcetorque.experiment.recording_names import path_endings, recording_name
-from forcetorque.locomotion.soles import ExperimentSole
-from forcetorque.planning.section import PlanTable
+from forcetorque.experiment.section import Section
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.sample_quality import SampleQuality
-from forcetorque.recording.stream import Stream
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.mechanics.samples import Processing
 from forcetorque.robot.model import RobotModel
-from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
 
-if TYPE_CHECKING:
-    from forcetorque.payload.link_loads import LinkLoads
-    from forcetorque.payload.wrist_load import WristLoads
+Content = TypeVar("Content")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -63,6 +56,10 @@ class FitOptions:
     """Whether variables are fitted; None for where the sensor has any."""
     from_reference: bool | None = None
     """Whether they count from their reference value; None for yes."""
+    regularisation: float | None = None
+    """Lambda; counts2; None to choose it on held-out blocks."""
+    sphere_intervals: tuple[str, ...] | None = None
+    """Labels of the intervals that give the offset of the sphere types."""
 
     def kind(self, *, has_variables: bool) -> EstimationType:
         """Settle the estimation type for a sensor.
@@ -157,6 +154,59 @@ class ExperimentContact:
     """Standard deviation of what a known wrench is off all along, as the file states it; shape (6,); N, N m."""
 
 
+class AttachedLoads(Protocol):
+    """What hangs on a wrist sensor or on links of a robot, as the section `load` of the file says."""
+
+    @property
+    def in_place_of_robot(self) -> bool:
+        """Whether the load stands in for a robot."""
+
+    @property
+    def applied(self) -> str | None:
+        """Stream of the wrench that the sensor must read; None where that follows from motion and mass."""
+
+    @property
+    def are_stated(self) -> bool:
+        """Whether nothing of any load is to be estimated."""
+
+    def nominal_model(self, stated: RobotModel) -> RobotModel:
+        """Give the robot with a load that moves the reading as the stated one does, or as any load would.
+
+        Args:
+            stated: The robot with what the file says of the load.
+
+        Returns:
+            The robot.
+        """
+
+    def model_on(self, support: Support | MovingSupport, experiment: Experiment) -> RobotModel:
+        """Give the robot with the load of an interval.
+
+        Args:
+            support: Support of the interval.
+            experiment: The experiment.
+
+        Returns:
+            The robot.
+
+        Raises:
+            ExperimentError: If the recording does not determine the load.
+        """
+
+    def pooled(self, experiments: Mapping[str, Experiment]) -> Mapping[str, Experiment]:
+        """Let recordings of one sensor identify their loads together.
+
+        Args:
+            experiments: Experiments by the names of their recordings.
+
+        Returns:
+            The same; those whose loads are to be estimated share what is estimated.
+
+        Raises:
+            ExperimentError: If files say different things of a load.
+        """
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Experiment:
     """Everything that an experiment file points to."""
@@ -173,44 +223,20 @@ class Experiment:
     """Sensors in the order of the file."""
     contacts: tuple[ExperimentContact, ...]
     """Contacts beside the support."""
-    length_scale: float | None
-    """Moment that weighs as much as one newton, where contacts leave something undetermined; m."""
     processing: Processing
     """Filters and gravity."""
-    regularisation: float | None
-    """Lambda; counts2; None to choose it on held-out blocks."""
     fit_options: FitOptions
-    """Estimation type."""
-    sphere_intervals: tuple[str, ...] | None
-    """Labels of the intervals that give the offset of the sphere types."""
+    """How sensors are fitted."""
     roles: Mapping[str, Role]
     """What each interval is to a study, by label."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path as the experiment names it."""
     log_sha256: frozenset[str] = frozenset()
     """SHA-256 of the files of the recording, by which it is known under another experiment's name."""
-    condition: str | None = None
-    """What was done to the sensors, in the user's words; None if the file does not say."""
-    trial: int | None = None
-    """Which trial of its condition it is; None for the order of the files."""
-    motors: tuple[MotorTable, ...] = ()
-    """Motors whose current or PWM tells joint torques, as the file states them."""
-    fusion: FusionTable | None = None
-    """How joint torques of several sources are made one, as the file states it."""
-    load_cases: tuple[LoadCaseTable, ...] = ()
-    """What the sensors are to be used for, as the file states it."""
     supports: tuple[Support, ...] = ()
     """Supports at rest that the file states, used or not."""
-    plan: PlanTable | None = None
-    """What can be recorded next, as the file states it."""
-    soles: tuple[ExperimentSole, ...] = ()
-    """Soles that the robot stands on."""
-    skin: PatchExperiment | None = None
-    """Its patches of skin; None without any."""
-    wrist: WristLoads | None = None
-    """What hangs on a wrist sensor; None for a robot."""
-    link_loads: LinkLoads | None = None
-    """What hangs on links of a robot beside what its URDF says; None for nothing."""
+    sections: Mapping[str, Any] = field(default_factory=dict)
+    """Contents of the sections that capabilities register, by key; `section` gives one."""
     qualities: dict[str, SampleQuality] = field(default_factory=dict, init=False)
     """What is wrong with the samples of every sensor that was read, by its name; filled by `sample_quality`."""
 
@@ -220,27 +246,49 @@ class Experiment:
         what = f"{self.model.name}; sensors {sensors}; {intervals or 'no intervals'}"
         return f"<Experiment {self.name!r}: {what}>"
 
-    @property
-    def force_patches(self) -> tuple[ExperimentPatch, ...]:
-        """Patches of skin whose contacts are sources of force: those with a calibration of their taxels."""
-        return () if self.skin is None else tuple(patch for patch in self.skin.patches if patch.table is not None)
+    def section(self, section: Section[Any, Content]) -> Content:
+        """Give the content of a section of the file.
+
+        Args:
+            section: The section.
+
+        Returns:
+            What was read of it; what stands for none where the file does not have it.
+        """
+        return cast(Content, self.sections.get(section.key, section.empty))
+
+    def with_section(self, section: Section[Any, Content], content: Content) -> Experiment:
+        """Give the experiment with another content of a section.
+
+        Args:
+            section: The section.
+            content: Its content.
+
+        Returns:
+            The experiment; nothing else of it changes.
+        """
+        return replace(self, sections={**self.sections, section.key: content})
+
+    def with_loads(self, loads: AttachedLoads) -> Experiment:
+        """Give the experiment with other loads.
+
+        Args:
+            loads: What hangs on the sensor or on links.
+
+        Returns:
+            The experiment; nothing else of it changes.
+        """
+        return replace(self, sections={**self.sections, "load": loads})
 
     @property
-    def clock_stream(self) -> Stream:
-        """The stream at whose instants is estimated: of the first sensor, or of the first patch where there is none."""
-        if self.sensors:
-            return self.recording.stream(self.sensors[0].stream)
-        if not self.force_patches:
-            raise ExperimentError(
-                f"experiment {self.name!r}: expected [[sensor]], or a [[patch]] with a table, got neither; "
-                "`forcetorque skin calibrate` makes a table"
-            )
-        return self.recording.stream(self.force_patches[0].counts)
+    def loads(self) -> AttachedLoads | None:
+        """What hangs on the sensor or on links, by the section `load`."""
+        return self.sections.get("load")
 
     @property
     def stands(self) -> bool:
         """Whether a robot stands on a support at rest, so that its joints can be moved as planned."""
-        return self.wrist is None and bool(self.supports)
+        return bool(self.supports) and not (self.loads is not None and self.loads.in_place_of_robot)
 
     def model_on(self, support: Support | MovingSupport) -> RobotModel:
         """Give the robot as it stands on a support, with what hangs on a wrist sensor or on its links then.
@@ -256,9 +304,7 @@ class Experiment:
         Raises:
             ExperimentError: If the recording does not determine a load that is to be estimated.
         """
-        if self.link_loads is not None:
-            return self.link_loads.model_on(support, self)
-        return self.model if self.wrist is None else self.wrist.model_on(support, self)
+        return self.model if self.loads is None else self.loads.model_on(support, self)
 
     def sensor(self, name: str) -> ExperimentSensor:
         """Find a sensor of the experiment.

@@ -3,35 +3,21 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal, TypeVar, cast
 
-from pydantic import (
-    Field,
-    model_validator,
-)
+from pydantic import Field, create_model, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.toml_file import Finite, Positive, Table, Text, read_toml
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.calibration.section import CalibrationTable
-from forcetorque.estimation.section import FusionTable, MotorTable
-from forcetorque.evaluation.load_cases.section import LoadCaseTable
+from forcetorque.experiment.calibration_section import CalibrationTable
 from forcetorque.experiment.processing_section import ClockTable, ProcessingTable, TransformTable
+from forcetorque.experiment.section import Section, sections
 from forcetorque.experiment.sensor_section import Sensor, SixPositive
 from forcetorque.formats.registry import AnyLog
-from forcetorque.locomotion.section import SoleTable
-from forcetorque.payload.section import (
-    AnyLoad,
-    LinkLoad,
-    Load,
-    OneOrSeveral,
-    require_link_loads,
-    require_loads_of,
-    require_one_sensor,
-)
-from forcetorque.planning.section import PlanTable
 from forcetorque.recording.recording import Use
 from forcetorque.robot.contacts import ContactType
 
@@ -45,38 +31,6 @@ class Robot(Table):
     """Joints that nobody logged and that stand still all along, by name: rad, or m where prismatic."""
     gravity: Positive = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
-
-
-class Patch(Table):
-    """A patch of artificial skin."""
-
-    name: Text
-    """Name of the patch."""
-    counts: Text
-    """Stream of the recording that holds its `taxel_counts`."""
-    pressure: Text | None = None
-    """Stream with the `pressure` of the chamber or bag that it was calibrated in."""
-    serial: Text | None = None
-    """Serial number, or another mark that tells it from patches of the same name."""
-    layout: Path | None = None
-    """File that says where its taxels are; every column of the counts is one if left out."""
-    link: Text | None = None
-    """Link that it is mounted on; that of the layout if left out."""
-    table: Path | None = None
-    """Calibration of its taxels, as `forcetorque skin calibrate` writes it; where it is stated, contacts are shown."""
-    friction: Annotated[float, Field(ge=0.0)] | None = None
-    """Coefficient that bounds the tangential force, which skin does not feel; without one nothing is known of it."""
-    oldest_s: Positive | None = None
-    """How much older than a pose the frame of pressures that belongs to it may be; s."""
-
-
-class Trial(Table):
-    """What the recording is to a comparison with others of the same sensor."""
-
-    condition: Text | None = None
-    """What was done to the sensor, in any words, such as the torque of its screws."""
-    number: Annotated[int, Field(ge=1, strict=True)] | None = None
-    """Which trial of its condition it is, from 1; by the order of the files if left out."""
 
 
 class Support(Table):
@@ -132,13 +86,6 @@ class Contact(Table):
         return self
 
 
-class EstimationTable(Table):
-    """How contacts are told apart."""
-
-    length_scale_m: Positive | None = None
-    """Moment that weighs as much as one newton; needed where a sub-model has more than six unknowns."""
-
-
 class Interval(Table):
     """A span of the recording."""
 
@@ -173,6 +120,9 @@ class Interval(Table):
         return self
 
 
+Content = TypeVar("Content")
+
+
 class ExperimentFile(Table):
     """The whole file."""
 
@@ -182,9 +132,6 @@ class ExperimentFile(Table):
     """Name of the experiment."""
     robot: Robot | None = None
     """The robot model; a wrist sensor may have `load` instead."""
-    load: Annotated[tuple[AnyLoad, ...], OneOrSeveral()] | None = None
-    """What hangs on a wrist sensor, in place of a robot, or on a link of the robot; of several `[[load]]` an interval
-    says which."""
     recording: AnyLog
     """Where the recording is."""
     clock: tuple[ClockTable, ...] = ()
@@ -193,81 +140,64 @@ class ExperimentFile(Table):
     """Wrenches that the log gives in another frame than the sensor's."""
     sensor: Annotated[tuple[Sensor, ...], Field(min_length=1)] = ()
     """Sensors; may be left out where the file is about skin alone."""
-    patch: Annotated[tuple[Patch, ...], Field(min_length=1)] = ()
-    """Patches of artificial skin; without these and sensors a file is about contacts that a skinManager saw."""
     support: tuple[Support, ...] = ()
     """Support frames; none with `load` in place of a robot."""
     interval: Annotated[tuple[Interval, ...], Field(min_length=1)]
     """Intervals."""
     contact: tuple[Contact, ...] = ()
     """Contacts beside the support; without any, whatever touches a sub-model is given at its sensor."""
-    sole: tuple[SoleTable, ...] = ()
-    """Soles that the robot stands on, for `forcetorque balance`."""
-    motor: tuple[MotorTable, ...] = ()
-    """Motors whose current or PWM tells joint torques, for `estimate --fuse`."""
-    fusion: FusionTable | None = None
-    """How joint torques of several sources are made one; needed for `estimate --fuse`."""
-    estimation: EstimationTable = EstimationTable()
-    """How contacts are told apart."""
     processing: ProcessingTable = ProcessingTable()
     """How samples are processed."""
     calibration: CalibrationTable = CalibrationTable()
     """How the fit is regularised."""
-    trial: Trial = Trial()
-    """Condition and number, for `forcetorque compare`."""
-    load_case: tuple[LoadCaseTable, ...] = ()
-    """What the sensors are to be used for."""
-    plan: PlanTable | None = None
-    """What can be recorded next, for `forcetorque plan`."""
 
     @model_validator(mode="after")
-    def _robot_or_load(self) -> ExperimentFile:
-        if not self.sensor:
-            return self
-        if self.robot is None and self.load is None:
-            raise PydanticCustomError("robot_or_load", "expected [robot] with a URDF, or [load] for a wrist sensor")
-        if self.load is not None and self.robot is not None:
-            require_link_loads(self.load)
-        if self.robot is None and self.link_load:
-            raise PydanticCustomError(
-                "load_link", "[[load]] with link hangs on a link of a robot: expected [robot] with its URDF, got none"
-            )
-        if self.robot is not None and not self.support and not any(one.touched for one in self.interval):
-            raise PydanticCustomError(
-                "no_support", "expected [[support]]: the frame that the robot stands on, or touched in [[interval]]"
-            )
-        alone = self.load is not None and self.robot is None
-        if alone and (self.support or len(self.sensor) > 1):
-            raise PydanticCustomError("load_alone", "with [load] there is one [[sensor]] and no [[support]]")
-        if alone and any(one.touched for one in self.interval):
-            raise PydanticCustomError("load_touched", "with [load] nothing else is touched: leave out touched")
-        if self.load is not None and any(one.touched and one.use is not Use.IGNORE for one in self.interval):
-            raise PydanticCustomError(
-                "load_touched",
-                "with [[load]] on a link every interval names its support: leave out touched, or state the load in the "
-                "URDF",
-            )
-        if self.load is None and any(one.load for one in self.interval):
-            raise PydanticCustomError("load_of_none", "load of [[interval]] names a [[load]], of which there is none")
-        return self
-
-    @model_validator(mode="after")
-    def _loads_of_one_sensor(self) -> ExperimentFile:
-        if self.load is not None:
-            if self.robot is None:
-                require_one_sensor(self.wrist_load)
-            require_loads_of(self.load, [one for one in self.interval if one.use is not Use.IGNORE])
+    def _sections_fit(self) -> ExperimentFile:
+        for section in sections():
+            section.check(self.table(section), self)
         return self
 
     @property
-    def wrist_load(self) -> tuple[Load, ...]:
-        """Loads on a wrist sensor, in place of a robot."""
-        return tuple(load for load in self.load or () if isinstance(load, Load))
+    def loaded_links(self) -> frozenset[str]:
+        """Links, or the frame of a sensor in place of a robot, that carry a load."""
+        return frozenset(link for one in sections() for link in one.loaded_links(self.table(one)))
 
-    @property
-    def link_load(self) -> tuple[LinkLoad, ...]:
-        """Loads on links of the robot."""
-        return tuple(load for load in self.load or () if isinstance(load, LinkLoad))
+    def table(self, section: Section[Content, Any]) -> Content:
+        """Give the table of a section.
+
+        Args:
+            section: The section.
+
+        Returns:
+            What the file says, or the default.
+        """
+        return cast(Content, getattr(self, section.key))
+
+
+@cache
+def experiment_file() -> type[ExperimentFile]:
+    """Make the form of the file: its core tables, and the sections of all capabilities.
+
+    Returns:
+        The model.
+    """
+    return create_model("ExperimentFile", __base__=ExperimentFile, __doc__=ExperimentFile.__doc__, **section_fields())
+
+
+def section_fields(*, of_plan: bool = False) -> dict[str, Any]:
+    """Give the fields of sections, for `pydantic.create_model`.
+
+    Args:
+        of_plan: Whether only those are wanted that a file may have before anything is recorded.
+
+    Returns:
+        Annotation and default by key.
+    """
+    return {
+        section.key: (section.type, Field(default=section.default, description=section.description))
+        for section in sections()
+        if section.of_plan or not of_plan
+    }
 
 
 def parse_experiment(path: Path | str) -> ExperimentFile:
@@ -279,4 +209,4 @@ def parse_experiment(path: Path | str) -> ExperimentFile:
     Returns:
         Its content.
     """
-    return read_toml(path, ExperimentFile, what="an experiment file")
+    return read_toml(path, experiment_file(), what="an experiment file")

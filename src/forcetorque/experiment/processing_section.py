@@ -15,6 +15,8 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.toml_file import Finite, Positive, Table, Text, word_or_table
+from forcetorque.recording.smoothing import SavitzkyGolay
+from forcetorque.robot.mechanics.samples import Processing
 
 
 class Smoothing(Table):
@@ -125,3 +127,25 @@ class ClockTable(Table):
     def near_s(self) -> float:
         """The stated delay, or the one around which it is looked for; s."""
         return (self.around_s or 0.0) if isinstance(self.delay_s, str) else self.delay_s
+
+
+def processing_of(table: ProcessingTable, *, gravity: float) -> Processing:
+    """Settle how samples are processed.
+
+    Args:
+        table: What the file says.
+        gravity: Magnitude of gravity; m/s2.
+
+    Returns:
+        Filters and gravity.
+    """
+    derivatives, smoothing = table.derivatives, table.smoothing
+    default = Processing()
+    return Processing(
+        derivative_window=default.derivative_window
+        if derivatives == "logged"
+        else SavitzkyGolay(window_s=derivatives.window_s, order=derivatives.order),
+        logged_derivatives=derivatives == "logged",
+        smoothing=None if smoothing is None else SavitzkyGolay(window_s=smoothing.window_s, order=smoothing.order),
+        gravity=gravity,
+    )

@@ -125,17 +125,17 @@ def expected_at(
     Returns:
         Wrenches; shape (n, 6); N, N m; NaN in gaps; None where the model cannot be evaluated.
     """
-    wrist = experiment.wrist
+    loads = experiment.loads
     try:
         return expected_wrench(
             experiment.recording,
-            experiment.model if wrist is None else wrist.nominal_model(experiment.model),
+            experiment.model if loads is None else loads.nominal_model(experiment.model),
             sensor=sensor.name,
             stream=sensor.stream,
             interval=interval,
             at_ns=at_ns,
             processing=experiment.processing,
-            applied=None if wrist is None else wrist.table.applied,
+            applied=None if loads is None else loads.applied,
         )
     except ForceTorqueError:  # whoever needs the expected wrench is told what it lacks
         return None

@@ -136,7 +136,7 @@ def samples_over(
         variables=[sensor.variable(name).source for name in variables],
         apart=touched_otherwise(interval, recording, experiment.contacts),
         evaluator=evaluator,
-        applied=None if experiment.wrist is None else experiment.wrist.table.applied,
+        applied=None if experiment.loads is None else experiment.loads.applied,
         quality=sample_quality(experiment, sensor),
     )
     readings = Readings.of(sensor, samples.reading.values, dict(zip(variables, samples.variables.T, strict=True)))

@@ -95,7 +95,7 @@ def _sensor(
             'raw counts cannot be recovered without it; "identity" where that matrix is not known'
         )
     if present[0] == "wrench":
-        _require_own_frame(where, entry, model, stream.signal("wrench").frame, of_load=bool(parsed.load))
+        _require_own_frame(where, entry, model, stream.signal("wrench").frame, of_load=bool(parsed.loaded_links))
     channels = len(stream.signals[present[0]].columns)
     if entry.amplifier_gain is not None and len(entry.amplifier_gain) != channels:
         raise ExperimentError(

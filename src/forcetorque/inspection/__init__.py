@@ -4,12 +4,22 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.inspection.draft.draft import draft_experiment
     from forcetorque.inspection.inspect import inspect_log, inspected
 
+CAPABILITY = Capability(
+    needs=("skin",),
+    commands=(
+        "forcetorque.inspection.commands:init",
+        "forcetorque.inspection.commands:inspect",
+    ),
+)
+
 __all__ = [
+    "CAPABILITY",
     "draft_experiment",
     "inspect_log",
     "inspected",

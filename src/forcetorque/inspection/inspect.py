@@ -15,7 +15,7 @@ from forcetorque.base.errors import FormatError, MissingFileError, RecordingErro
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
-from forcetorque.experiment.loading import load_experiment, load_shown
+from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.tried_clocks import load_tried_clocks
 from forcetorque.formats.log_format import SketchingFormat, not_read_sentence
 from forcetorque.formats.prior.prior_file import PriorFile, StatedUnits
@@ -30,7 +30,7 @@ from forcetorque.recording.recording import Finding, Recording
 from forcetorque.results.result import Result
 from forcetorque.results.row import Row
 from forcetorque.results.table import Table, table_of
-from forcetorque.skin.experiment import PatchExperiment, load_patches
+from forcetorque.skin.experiment import PATCHES, PatchExperiment, load_patches
 
 _MOST_ALIKE = 8
 """Lines of one kind and channel in the table; the rest is counted. JSON and CSV have them all."""
@@ -162,7 +162,7 @@ def inspected(experiment: Experiment) -> Inspection:
     Returns:
         What it holds, and what is wrong with it.
     """
-    findings = _of_experiment(experiment, experiment.skin)
+    findings = _of_experiment(experiment, experiment.section(PATCHES))
     return _inspection(str(experiment.file), experiment.recording, findings)
 
 
@@ -221,11 +221,11 @@ def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding,
     if source.is_dir():
         raise not_recognised(source)
     stated = _parsed(source)
-    patches = load_patches(source) if stated.patch else None
+    patches = load_patches(source) if stated.table(PATCHES) else None
     if patches is not None and not stated.sensor:
         return patches.recording, inspect_patches(patches)
     if patches is None and not stated.sensor:
-        recording = load_shown(source).recording
+        recording = load_experiment(source, Purpose.DISPLAY).recording
         return recording, inspect_recording(recording)
     try:
         experiment = load_experiment(source)

@@ -4,6 +4,7 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.locomotion.foot_forces import load_foot_forces
@@ -14,7 +15,24 @@ if TYPE_CHECKING:
     from forcetorque.locomotion.torque_control.file import read_torque_loop
     from forcetorque.locomotion.torque_control.study import torque_loop
 
+CAPABILITY = Capability(
+    needs=(
+        "sensor",
+        "simulation",
+        "estimation",
+        "calibration",
+    ),
+    commands=(
+        "forcetorque.locomotion.commands:balance",
+        "forcetorque.locomotion.commands:coherence",
+        "forcetorque.locomotion.commands:motion",
+        "forcetorque.locomotion.commands:torque_loop",
+    ),
+    sections=("forcetorque.locomotion.section:SOLES",),
+)
+
 __all__ = [
+    "CAPABILITY",
     "balance",
     "coherence",
     "load_foot_forces",

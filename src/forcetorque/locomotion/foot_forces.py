@@ -13,7 +13,7 @@ from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.input_files import Inputs
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
 from forcetorque.experiment.streams import read_streams
-from forcetorque.locomotion.soles import ExperimentSole, read_soles
+from forcetorque.locomotion.section import SOLES, ExperimentSole, read_soles
 from forcetorque.recording.alignment import interpolate, require_overlap, usable_samples
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.robot.model import RobotModel
@@ -76,7 +76,7 @@ def has_foot_forces(path: Path | str) -> bool:
         Whether it has soles and no force-torque sensor.
     """
     parsed = parse_experiment(path)
-    return bool(parsed.sole) and not parsed.sensor
+    return bool(parsed.table(SOLES)) and not parsed.sensor
 
 
 def load_foot_forces(path: Path | str) -> FootForces:
@@ -95,7 +95,8 @@ def load_foot_forces(path: Path | str) -> FootForces:
     """
     file = Path(path)
     parsed = parse_experiment(file)
-    if not parsed.sole:
+    table = parsed.table(SOLES)
+    if not table:
         raise ExperimentError(f"{file}: expected [[sole]], a foot with the stream of its vertical_force, got none")
     inputs = Inputs(file.parent)
     inputs.file(Path(file.name))
@@ -105,7 +106,7 @@ def load_foot_forces(path: Path | str) -> FootForces:
         name=parsed.name,
         file=file,
         recording=recording,
-        soles=read_soles(parsed.sole, file, model, recording, sensed=bool(parsed.sensor)),
+        soles=read_soles(table, file, model, recording, sensed=bool(parsed.sensor)),
         intervals=read_spans(parsed, file, recording),
         model=model,
         gravity=STANDARD_GRAVITY if parsed.robot is None else parsed.robot.gravity,

@@ -3,10 +3,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated
 
+import numpy as np
+
 from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.toml_file import Table, Text
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.section import Loading, Section
+from forcetorque.locomotion.standing.pressure import Sole
+from forcetorque.recording.recording import Recording
+from forcetorque.robot.model import RobotModel
 
 
 class SoleTable(Table):
@@ -20,3 +31,73 @@ class SoleTable(Table):
     """Corners x, y of the sole from that point; without them nothing tells whether a point lies outside."""
     stream: Text | None = None
     """Stream with the `vertical_force` of the ground on it, where no sensor of the foot was logged."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ExperimentSole:
+    """A sole, and where the force on it was logged if no sensor tells it."""
+
+    sole: Sole
+    """The sole."""
+    stream: str | None = None
+    """Stream with its vertical force; None where force-torque sensors tell it."""
+
+
+def read_soles(
+    entries: Iterable[SoleTable], file: Path, model: RobotModel | None, recording: Recording, *, sensed: bool
+) -> tuple[ExperimentSole, ...]:
+    """Match the soles of a file to the robot and the recording.
+
+    Args:
+        entries: Soles of the experiment file.
+        file: The experiment file, for messages.
+        model: The robot; None where the file names none.
+        recording: The streams.
+        sensed: Whether the file has force-torque sensors, which tell what the ground does.
+
+    Returns:
+        The soles in the order of the file.
+
+    Raises:
+        ExperimentError: If a frame is not in the robot or listed twice, or a sole has a stream beside sensors, or none
+            without.
+    """
+    soles: list[ExperimentSole] = []
+    for index, entry in enumerate(entries):
+        where = f"{file}: sole[{index}]"
+        if model is not None and entry.frame not in model.links:
+            raise ExperimentError(
+                f"{where}: robot {model.name!r} has no link {entry.frame!r}; {known_names(entry.frame, model.links)}"
+            )
+        if entry.frame in (earlier.sole.frame for earlier in soles):
+            raise ExperimentError(f"{where}: the frame {entry.frame!r} is listed twice; keep one")
+        if sensed == (entry.stream is not None):
+            raise ExperimentError(
+                f"{where}: expected stream with the vertical_force of the ground, or [[sensor]] in the file, one of "
+                f"both, got {'both' if sensed else 'neither'}; what is told twice is not weighed against itself"
+            )
+        with stated_in(where):
+            if entry.stream is not None:
+                recording.stream(entry.stream).signal("vertical_force")
+            position = np.zeros(3) if entry.position_m is None else entry.position_m
+            sole = Sole(frame=entry.frame, position=position, outline=entry.outline_m)
+        soles.append(ExperimentSole(sole=sole, stream=entry.stream))
+    return tuple(soles)
+
+
+def _read(table: tuple[SoleTable, ...], loading: Loading) -> tuple[ExperimentSole, ...]:
+    if not table:
+        return ()
+    sensed = bool(loading.parsed.sensor)
+    return read_soles(table, loading.file, loading.model, loading.recording, sensed=sensed)
+
+
+SOLES: Section[tuple[SoleTable, ...], tuple[ExperimentSole, ...]] = Section(
+    key="sole",
+    type=tuple[SoleTable, ...],
+    default=(),
+    description="Soles that the robot stands on, for `forcetorque balance`.",
+    read=_read,
+    empty=(),
+    without_sensors=("soles only", "`forcetorque balance` reads one of vertical forces alone"),
+)

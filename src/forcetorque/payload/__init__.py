@@ -4,13 +4,24 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.payload.load_for_robot import export_load, robot_load
     from forcetorque.payload.payload import weigh_load
     from forcetorque.payload.zeroing import tare
 
+CAPABILITY = Capability(
+    needs=("inspection",),
+    commands=(
+        "forcetorque.payload.commands:payload",
+        "forcetorque.payload.commands:tare",
+    ),
+    sections=("forcetorque.payload.section:LOAD",),
+)
+
 __all__ = [
+    "CAPABILITY",
     "export_load",
     "robot_load",
     "tare",

@@ -13,8 +13,8 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.draft.gravity import hanging
 from forcetorque.payload.identification.parameters import six_of
 from forcetorque.payload.identification.solution import LoadSolution
-from forcetorque.payload.link_loads import LinkLoads
-from forcetorque.payload.wrist_load import inertia_of_stated
+from forcetorque.payload.link_loads import LinkLoads, link_loads
+from forcetorque.payload.wrist_load import inertia_of_stated, wrist_loads
 from forcetorque.recording.recording import Support, Use
 
 
@@ -32,7 +32,7 @@ def reversed_sense(run: SensorRun) -> Iterator[str]:
 
 def _reversed_sense(run: SensorRun) -> Iterator[str]:
     experiment = run.experiment
-    if experiment.link_loads is None or run.sensor.quantity != "wrench" or not run.has(Use.CALIBRATION):
+    if link_loads(experiment) is None or run.sensor.quantity != "wrench" or not run.has(Use.CALIBRATION):
         return
     supports = [interval.support for interval in experiment.intervals(Use.CALIBRATION)]
     frames = {support.frame if isinstance(support, Support) else None for support in supports}
@@ -66,7 +66,7 @@ def load_doubts(run: SensorRun) -> Iterator[str]:
         A sentence where loads are weighed with the sensor's own reading, one for every load that it weighed before, and
         one for every stated load without which the readings fit better.
     """
-    loads = run.experiment.link_loads
+    loads = link_loads(run.experiment)
     if loads is None:
         return
     known = [load for own in (loads, *_beside(loads)) for load in own.loads if load.is_known and load.mass]
@@ -99,7 +99,7 @@ def circular_loads(run: SensorRun) -> Iterator[str]:
     Yields:
         A sentence for every load beside which nothing was stated then that would have told the scale of the matrix.
     """
-    for weighed in () if run.experiment.link_loads is None else run.experiment.link_loads.weighed:
+    for weighed in () if (loads := link_loads(run.experiment)) is None else loads.weighed:
         if weighed.serial == run.sensor.serial and not weighed.beside:
             yield (
                 f"load {weighed.load.name!r}: weighed before by this sensor itself ({weighed.serial}), beside nothing "
@@ -109,7 +109,7 @@ def circular_loads(run: SensorRun) -> Iterator[str]:
 
 
 def _beside(loads: LinkLoads) -> list[LinkLoads]:
-    return [one.link_loads for one in loads.beside.values() if one.link_loads is not None]
+    return [own for one in loads.beside.values() if (own := link_loads(one)) is not None]
 
 
 def _doubled(run: SensorRun, loads: LinkLoads) -> Iterator[str]:
@@ -206,7 +206,7 @@ def _estimated(run: SensorRun) -> LoadSolution | None:
     experiment = run.experiment
     if not run.has(Use.CALIBRATION):
         return None
-    if experiment.wrist is not None:
-        return None if experiment.wrist.are_stated else experiment.wrist.solution(experiment)
-    hung = experiment.link_loads
+    if (wrist := wrist_loads(experiment)) is not None:
+        return None if wrist.are_stated else wrist.solution(experiment)
+    hung = link_loads(experiment)
     return None if hung is None or all(load.is_known for load in hung.loads) else hung.solution(experiment)

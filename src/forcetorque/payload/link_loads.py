@@ -5,33 +5,31 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from pathlib import Path
-from typing import TYPE_CHECKING
+
+import numpy as np
 
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.inertia import Inertia
-from forcetorque.experiment.experiment import ExperimentSensor
-from forcetorque.experiment.input_files import Inputs, stated_in
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.section import Loading
 from forcetorque.payload.identification.problem import Load, LoadProblem
+from forcetorque.payload.identification.several_recordings import together
 from forcetorque.payload.identification.solution import LoadSolution
 from forcetorque.payload.identification.solve import solve
 from forcetorque.payload.identified_load import (
     WeighedLoad,
-    joined_problem,
     read_weighed,
     spread_of,
     with_matrix_in_part,
 )
 from forcetorque.payload.link_samples import HungInterval, link_load_problem
-from forcetorque.payload.section import LinkLoad
+from forcetorque.payload.load_tables import LinkLoad
 from forcetorque.payload.wrist_load import inertia_of_estimated, inertia_of_stated
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.sub_model import path_to_root
 from forcetorque.robot.tree import build_tree
-
-if TYPE_CHECKING:
-    from forcetorque.experiment.experiment import Experiment
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -52,6 +50,41 @@ class LinkLoads:
     """Recordings that weigh these loads together, this one among them, by name; none to ask this one alone."""
     _known: dict[str, LoadSolution] = field(default_factory=dict, repr=False)
     _problems: dict[Use, tuple[LoadProblem, int]] = field(default_factory=dict, repr=False)
+
+    @property
+    def in_place_of_robot(self) -> bool:
+        """Never: they hang on its links."""
+        return False
+
+    @property
+    def applied(self) -> str | None:
+        """No wrench is stated of loads on links."""
+        return None
+
+    def nominal_model(self, stated: RobotModel) -> RobotModel:
+        """Give the robot without the loads.
+
+        Args:
+            stated: The robot of the URDF.
+
+        Returns:
+            The same.
+        """
+        return stated
+
+    def pooled(self, experiments: Mapping[str, Experiment]) -> Mapping[str, Experiment]:
+        """Let recordings identify their loads together where one of them has a load that nobody stated.
+
+        Args:
+            experiments: Experiments with one sensor, by the names of their recordings.
+
+        Returns:
+            The same; those with loads on links share what is estimated.
+
+        Raises:
+            ExperimentError: If files say different things of a load.
+        """
+        return weighed_together(experiments)
 
     @property
     def are_stated(self) -> bool:
@@ -183,23 +216,113 @@ class LinkLoads:
         return carrying(experiment.model, self.links[number], inertia_of_estimated(solution, estimated))
 
 
-def read_link_loads(
-    tables: Sequence[LinkLoad],
-    file: Path,
-    model: RobotModel,
-    sensors: Sequence[ExperimentSensor],
-    supports: Sequence[tuple[Support | MovingSupport, int]],
-    inputs: Inputs,
-) -> LinkLoads | None:
+def link_loads(experiment: Experiment) -> LinkLoads | None:
+    """Give what hangs on links of a robot beside what its URDF says.
+
+    Args:
+        experiment: The experiment.
+
+    Returns:
+        The loads; None for nothing.
+    """
+    loads = experiment.loads
+    return loads if isinstance(loads, LinkLoads) else None
+
+
+def weighed_together(experiments: Mapping[str, Experiment]) -> dict[str, Experiment]:
+    """Let recordings weigh their loads together where one of them has a load that nobody stated.
+
+    Two tools tell more of a matrix, and of each other, than one does.
+
+    Args:
+        experiments: Experiments with one sensor, by the names of their recordings.
+
+    Returns:
+        The same; those with loads on links share what is estimated.
+
+    Raises:
+        ExperimentError: If files say different things of a load.
+    """
+    loads = {name: link_loads(experiment) for name, experiment in experiments.items()}
+    hanging = {name: experiments[name] for name, own in loads.items() if own is not None}
+    known_loads = [own for own in loads.values() if own is not None]
+    if len(hanging) < 2 or all(own.are_stated for own in known_loads) or all(own.beside for own in known_loads):
+        return dict(experiments)
+    _loads_of(hanging)
+    known: dict[str, LoadSolution] = {}
+    return {
+        name: experiments[name]
+        if own is None
+        else experiments[name].with_loads(replace(own, beside=hanging, _known=known))
+        for name, own in loads.items()
+    }
+
+
+def joined_problem(
+    experiments: Mapping[str, Experiment],
+    *,
+    use: Use = Use.CALIBRATION,
+    among: Mapping[str, Experiment] | None = None,
+) -> LoadProblem:
+    """Ask what recordings together tell of the loads on their robots.
+
+    Args:
+        experiments: Experiments with loads on links, by the names of their recordings.
+        use: Use of the intervals; recordings without one are passed over.
+        among: Recordings that number the loads, if those are more.
+
+    Returns:
+        The problem.
+
+    Raises:
+        ExperimentError: If no recording has such an interval, or files say different things of a load.
+    """
+    loads = _loads_of(among or experiments)
+    problems: dict[str, LoadProblem] = {}
+    for name, experiment in experiments.items():
+        hanging = link_loads(experiment)
+        if hanging is None or not any(one.use is use for one in experiment.recording.intervals):
+            continue
+        own = hanging.problem(experiment, use=use)
+        numbers = np.array([list(loads).index(load.name) for load in own.loads])
+        rows = replace(own.rows, load=numbers[own.rows.load])
+        problems[name] = replace(own, loads=tuple(loads.values()), rows=rows)
+    if not problems:
+        raise ExperimentError(
+            f'{", ".join(experiments)}: expected an interval with use = "{use}", which weighs the loads, got none; '
+            "state mass_kg and centre_of_mass_m"
+        )
+    return together(problems)
+
+
+def _loads_of(experiments: Mapping[str, Experiment]) -> dict[str, Load]:
+    """Loads by name, those of the first recording first."""
+    loads: dict[str, tuple[Load, str]] = {}
+    for name, experiment in experiments.items():
+        hanging = link_loads(experiment)
+        if hanging is None:
+            continue
+        for load, link in zip(hanging.loads, hanging.links, strict=True):
+            first, on = loads.setdefault(load.name, (load, link))
+            if on != link or not _alike(first, load):
+                raise ExperimentError(
+                    f"{name}: load {load.name!r}: expected the link, mass_kg, centre_of_mass_m and inertia_kgm2 that "
+                    "another recording states of it, got others; give another tool another name, and state one alike"
+                )
+    return {name: load for name, (load, _) in loads.items()}
+
+
+def _alike(first: Load, other: Load) -> bool:
+    fields = ("mass", "centre_of_mass", "inertia", "expected", "precision")
+    return all(np.array_equal(getattr(first, field), getattr(other, field)) for field in fields)
+
+
+def read_link_loads(tables: Sequence[LinkLoad], loading: Loading) -> LinkLoads | None:
     """Take the loads of an experiment file.
 
     Args:
         tables: Tables `[[load]]`.
-        file: The experiment file, for messages.
-        model: The robot.
-        sensors: Its sensors.
-        supports: Support of the intervals of each load, with its number.
-        inputs: Resolves and remembers the files.
+        loading: Robot, sensors and recording, whose intervals have a support of their own for every load.
 
     Returns:
         The loads; None where there are none.
@@ -207,6 +330,8 @@ def read_link_loads(
     Raises:
         ExperimentError: If a link is not in the robot, or not beyond a sensor.
     """
+    file, model, sensors = loading.file, loading.model, loading.sensors
+    supports = _supports_of_loads(tables, loading)
     if not tables:
         return None
     loads: list[Load] = []
@@ -221,7 +346,7 @@ def read_link_loads(
             if table.weighed is None:
                 loads.append(_stated(table))
             else:
-                weighed.append(read_weighed(inputs.file(table.weighed), table.name, table.link))
+                weighed.append(read_weighed(loading.inputs.file(table.weighed), table.name, table.link))
                 loads.append(weighed[-1].load)
     frames = {(support.frame, tables[number].link, number) for support, number in supports}
     felt: list[set[str]] = []
@@ -235,7 +360,7 @@ def read_link_loads(
                 "fastened to, or the support that the robot stands on"
             )
         # the nearest sensor first
-        sensors = sorted(sensors, key=lambda one: names.index(one.name) if one.name in names else len(names))
+        sensors = tuple(sorted(sensors, key=lambda one: names.index(one.name) if one.name in names else len(names)))
     shared = set.intersection(*felt) if felt else set()
     return LinkLoads(
         loads=tuple(loads),
@@ -264,7 +389,7 @@ def _inboard_sensors(model: RobotModel, support: str, link: str) -> list[str]:
 
 def with_loads_named(
     intervals: Sequence[Interval], named: Sequence[str | None], loads: Sequence[LinkLoad]
-) -> tuple[list[Interval], list[tuple[Support | MovingSupport, int]]]:
+) -> list[Interval]:
     """Give the intervals of every load a support of their own, by which it is known what hangs then.
 
     Args:
@@ -273,19 +398,34 @@ def with_loads_named(
         loads: Loads of the file.
 
     Returns:
-        The intervals, and the support of every load with its number.
+        The intervals.
     """
-    names = [load.name for load in loads]
     supports: dict[tuple[int, int], Support | MovingSupport] = {}
-    kept: list[Interval] = []
+    placed: list[Interval] = []
     for interval, name in zip(intervals, named, strict=True):
-        number = names.index(name) if name in names else 0 if len(names) == 1 else None
+        number = _number_of(name, loads)
         if interval.support is None or number is None:
-            kept.append(interval)
+            placed.append(interval)
             continue
         own = supports.setdefault((id(interval.support), number), replace(interval.support))
-        kept.append(replace(interval, support=own))
-    return kept, [(support, number) for (_, number), support in supports.items()]
+        placed.append(replace(interval, support=own))
+    return placed
+
+
+def _number_of(name: str | None, loads: Sequence[LinkLoad]) -> int | None:
+    names = [load.name for load in loads]
+    return names.index(name) if name in names else 0 if len(names) == 1 else None
+
+
+def _supports_of_loads(tables: Sequence[LinkLoad], loading: Loading) -> tuple[tuple[Support | MovingSupport, int], ...]:
+    """Supports that `with_loads_named` made, each with the number of its load."""
+    named = {span.label: span.load for span in loading.parsed.interval}
+    supports: dict[int, tuple[Support | MovingSupport, int]] = {}
+    for interval in loading.recording.intervals:
+        number = _number_of(named[interval.label], tables)
+        if interval.support is not None and number is not None:
+            supports.setdefault(id(interval.support), (interval.support, number))
+    return tuple(supports.values())
 
 
 def carrying(model: RobotModel, link: str, load: Inertia) -> RobotModel:

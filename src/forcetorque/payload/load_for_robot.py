@@ -20,7 +20,7 @@ from forcetorque.payload.result import HypothesisRow
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.robot_load import RobotLoad
 from forcetorque.payload.robot_files.writing import write_load_file
-from forcetorque.payload.wrist_load import LOAD_LINK, WristLoads
+from forcetorque.payload.wrist_load import LOAD_LINK, WristLoads, wrist_loads
 from forcetorque.recording.recording import Use
 
 
@@ -43,9 +43,10 @@ def robot_load(
             the readings contradict the frames, senses and units by which the load was weighed.
     """
     experiment, known = run.experiment, np.array(bias, dtype=np.float64)
-    if experiment.wrist is None:
+    wrist = wrist_loads(experiment)
+    if wrist is None:
         raise ExperimentError("expected [load], of which a robot is told, got the links of [robot]")
-    supports = experiment.wrist.supports
+    supports = wrist.supports
     if len(supports) != 1:
         names = ", ".join(map(repr, supports))
         raise ExperimentError(
@@ -58,7 +59,7 @@ def robot_load(
             f"expected a bias along every axis, of which a robot is told, the data leave {names} open: "
             "`forcetorque payload` says what to record"
         )
-    if contradiction := next(_contradictions(run, experiment.wrist, weighed), None):
+    if contradiction := next(_contradictions(run, wrist, weighed), None):
         raise ExperimentError(
             f"expected a load that the readings agree with, of which a robot is told, they say: {contradiction}; mend "
             "that, and weigh again"
@@ -79,7 +80,7 @@ def robot_load(
     return RobotLoad(
         sensor=run.sensor.name,
         frame=next(iter(experiment.model.links)),
-        direction=experiment.wrist.direction,
+        direction=wrist.direction,
         mass=mass,
         centre_of_mass=centre,
         bias=known,

@@ -20,8 +20,7 @@ from forcetorque.payload.identification.problem import LoadProblem
 from forcetorque.payload.identification.several_recordings import together
 from forcetorque.payload.identification.solution import LoadEstimate, LoadSolution
 from forcetorque.payload.identification.solve import solve
-from forcetorque.payload.identified_load import joined_problem
-from forcetorque.payload.link_loads import LinkLoads
+from forcetorque.payload.link_loads import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import (
     BiasRow,
     BiasTestRow,
@@ -42,7 +41,7 @@ from forcetorque.payload.summary import (
     load_words,
     payload_doubts,
 )
-from forcetorque.payload.wrist_load import WristLoads
+from forcetorque.payload.wrist_load import WristLoads, wrist_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import Result
 from forcetorque.results.row import WrenchValues
@@ -61,7 +60,7 @@ def hanging_on(run: SensorRun) -> WristLoads | LinkLoads:
     Raises:
         ExperimentError: If nothing hangs on either.
     """
-    hanging = run.experiment.wrist or run.experiment.link_loads
+    hanging = wrist_loads(run.experiment) or link_loads(run.experiment)
     if hanging is None:
         raise ExperimentError(
             "expected [[load]], what hangs on the sensor, got [robot] alone; add [[load]] with link, the link of the "
@@ -82,8 +81,8 @@ def links_of(campaign: Campaign) -> dict[str, str]:
     return {
         load.name: link
         for run in campaign.runs
-        if run.experiment.link_loads is not None
-        for load, link in zip(run.experiment.link_loads.loads, run.experiment.link_loads.links, strict=True)
+        if (hanging := link_loads(run.experiment)) is not None
+        for load, link in zip(hanging.loads, hanging.links, strict=True)
     }
 
 
@@ -124,12 +123,12 @@ def weighed_alone(campaign: Campaign) -> Iterator[tuple[str, LoadEstimate]]:
         return
     for name, run in zip(campaign.recordings, campaign.runs, strict=True):
         experiment = run.experiment
-        if experiment.link_loads is not None:
-            experiment = experiment.link_loads.beside.get(name, experiment)
-        if experiment.wrist is not None:
-            yield from ((name, load) for load in experiment.wrist.solution(experiment).loads)
-        elif experiment.link_loads is not None and run.has(Use.CALIBRATION):
-            yield from ((name, load) for load in experiment.link_loads.solution(experiment).loads)
+        if (hanging := link_loads(experiment)) is not None:
+            experiment = hanging.beside.get(name, experiment)
+        if (wrist := wrist_loads(experiment)) is not None:
+            yield from ((name, load) for load in wrist.solution(experiment).loads)
+        elif (hanging := link_loads(experiment)) is not None and run.has(Use.CALIBRATION):
+            yield from ((name, load) for load in hanging.solution(experiment).loads)
 
 
 def problem_among(campaign: Campaign, run: SensorRun, use: Use) -> LoadProblem:
@@ -253,7 +252,7 @@ def weigh_load(runs: Runs) -> WeighedLoad:
     """
     campaign = Campaign.of(runs)
     solution, first, links = weighed(campaign), campaign.runs[0], links_of(campaign)
-    table = None if first.experiment.wrist is None else first.experiment.wrist.table
+    table = None if (wrist := wrist_loads(first.experiment)) is None else wrist.table
     alone = [RecordingLoadRow.by(name, load, links.get(load.name)) for name, load in weighed_alone(campaign)]
     result = WeighedLoad(
         experiment=", ".join(campaign.experiments),

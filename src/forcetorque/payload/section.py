@@ -1,215 +1,109 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sections on loads: `[load]` of a wrist sensor and `[[load]]` of links."""
+"""The section `load` of an experiment file: loads that stand in for a robot, or hang on its links."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
-from typing import Annotated, Any, Literal, Protocol
+from dataclasses import dataclass
+from typing import Annotated
 
-from pydantic import Discriminator, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, Tag, model_validator
-from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+from pydantic_core import PydanticCustomError
 
-from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.errors import known_names
-from forcetorque.base.toml_file import NotNegative, Table, Text
-from forcetorque.base.wrench import MeasureDirection
-
-_OF_SENSOR = ("frame", "motion", "applied", "measure_direction", "drift", "mount", "tilt")
-"""What is of the sensor, whatever hangs on it: stated with the first load."""
-
-
-class Load(Table):
-    """What hangs on a wrist sensor, in place of a robot."""
-
-    name: Text = "load"
-    """Name, by which an interval says that this load hangs on the sensor."""
-    frame: Text
-    """Frame of the sensor, along whose axes it and the motion streams read."""
-    motion: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
-    """Streams with `gravity` (still poses), or `proper_acceleration` and `angular_velocity`."""
-    applied: Text | None = None
-    """In place of motion and mass: stream with the `applied_wrench`, which is then what the sensor must read."""
-    measure_direction: MeasureDirection
-    """Who acts on whom in the reading; the load is the child."""
-    mass_kg: NotNegative | None = None
-    """Mass; left out to estimate it on the calibration intervals; 0 for the bare sensor."""
-    centre_of_mass_m: Annotated[FloatArray, ArrayField((3,))] | None = None
-    """Centre of mass in the frame; left out to estimate it."""
-    inertia_kgm2: Annotated[FloatArray, ArrayField((3, 3))] | Literal["unknown"] | None = None
-    """Inertia about the centre of mass, along the frame's axes; `unknown` to estimate it; a point mass if left out."""
-    drift: bool | None = None
-    """Whether biases move evenly in time where loads are estimated; rows that are held out choose if left out."""
-    mount: Literal["unknown"] | None = None
-    """`unknown` where the sensor is turned against the axes of the motion streams: the rotation is then estimated."""
-    tilt: Literal["unknown"] | None = None
-    """`unknown` where the world of the orientation streams is not level: its tilt is then estimated."""
-
-    @model_validator(mode="after")
-    def _motion_or_wrench(self) -> Load:
-        if (self.motion is None) == (self.applied is None):
-            raise PydanticCustomError(
-                "load_motion", "expected motion, the streams that tell how the load moves, or applied, a known wrench"
-            )
-        if self.applied is not None and (self.mass_kg is not None or self.centre_of_mass_m is not None):
-            raise PydanticCustomError("load_twice", "applied says what the sensor must read: leave the mass out")
-        return self
-
-    @property
-    def streams(self) -> tuple[str, ...]:
-        """Streams that say what the sensor must read."""
-        return self.motion or (self.applied or "",)
+from forcetorque.experiment.file import ExperimentFile
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.section import Loading, Section, StandIn
+from forcetorque.payload.link_loads import LinkLoads, read_link_loads, with_loads_named
+from forcetorque.payload.load_tables import (
+    AnyLoad,
+    LinkLoad,
+    Loads,
+    OneOrSeveral,
+    link_tables,
+    require_link_loads,
+    require_loads_of,
+    require_one_sensor,
+    wrist_tables,
+)
+from forcetorque.payload.wrist_load import WristLoads, load_model, read_wrist_loads, stated_inertia, stated_loads
+from forcetorque.recording.recording import Interval, MovingSupport, Use
 
 
-class OneOrSeveral:
-    """Annotation of loads: one table is a list of one, and later ones have what is of the sensor from the first."""
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class LoadSection(Section[Loads | None, WristLoads | LinkLoads | None]):
+    """The loads of an experiment: they stand in for a robot, or hang on its links in some intervals."""
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """Validate a table, or a list of tables.
+    def check(self, table: Loads | None, file: ExperimentFile) -> None:  # noqa: D102
+        if file.sensor:
+            _require_robot_or_load(table, file)
+        if table is not None:
+            if file.robot is None:
+                require_one_sensor(wrist_tables(table))
+            require_loads_of(table, [one for one in file.interval if one.use is not Use.IGNORE])
 
-        Args:
-            source: Type that is annotated.
-            handler: Gives its schema.
+    def loaded_links(self, table: Loads | None) -> frozenset[str]:  # noqa: D102
+        return frozenset(load.link if isinstance(load, LinkLoad) else load.frame for load in table or ())
 
-        Returns:
-            The schema.
-        """
-        return core_schema.no_info_before_validator_function(_loads, handler(source))
+    def stand_in(self, table: Loads | None, loading: Loading) -> StandIn | None:  # noqa: D102
+        tables = wrist_tables(table)
+        if not tables or not loading.parsed.sensor:
+            return None
+        load = tables[0]
+        supports = {one.name: MovingSupport(frame=load.frame, motion_streams=load.streams) for one in tables}
+        with stated_in(f"{loading.file}: load"):
+            for stream in load.streams:
+                loading.recording.stream(stream)
+            if load.applied is not None:
+                loading.recording.stream(load.applied).signal("applied_wrench")
+            inertia = stated_inertia(stated_loads(tables))
+        return StandIn(model=load_model(load, loading.parsed.sensor[0].name, inertia), supports=supports)
 
-    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Describe both forms.
-
-        Args:
-            schema: Schema of the list.
-            handler: Gives its description.
-
-        Returns:
-            The description.
-        """
-        several = handler(schema)
-        return {"anyOf": [several["items"], {"type": "array", "minItems": 1, "items": {"type": "object"}}]}
-
-
-def _loads(value: Any) -> Any:
-    if not isinstance(value, list):
-        return (value,)
-    first = value[0] if value and isinstance(value[0], dict) else {}
-    shared = {key: first[key] for key in _OF_SENSOR if key in first}
-    return tuple(shared | entry if isinstance(entry, dict) else entry for entry in value)
+    def place(  # noqa: D102
+        self, table: Loads | None, loading: Loading, intervals: Sequence[Interval]
+    ) -> Sequence[Interval]:
+        return with_loads_named(intervals, [span.load for span in loading.parsed.interval], link_tables(table))
 
 
-def require_one_sensor(loads: Sequence[Load]) -> None:
-    """Refuse no load, one on a link, loads of one name, or that say different things of the sensor.
-
-    Args:
-        loads: The loads.
-
-    Raises:
-        PydanticCustomError: If it is so.
-    """
-    if not loads:
-        raise PydanticCustomError("load_none", "expected [load], or [[load]] for each of several, got none")
-    if len({load.name for load in loads}) < len(loads):
-        raise PydanticCustomError("load_names", "expected [[load]] with names that differ")
-    for key in _OF_SENSOR:
-        if any(getattr(load, key) != getattr(loads[0], key) for load in loads):
-            message = f"{key} is of the sensor: state it in the first [[load]] only"
-            raise PydanticCustomError("load_shared", "{message}", {"message": message})
-
-
-class _Named(Protocol):
-    @property
-    def name(self) -> str: ...
-
-
-class _Interval(Protocol):
-    @property
-    def label(self) -> str: ...
-    @property
-    def load(self) -> str | None: ...
-
-
-def require_loads_of(loads: Sequence[_Named], intervals: Sequence[_Interval]) -> None:
-    """Refuse intervals that do not say which load hangs on the sensor.
-
-    Args:
-        loads: The loads.
-        intervals: Intervals that are used.
-
-    Raises:
-        PydanticCustomError: If there are several loads and an interval names none, or one that is not there.
-    """
-    names = [load.name for load in loads]
-    for interval in intervals:
-        message = ""
-        if interval.load is None and len(loads) > 1:
-            message = f"expected load, the name of what hangs on the sensor: {', '.join(names)}"
-        elif interval.load is not None and interval.load not in names:
-            message = f"no [[load]] {interval.load!r}; {known_names(interval.load, names)}"
-        if message:
-            words = f"interval {interval.label!r}: {message}"
-            raise PydanticCustomError("load_of_interval", "{message}", {"message": words})
-
-
-_OF_A_SENSOR = {"frame", "motion", "applied", "measure_direction"}
-"""Keys of a load on a wrist sensor without a robot."""
-
-
-class LinkLoad(Table):
-    """What hangs on a link of a robot, such as the tool of an arm; the URDF is without it."""
-
-    name: Text = "load"
-    """Name, by which an interval says that this load hangs on the robot."""
-    link: Text
-    """Link of the URDF that it is fastened to, beyond the sensor as seen from the support."""
-    mass_kg: NotNegative | None = None
-    """Mass; left out to estimate it on the calibration intervals; 0 where nothing hangs."""
-    centre_of_mass_m: Annotated[FloatArray, ArrayField((3,))] | None = None
-    """Centre of mass in the frame of the link; left out to estimate it."""
-    inertia_kgm2: Annotated[FloatArray, ArrayField((3, 3))] | Literal["unknown"] | None = None
-    """Inertia about the centre of mass, along the link's axes; `unknown` to estimate it. If left out it is estimated
-    where mass or centre of mass is, and that of a point mass where both are stated."""
-    weighed: Path | None = Field(default=None, alias="from")
-    """In place of these: the load of that name in a result of `forcetorque payload --format json`, as surely as it was
-    told there."""
-
-    @model_validator(mode="after")
-    def _stated_or_weighed(self) -> LinkLoad:
-        stated = (self.mass_kg, self.centre_of_mass_m, self.inertia_kgm2)
-        if self.weighed is not None and any(value is not None for value in stated):
-            raise PydanticCustomError(
-                "load_twice", "from says what the load is: leave mass_kg, centre_of_mass_m and inertia_kgm2 out"
-            )
-        return self
-
-
-def _kind_of_load(value: Any) -> str:
-    keys = value.keys() if isinstance(value, dict) else ()
-    if isinstance(value, Load) or (not {"link", "from"} & set(keys) and _OF_A_SENSOR & set(keys)):
-        return "on a sensor"
-    return "on a link"
-
-
-AnyLoad = Annotated[
-    Annotated[Load, Tag("on a sensor")] | Annotated[LinkLoad, Tag("on a link")], Discriminator(_kind_of_load)
-]
-"""A table `[load]`: on a wrist sensor without a robot, or on a link of one."""
-
-
-def require_link_loads(loads: Sequence[Load | LinkLoad]) -> None:
-    """Refuse loads beside a robot that are not fastened to a link, or share a name.
-
-    Args:
-        loads: The loads.
-
-    Raises:
-        PydanticCustomError: If it is so.
-    """
-    if any(isinstance(load, Load) for load in loads):
+def _require_robot_or_load(loads: Loads | None, file: ExperimentFile) -> None:
+    if file.robot is None and loads is None:
+        raise PydanticCustomError("robot_or_load", "expected [robot] with a URDF, or [load] for a wrist sensor")
+    if loads is not None and file.robot is not None:
+        require_link_loads(loads)
+    if file.robot is None and link_tables(loads):
         raise PydanticCustomError(
-            "load_link",
-            "beside [robot] a [[load]] needs link, the link of the URDF that it is fastened to; frame, motion and "
-            "measure_direction are for a wrist sensor without [robot]",
+            "load_link", "[[load]] with link hangs on a link of a robot: expected [robot] with its URDF, got none"
         )
-    if len({load.name for load in loads}) < len(loads):
-        raise PydanticCustomError("load_names", "expected [[load]] with names that differ")
+    if file.robot is not None and not file.support and not any(one.touched for one in file.interval):
+        raise PydanticCustomError(
+            "no_support", "expected [[support]]: the frame that the robot stands on, or touched in [[interval]]"
+        )
+    alone = loads is not None and file.robot is None
+    if alone and (file.support or len(file.sensor) > 1):
+        raise PydanticCustomError("load_alone", "with [load] there is one [[sensor]] and no [[support]]")
+    if alone and any(one.touched for one in file.interval):
+        raise PydanticCustomError("load_touched", "with [load] nothing else is touched: leave out touched")
+    if loads is not None and any(one.touched and one.use is not Use.IGNORE for one in file.interval):
+        raise PydanticCustomError(
+            "load_touched",
+            "with [[load]] on a link every interval names its support: leave out touched, or state the load in the "
+            "URDF",
+        )
+    if loads is None and any(one.load for one in file.interval):
+        raise PydanticCustomError("load_of_none", "load of [[interval]] names a [[load]], of which there is none")
+
+
+def _read(table: Loads | None, loading: Loading) -> WristLoads | LinkLoads | None:
+    if loading.stand_in is not None and loading.stand_in.supports is not None:
+        return read_wrist_loads(wrist_tables(table), loading.file, loading.stand_in.supports, loading.sensors[0])
+    return read_link_loads(link_tables(table), loading)
+
+
+LOAD = LoadSection(
+    key="load",
+    type=Annotated[tuple[AnyLoad, ...], OneOrSeveral()] | None,
+    default=None,
+    description="What hangs on a wrist sensor, in place of a robot, or on a link of the robot; of several `[[load]]` "
+    "an interval says which.",
+    read=_read,
+    empty=None,
+    of_robot=False,
+)

@@ -6,25 +6,21 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.experiment.experiment import ExperimentSensor
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.payload.identification.problem import Load, LoadProblem
 from forcetorque.payload.identification.solution import LoadEstimate, LoadSolution
 from forcetorque.payload.identification.solve import solve
-from forcetorque.payload.section import Load as LoadTable
+from forcetorque.payload.load_tables import Load as LoadTable
 from forcetorque.payload.wrist_samples import load_problem, samples_left_out
 from forcetorque.recording.recording import MovingSupport, Support, Use
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
-
-if TYPE_CHECKING:
-    from forcetorque.experiment.experiment import Experiment
 
 
 def inertia_of_stated(load: Load) -> Inertia:
@@ -115,14 +111,15 @@ class WristLoads:
         supports = list(self.supports.values())
         return next((number for number, own in enumerate(supports) if own is support), 0)
 
-    def stated_inertia(self) -> Inertia:
-        """Give what the file says of the load.
+    @property
+    def in_place_of_robot(self) -> bool:
+        """Always: the file names no robot."""
+        return True
 
-        Returns:
-            Its inertia in the frame of the sensor; zero where there are several, or something is to be estimated.
-        """
-        (load, *others) = self.loads
-        return Inertia.zero() if others or not load.is_known else inertia_of_stated(load)
+    @property
+    def applied(self) -> str | None:
+        """Stream of the wrench that the sensor must read; None where that follows from motion and mass."""
+        return self.table.applied
 
     def nominal_model(self, stated: RobotModel) -> RobotModel:
         """Give the robot with a load that moves the reading as the stated one does, or as any load would.
@@ -207,8 +204,47 @@ class WristLoads:
         inertia = inertia_of_estimated(solution, solution.loads[number])
         return load_model(self.table, self.sensor.name, inertia)
 
+    def pooled(self, experiments: Mapping[str, Experiment]) -> Mapping[str, Experiment]:
+        """Leave recordings to estimate their loads each by itself.
 
-def read_loads(
+        Args:
+            experiments: Experiments by the names of their recordings.
+
+        Returns:
+            The same.
+        """
+        return experiments
+
+
+def stated_loads(tables: Sequence[LoadTable]) -> tuple[Load, ...]:
+    """Give loads as a file states them.
+
+    Args:
+        tables: Tables `[load]` or `[[load]]`.
+
+    Returns:
+        The loads.
+    """
+    return tuple(
+        Load(name=table.name, mass=table.mass_kg, centre_of_mass=table.centre_of_mass_m, inertia=table.inertia_kgm2)
+        for table in tables
+    )
+
+
+def stated_inertia(loads: Sequence[Load]) -> Inertia:
+    """Give what a file says of the load.
+
+    Args:
+        loads: Its loads.
+
+    Returns:
+        Inertia in the frame of the sensor; zero where there are several, or something is to be estimated.
+    """
+    (load, *others) = loads
+    return Inertia.zero() if others or not load.is_known else inertia_of_stated(load)
+
+
+def read_wrist_loads(
     tables: Sequence[LoadTable], file: Path, supports: Mapping[str, MovingSupport], sensor: ExperimentSensor
 ) -> WristLoads:
     """Take the loads of an experiment file.
@@ -223,15 +259,7 @@ def read_loads(
         The loads.
     """
     with stated_in(f"{file}: load"):
-        loads = tuple(
-            Load(
-                name=table.name,
-                mass=table.mass_kg,
-                centre_of_mass=table.centre_of_mass_m,
-                inertia=table.inertia_kgm2,
-            )
-            for table in tables
-        )
+        loads = stated_loads(tables)
     return WristLoads(loads=loads, supports=supports, table=tables[0], sensor=sensor)
 
 
@@ -282,3 +310,16 @@ def is_wrist_load(model: RobotModel) -> bool:
         Whether `load_model` made it.
     """
     return tuple(model.joints) == (_JOINT,) and tuple(model.links)[1:] == (LOAD_LINK,)
+
+
+def wrist_loads(experiment: Experiment) -> WristLoads | None:
+    """Give what hangs on a wrist sensor.
+
+    Args:
+        experiment: The experiment.
+
+    Returns:
+        The loads; None for a robot.
+    """
+    loads = experiment.loads
+    return loads if isinstance(loads, WristLoads) else None

@@ -4,13 +4,25 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.planning.files import write_plan
     from forcetorque.planning.joint import plan_jointly
     from forcetorque.planning.planning import plan
 
+CAPABILITY = Capability(
+    needs=(
+        "simulation",
+        "calibration",
+        "evaluation",
+    ),
+    commands=("forcetorque.planning.command:plan",),
+    sections=("forcetorque.planning.section:PLAN",),
+)
+
 __all__ = [
+    "CAPABILITY",
     "plan",
     "plan_jointly",
     "write_plan",

@@ -33,7 +33,7 @@ from forcetorque.planning.result import (
     recordings_table,
 )
 from forcetorque.planning.search import Criterion
-from forcetorque.planning.section import PlanTable
+from forcetorque.planning.section import PLAN, PlanTable
 from forcetorque.planning.workplace import supports_of, workplaces
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
@@ -261,7 +261,7 @@ def _runs(runs: Runs) -> Sequence[SensorRun]:
 def _table(runs: Sequence[SensorRun]) -> PlanTable:
     if not all(run.experiment.stands for run in runs):
         raise ExperimentError("plan: expected [robot] with a [[support]] at rest, whose joints can be moved")
-    tables = [run.experiment.plan for run in runs if run.experiment.plan is not None]
+    tables = [table for run in runs if (table := run.experiment.section(PLAN)) is not None]
     if any(table != tables[0] for table in tables[1:]):
         raise ExperimentError("plan: the experiment files state several [plan] that differ; state it in one of them")
     return tables[0] if tables else PlanTable()

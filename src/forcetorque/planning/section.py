@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
@@ -13,8 +11,8 @@ from pydantic_core import PydanticCustomError
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text
-from forcetorque.recording.recording import MovingSupport, Support
-from forcetorque.robot.model import RobotModel
+from forcetorque.experiment.section import Loading, Section
+from forcetorque.recording.recording import Support
 
 
 class PlanTool(Table):
@@ -76,25 +74,11 @@ class PlanTable(Table):
         return self
 
 
-def read_plan(
-    table: PlanTable | None, file: Path, model: RobotModel, supports: Iterable[Support | MovingSupport]
-) -> PlanTable | None:
-    """Check what can be recorded against the robot.
-
-    Args:
-        table: The table; None where the file has none.
-        file: Its file, for messages.
-        model: The robot.
-        supports: Supports of the file.
-
-    Returns:
-        The same table.
-
-    Raises:
-        ExperimentError: If a joint, link or support does not exist.
-    """
+def _checked(table: PlanTable | None, loading: Loading) -> PlanTable | None:
+    """The table, whose joints, links and supports exist."""
     if table is None:
         return None
+    file, model = loading.file, loading.model
     free = [joint.name for joint in model.joints.values() if joint.type.moves and joint.mimic is None]
     for joint in table.ranges:
         if joint not in free:
@@ -107,7 +91,7 @@ def read_plan(
                 f"{file}: plan: tool {tool.name!r}: robot {model.name!r} has no link {tool.frame!r}; "
                 f"{known_names(tool.frame, model.links)}"
             )
-    still = [support.frame for support in supports if isinstance(support, Support)]
+    still = [support.frame for support in loading.supports.values() if isinstance(support, Support)]
     for frame in table.support:
         if frame not in still:
             raise ExperimentError(
@@ -115,3 +99,14 @@ def read_plan(
                 "add one with its gravity_direction"
             )
     return table
+
+
+PLAN: Section[PlanTable | None, PlanTable | None] = Section(
+    key="plan",
+    type=PlanTable | None,
+    default=None,
+    description="What can be recorded next, for `forcetorque plan`.",
+    read=_checked,
+    empty=None,
+    of_plan=True,
+)

@@ -42,12 +42,13 @@ def report(
 
     from forcetorque.base.output_file import declare_outputs
     from forcetorque.experiment.applicability import read_population
+    from forcetorque.experiment.loading import Purpose
     from forcetorque.report.assessment.assessment import Demands
     from forcetorque.report.report import report, require_writable
     from forcetorque.report.sections import viewer_section
     from forcetorque.report.sources import assign_calibrations, sort_sources
     from forcetorque.results.created import created_now
-    from forcetorque.results.terminal.reading import read_shown
+    from forcetorque.results.terminal.reading import read_experiment
 
     log = start_logging()
     require_writable(output)
@@ -55,7 +56,7 @@ def report(
     declare_outputs(*files, force=force)
     sources = sort_sources(results)
     demands = Demands(acceptance=sources.acceptance, population=read_population(population) if population else None)
-    experiments = [(str(path), read_shown(path, log)) for path in sources.experiments]
+    experiments = [(str(path), read_experiment(path, log, Purpose.DISPLAY)) for path in sources.experiments]
     groups = assign_calibrations([experiment for _, experiment in experiments], sources.calibrations)
 
     def section(place: int) -> Section:

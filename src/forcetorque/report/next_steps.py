@@ -10,10 +10,12 @@ from typing import TypeVar
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.calibration.summary import LITTLE_LEARNT, learnt_directions, to_learn
 from forcetorque.evaluation.load_cases.prediction import CONFIDENCE
+from forcetorque.evaluation.load_cases.section import LOAD_CASES
 from forcetorque.evaluation.load_cases.verdict import UseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.planning import plan_sentence
+from forcetorque.planning.section import PLAN
 from forcetorque.report.load_cases import SensorKey, Undecided
 from forcetorque.results.row import Row
 from forcetorque.results.table import short_names
@@ -163,7 +165,7 @@ def _to_plan(uses: Sequence[UseVerdict], runs: Sequence[SensorRun]) -> dict[str,
     """By file of a calibration the verdicts for which a plan can say what to record."""
     if not all(run.experiment.stands for run in runs):
         return {}
-    known = {table.name for run in runs for table in run.experiment.load_cases}
+    known = {table.name for run in runs for table in run.experiment.section(LOAD_CASES)}
     wanted: dict[str, list[UseVerdict]] = {}
     for verdict in uses:
         # no plan reads the uses of an acceptance file
@@ -179,7 +181,7 @@ def _plan(
     names: Mapping[str, str],
 ) -> Iterator[str]:
     """What to record first for the use that a calibration is farthest from, and the command that says what then."""
-    tables = [run.experiment.plan for run in runs.values()]
+    tables = [run.experiment.section(PLAN) for run in runs.values()]
     if any(table is not None and table.clearance_deg is not None for table in tables):
         first = [
             (names[file], _first_recording(calibrations[file], min(verdicts, key=_chance), [*runs.values()]))

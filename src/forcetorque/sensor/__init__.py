@@ -4,13 +4,23 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.sensor.bandwidth.bandwidth import response
     from forcetorque.sensor.gains.gains import select_gains, sensor_gains
     from forcetorque.sensor.temperature.temperature_drift import thermal
 
+CAPABILITY = Capability(
+    commands=(
+        "forcetorque.sensor.gains.command:gains",
+        "forcetorque.sensor.bandwidth.command:response",
+        "forcetorque.sensor.temperature.command:thermal",
+    ),
+)
+
 __all__ = [
+    "CAPABILITY",
     "response",
     "select_gains",
     "sensor_gains",

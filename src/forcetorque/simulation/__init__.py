@@ -1,2 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Robots, motions and sensors with known truth, for users as much as for tests."""
+
+from forcetorque.results.capability import Capability
+
+CAPABILITY = Capability(
+    needs=("sensor",),
+    commands=("forcetorque.simulation.command:simulate",),
+)

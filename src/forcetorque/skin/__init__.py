@@ -4,13 +4,21 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.skin.layout.check import check_skin
     from forcetorque.skin.taxels.calibrate import calibrate_skin, read_patches
     from forcetorque.skin.wrench.wrench import skin_wrench
 
+CAPABILITY = Capability(
+    needs=("simulation",),
+    commands=("forcetorque.skin.commands:skin",),
+    sections=("forcetorque.skin.experiment:PATCHES",),
+)
+
 __all__ = [
+    "CAPABILITY",
     "calibrate_skin",
     "check_skin",
     "read_patches",

@@ -6,22 +6,48 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
+from pydantic import Field
 
 from forcetorque.base.arrays import IntArray
 from forcetorque.base.errors import ExperimentError, MissingFileError, known_names
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import make_pose
-from forcetorque.experiment import file as schema
-from forcetorque.experiment.file import parse_experiment
+from forcetorque.base.toml_file import Positive, Table, Text
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.file import ExperimentFile, parse_experiment
 from forcetorque.experiment.input_files import Inputs, stated_in
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
+from forcetorque.experiment.section import Loading, Section, StandIn
 from forcetorque.experiment.streams import read_streams
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.recording import Recording
 from forcetorque.robot.model import Joint, JointType, RobotModel
+
+
+class Patch(Table):
+    """A patch of artificial skin."""
+
+    name: Text
+    """Name of the patch."""
+    counts: Text
+    """Stream of the recording that holds its `taxel_counts`."""
+    pressure: Text | None = None
+    """Stream with the `pressure` of the chamber or bag that it was calibrated in."""
+    serial: Text | None = None
+    """Serial number, or another mark that tells it from patches of the same name."""
+    layout: Path | None = None
+    """File that says where its taxels are; every column of the counts is one if left out."""
+    link: Text | None = None
+    """Link that it is mounted on; that of the layout if left out."""
+    table: Path | None = None
+    """Calibration of its taxels, as `forcetorque skin calibrate` writes it; where it is stated, contacts are shown."""
+    friction: Annotated[float, Field(ge=0.0)] | None = None
+    """Coefficient that bounds the tangential force, which skin does not feel; without one nothing is known of it."""
+    oldest_s: Positive | None = None
+    """How much older than a pose the frame of pressures that belongs to it may be; s."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -110,14 +136,14 @@ def load_patches(path: Path | str) -> PatchExperiment:
     """
     file = Path(path)
     parsed = parse_experiment(file)
-    if not parsed.patch:
+    if not parsed.table(PATCHES):
         raise ExperimentError(f"{file}: expected [[patch]], a patch of skin, got none")
     inputs = Inputs(file.parent)
     inputs.file(Path(file.name))
     return read_patches(parsed, file, read_streams(parsed, file, None, inputs), inputs)
 
 
-def read_patches(parsed: schema.ExperimentFile, file: Path, recording: Recording, inputs: Inputs) -> PatchExperiment:
+def read_patches(parsed: ExperimentFile, file: Path, recording: Recording, inputs: Inputs) -> PatchExperiment:
     """Match the patches of a file to their streams.
 
     Args:
@@ -132,11 +158,12 @@ def read_patches(parsed: schema.ExperimentFile, file: Path, recording: Recording
     Raises:
         ExperimentError: If a name comes twice, or a patch contradicts its stream.
     """
-    names = [entry.name for entry in parsed.patch]
+    table = parsed.table(PATCHES)
+    names = [entry.name for entry in table]
     for index, name in enumerate(names):
         if name in names[:index]:
             raise ExperimentError(f"{file}: patch[{index}]: {name!r} is listed twice; keep one")
-    patches = tuple(_patch(f"{file}: patch[{k}]", entry, recording, inputs) for k, entry in enumerate(parsed.patch))
+    patches = tuple(_patch(f"{file}: patch[{k}]", entry, recording, inputs) for k, entry in enumerate(table))
     return PatchExperiment(
         name=parsed.name,
         file=file,
@@ -147,34 +174,28 @@ def read_patches(parsed: schema.ExperimentFile, file: Path, recording: Recording
     )
 
 
-def skin_of_robot(
-    parsed: schema.ExperimentFile, file: Path, model: RobotModel, recording: Recording, inputs: Inputs
-) -> PatchExperiment | None:
+def skin_of_robot(patches: Iterable[Patch], loading: Loading) -> PatchExperiment:
     """Give the patches of a robot, those with a calibration of their taxels each on a link: they are sources of force.
 
     Args:
-        parsed: Content of the experiment file.
-        file: The experiment file, for messages.
-        model: The robot.
-        recording: The recording.
-        inputs: Keeps track of the files that are read.
+        patches: Patches of the file.
+        loading: Robot and recording.
 
     Returns:
-        The patches; None without any.
+        The patches.
 
     Raises:
         MissingFileError: If a table is not there.
         ExperimentError: If a patch is on no link of the robot, or the file does not say which.
     """
-    if not parsed.patch:
-        return None
-    for table in (entry.table for entry in parsed.patch if entry.table is not None):
+    parsed, file, model, inputs = loading.parsed, loading.file, loading.model, loading.inputs
+    for table in (entry.table for entry in patches if entry.table is not None):
         if not inputs.file(table).is_file():
             raise MissingFileError(
                 f"{inputs.folder / table}: expected a calibration of taxels, there is none; `forcetorque skin "
                 "calibrate` makes one"
             )
-    skin = read_patches(parsed, file, recording, inputs)
+    skin = read_patches(parsed, file, loading.recording, inputs)
     return replace(
         skin, patches=tuple(patch if patch.table is None else _on_link(file, patch, model) for patch in skin.patches)
     )
@@ -195,7 +216,7 @@ def _on_link(file: Path, patch: ExperimentPatch, model: RobotModel) -> Experimen
     return replace(patch, link=link)
 
 
-def _patch(where: str, entry: schema.Patch, recording: Recording, inputs: Inputs) -> ExperimentPatch:
+def _patch(where: str, entry: Patch, recording: Recording, inputs: Inputs) -> ExperimentPatch:
     with stated_in(where):
         stream = recording.stream(entry.counts)
         columns = len(stream.signal("taxel_counts").columns)
@@ -237,21 +258,21 @@ ROOT: Final = "side by side"
 """Link in place of a robot."""
 
 
-def skin_frames_of(parsed: schema.ExperimentFile, recording: Recording, inputs: Inputs) -> tuple[str, ...]:
+def skin_frames_of(patches: Iterable[Patch], recording: Recording, inputs: Inputs) -> tuple[str, ...]:
     """Name the links that patches and contacts of a skinManager are on.
 
     Args:
-        parsed: Content of the experiment file.
+        patches: Patches of the file.
         recording: The recording.
         inputs: Keeps track of the files that are read.
 
     Returns:
         Each of them once.
     """
-    return tuple(dict.fromkeys((*_of_patches(parsed.patch, inputs), *_of_events(recording))))
+    return tuple(dict.fromkeys((*_of_patches(patches, inputs), *_of_events(recording))))
 
 
-def _of_patches(patches: Iterable[schema.Patch], inputs: Inputs) -> Iterator[str]:
+def _of_patches(patches: Iterable[Patch], inputs: Inputs) -> Iterator[str]:
     from forcetorque.skin.layout.formats.registry import describe_patch  # here because most experiments have no skin
 
     for patch in patches:
@@ -304,3 +325,47 @@ def is_skin_alone(model: RobotModel) -> bool:
         Whether `links_side_by_side` made it.
     """
     return model.root_link == ROOT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PatchSection(Section[tuple[Patch, ...], PatchExperiment | None]):
+    """The patches of an experiment; links that carry skin stand side by side where the file names no robot."""
+
+    def gives_forces(self, table: tuple[Patch, ...]) -> bool:  # noqa: D102
+        return any(patch.table for patch in table)
+
+    def stand_in(self, table: tuple[Patch, ...], loading: Loading) -> StandIn | None:  # noqa: D102
+        frames = skin_frames_of(table, loading.recording, loading.inputs)
+        return StandIn(model=links_side_by_side(frames)) if frames else None
+
+
+def _read(table: tuple[Patch, ...], loading: Loading) -> PatchExperiment | None:
+    if not table:
+        return None
+    return skin_of_robot(table, loading)
+
+
+PATCHES = PatchSection(
+    key="patch",
+    type=Annotated[tuple[Patch, ...], Field(min_length=1)],
+    default=(),
+    description="Patches of artificial skin; without these and sensors a file is about contacts that a skinManager "
+    "saw.",
+    read=_read,
+    empty=None,
+    of_robot=False,
+    without_sensors=("patches of skin only", "`forcetorque skin`, `inspect`, `view` and `report` read such a file"),
+)
+
+
+def force_patches(experiment: Experiment) -> tuple[ExperimentPatch, ...]:
+    """Give the patches whose contacts are sources of force.
+
+    Args:
+        experiment: The experiment.
+
+    Returns:
+        Those with a calibration of their taxels.
+    """
+    skin = experiment.section(PATCHES)
+    return () if skin is None else tuple(patch for patch in skin.patches if patch.table is not None)

@@ -4,13 +4,25 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.study.data import read_study_data
     from forcetorque.study.result import Studies
     from forcetorque.study.study import study_sensor
 
+CAPABILITY = Capability(
+    needs=(
+        "simulation",
+        "estimation",
+        "calibration",
+        "evaluation",
+    ),
+    commands=("forcetorque.study.command:study",),
+)
+
 __all__ = [
+    "CAPABILITY",
     "Studies",
     "read_study_data",
     "study_sensor",

@@ -20,7 +20,7 @@ from forcetorque.payload.wrist_load import is_wrist_load
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Stream
-from forcetorque.skin.experiment import BESIDE_M, is_skin_alone
+from forcetorque.skin.experiment import BESIDE_M, PATCHES, is_skin_alone
 from forcetorque.viewer.arrays import Block, Priors, SceneDraft, differentiated
 from forcetorque.viewer.contacts import scene_contacts, scene_parts
 from forcetorque.viewer.expected import expected_readings
@@ -101,7 +101,8 @@ def build_scene(
         for one in shown
     ]
     contacts = () if skin_alone else scene_contacts(computed, groups, posture, priors, draft)
-    skin = () if computed.skin is None else scene_skin(computed.skin, model.links, draft)
+    patches = computed.section(PATCHES)
+    skin = () if patches is None else scene_skin(patches, model.links, draft)
     events = scene_skin_events(recording, posture.stream.clock, model.links, draft)
     robot, missing = _robot(experiment, posture, urdf, draft.block, mesh_folders)
     scene = Scene(

@@ -66,7 +66,8 @@ def view(
 
     Example: forcetorque view experiment.toml -c right_leg.json -o view.html
     """
-    from forcetorque.results.terminal.reading import read_calibrations, read_shown
+    from forcetorque.experiment.loading import Purpose
+    from forcetorque.results.terminal.reading import read_calibrations, read_experiment
     from forcetorque.viewer.build import scene_of
     from forcetorque.viewer.page import write_page
     from forcetorque.viewer.video import Film, film_between, find_browser, frame_count, require_playwright, write_video
@@ -81,7 +82,9 @@ def view(
         require_playwright()
         program = find_browser(browser)
     calibrations = read_calibrations(files)
-    built = scene_of(path, read_shown(path, log), calibrations, sensors=sensor, mesh_folders=mesh_dir)
+    built = scene_of(
+        path, read_experiment(path, log, Purpose.DISPLAY), calibrations, sensors=sensor, mesh_folders=mesh_dir
+    )
     for note in built.scene.notes:
         log.info("%s", note)
     shown = View.of(built)

@@ -16,6 +16,7 @@ from forcetorque.recording.alignment import interpolate, require_overlap, usable
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.model import RobotModel
+from forcetorque.skin.experiment import PATCHES
 
 _NAMES = 4
 """So many joints are listed in a note."""
@@ -53,7 +54,8 @@ def shown_stream(experiment: Experiment, sensors: Sequence[ExperimentSensor]) ->
     recording = experiment.recording
     if sensors:
         return recording.stream(sensors[0].stream)
-    patches = () if experiment.skin is None else experiment.skin.patches
+    skin = experiment.section(PATCHES)
+    patches = () if skin is None else skin.patches
     events = (name for name, stream in recording.streams.items() if "skin_event" in stream.signals)
     name = next(chain((patch.counts for patch in patches), events), None)
     if name is None:

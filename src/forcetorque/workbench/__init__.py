@@ -4,12 +4,23 @@
 from typing import TYPE_CHECKING
 
 from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.workbench.calibrate import workbench
     from forcetorque.workbench.recording import read_bench
 
+CAPABILITY = Capability(
+    needs=(
+        "simulation",
+        "calibration",
+        "evaluation",
+    ),
+    commands=("forcetorque.workbench.command:workbench",),
+)
+
 __all__ = [
+    "CAPABILITY",
     "read_bench",
     "workbench",
 ]

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from forcetorque.app.command_line import app
+from forcetorque.app.command_line import whole_program
 from forcetorque.app.python.arrays import experiment_of_arrays
 from forcetorque.app.python.experiment import Experiment, calibrate_jointly, load_experiment
 from forcetorque.app.python.functions import calibrate_skin, motion, simulate, study, workbench
@@ -58,7 +58,7 @@ def experiment(arm: Path) -> Experiment:
 
 def _said(*words: Path | str) -> str:
     """What a command writes as JSON to standard output."""
-    answer = CliRunner().invoke(app, [*map(str, words), "--format", "json"])
+    answer = CliRunner().invoke(whole_program(), [*map(str, words), "--format", "json"])
     assert answer.exit_code in (0, 1), answer.output
     return answer.stdout
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from forcetorque.experiment.loading import load_shown
+from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.viewer.arrays import Block, read_array
 from forcetorque.viewer.build import BuiltScene, scene_of
 from forcetorque.viewer.scene import SkinEventSeries, SkinPatch
@@ -168,7 +168,7 @@ def test_pressure_is_seen(skin_page: Page, skinned: tuple[Arm, BuiltScene]) -> N
 def test_skin_alone_has_the_page_to_itself(visit: Visit, tmp_path: Path) -> None:
     """Without a sensor there is neither force space nor a course of forces; contacts are drawn and numbered."""
     file = write_events(tmp_path)
-    page = visit.open(scene_of(file, load_shown(file), {}))
+    page = visit.open(scene_of(file, load_experiment(file, Purpose.DISPLAY), {}))
     assert page.get_by_role("region", name="Robot").is_visible()
     for empty in ("Force space", "Planes"):
         assert not page.get_by_role("region", name=empty).is_visible()

@@ -19,6 +19,7 @@ from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.skin.contact.contacts import SkinContacts
+from forcetorque.skin.experiment import PATCHES
 from forcetorque.skin.wrench.wrench import PatchFrames, patch_frames
 
 TILT_RAD: Final = 0.011
@@ -241,7 +242,7 @@ def frames_of_patches(experiment: Experiment) -> tuple[PatchFrames, ...]:
     Returns:
         Contacts of every patch that has a table; none where there is no skin.
     """
-    skin = experiment.skin
+    skin = experiment.section(PATCHES)
     if skin is None:
         return ()
     return tuple(patch_frames(skin, patch.table, patch=patch.name) for patch in skin.patches if patch.table is not None)

@@ -14,6 +14,7 @@ from forcetorque.base.units import NORMAL_95
 from forcetorque.estimation.fusion.fuse import Fusion, fuse
 from forcetorque.estimation.fusion.motor import Friction
 from forcetorque.estimation.fusion.source import TorqueSource
+from forcetorque.estimation.section import FUSION
 from forcetorque.estimation.torque.sources import TorqueSources
 from forcetorque.experiment.experiment import Experiment, ExperimentContact
 from forcetorque.experiment.input_files import stated_in
@@ -198,7 +199,7 @@ def summarise_fusion(
         Tables.
     """
     return TorqueFusion(
-        false_alarm=0.0 if experiment.fusion is None else experiment.fusion.false_alarm,
+        false_alarm=0.0 if (fusion := experiment.section(FUSION)) is None else fusion.false_alarm,
         torques=tuple(row for one in fusions for row in _torques(one, experiment.model)),
         sources=tuple(row for one in fusions for row in _sources(one)),
         friction=tuple(_friction(one) for one in frictions),

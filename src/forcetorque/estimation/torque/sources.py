@@ -11,9 +11,10 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
+from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.fusion.motor import Friction, Motor, fit_friction, motor_source
 from forcetorque.estimation.fusion.source import TorqueSource, wrench_source
-from forcetorque.estimation.section import FusionTable
+from forcetorque.estimation.section import FUSION, MOTORS, FusionTable
 from forcetorque.estimation.skin.known_wrenches import SkinSource, frames_of_patches, sources_at
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in
@@ -27,6 +28,7 @@ from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSu
 from forcetorque.robot.mechanics.samples import pick_samples, robot_motion_at
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
+from forcetorque.skin.experiment import force_patches
 from forcetorque.skin.wrench.wrench import PatchFrames
 
 SKIN_NOISE_SHARE: Final = 0.5
@@ -37,7 +39,7 @@ deviation is too small by more than 1.41, whichever it is."""
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class IntervalMotion:
-    """How the robot moves over one interval and what its skin feels, at the instants of `Experiment.clock_stream`."""
+    """How the robot moves over one interval and what its skin feels, at the instants of `clock_stream`."""
 
     interval: Interval
     """The interval."""
@@ -76,8 +78,9 @@ class TorqueSources:
         self.corrections = corrections
         self.patches = frames_of_patches(experiment) if patches is None else patches
         self.table = _require_table(experiment)
-        self.joints = tuple(motor.joint for motor in experiment.motors)
-        self.frictions = self._frictions() if experiment.motors else ()
+        self.motors = experiment.section(MOTORS)
+        self.joints = tuple(motor.joint for motor in self.motors)
+        self.frictions = self._frictions() if experiment.section(MOTORS) else ()
 
     def over(self, interval: Interval) -> list[TorqueSource]:
         """Give what every source says over an interval.
@@ -118,7 +121,7 @@ class TorqueSources:
         if interval.support is None:
             raise ExperimentError(f"interval {interval.label!r}: expected a support frame")
         experiment = self.experiment
-        source = experiment.clock_stream
+        source = clock_stream(experiment)
         rows, _ = pick_samples(experiment.recording, source, interval)
         at_ns = source.stamp_ns[rows]
         skin = sources_at(experiment, self.patches, at_ns)
@@ -167,7 +170,7 @@ class TorqueSources:
 
     def _skinned(self, stated: Sequence[Contact]) -> list[Contact]:
         """Links under skin that no stated contact is on: what touches them, sensors have to tell without skin."""
-        links = dict.fromkeys(patch.link for patch in self.experiment.force_patches if patch.link is not None)
+        links = dict.fromkeys(patch.link for patch in force_patches(self.experiment) if patch.link is not None)
         return [Contact(link=link) for link in links if link not in {contact.link for contact in stated}]
 
     def _ft(self, motion: IntervalMotion) -> TorqueSource:
@@ -217,7 +220,7 @@ class TorqueSources:
             name = entry.contact.name
             noise[name], lasting[name] = _errors(f"contact {name!r}", "wrench", entry.noise, entry.deviation)
             stream = recording.stream(entry.stream or "")
-            require_overlap(self.experiment.clock_stream, stream)
+            require_overlap(clock_stream(self.experiment), stream)
             known[name] = interpolate(stream, stream.signal("wrench").values, motion.stamp_ns)
         for source in motion.skin:
             name = source.contact.name
@@ -237,15 +240,16 @@ class TorqueSources:
         )
 
     def _motors(self, motion: IntervalMotion) -> TorqueSource:
-        name = {"motor_current": "current"}.get(self.experiment.motors[0].quantity, self.experiment.motors[0].quantity)
+        quantity = self.motors[0].quantity
+        name = "current" if quantity == "motor_current" else quantity
         drive = self._drive_torques(motion)
         return motor_source(name, self.frictions, motion.stamp_ns, drive, *motion.of_joints(self.joints))
 
     def _drive_torques(self, motion: IntervalMotion) -> FloatArray:
         recording, columns = self.experiment.recording, []
-        for motor in self.experiment.motors:
+        for motor in self.motors:
             stream, signal = recording.joint_signals(motor.quantity)[motor.joint]
-            require_overlap(self.experiment.clock_stream, stream)
+            require_overlap(clock_stream(self.experiment), stream)
             reading = interpolate(stream, signal.column(motor.joint)[:, None], motion.stamp_ns)[:, 0]
             drive = Motor(joint=motor.joint, torque_constant=motor.torque_constant, gear_ratio=motor.gear_ratio or 0.0)
             columns.append(drive.drive_torque(reading))
@@ -277,7 +281,7 @@ class TorqueSources:
                     trusted_lasting=lasting[:, k],
                     trusted_shared=shared[:, k],
                 )
-                for k, motor in enumerate(self.experiment.motors)
+                for k, motor in enumerate(self.motors)
             )
 
     def _trusted(self, motion: IntervalMotion) -> TorqueSource:
@@ -311,9 +315,10 @@ def _errors(
 
 
 def _require_table(experiment: Experiment) -> FusionTable:
-    if experiment.fusion is None:
+    table = experiment.section(FUSION)
+    if table is None:
         raise ExperimentError(
             f"experiment {experiment.name!r}: expected [fusion] with model_deviation, what masses and motion leave "
             "open in a torque in N m, to fuse sources of joint torques"
         )
-    return experiment.fusion
+    return table

@@ -13,7 +13,7 @@ from forcetorque.base.errors import ExperimentError, ForceTorqueError, RobotErro
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.evaluation.load_cases.load_case import LoadCase, pushes_at, pushes_within, shares_of, weights
-from forcetorque.evaluation.load_cases.section import LoadCaseTable
+from forcetorque.evaluation.load_cases.section import LOAD_CASES, LoadCaseTable
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
 from forcetorque.robot.kinematics import body_pose, joints_between, link_pose
@@ -72,7 +72,7 @@ def loads_of_use(
     """
     place = _Place(runs[0])
     tables: dict[str, LoadCaseTable] = {}
-    for table in (*(table for run in runs for table in run.experiment.load_cases), *more):
+    for table in (*(table for run in runs for table in run.experiment.section(LOAD_CASES)), *more):
         earlier = tables.setdefault(table.name, table)
         if earlier.model_dump_json() != table.model_dump_json():
             raise ExperimentError(

@@ -15,6 +15,7 @@ from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.toml_file import NotNegative, Positive, Table, Text
 from forcetorque.evaluation.load_cases.load_case import UseOffset
+from forcetorque.experiment.section import Loading, Section
 from forcetorque.robot.model import RobotModel
 
 _KINDS: Final = {
@@ -86,7 +87,11 @@ class LoadCaseTable(Table):
             raise PydanticCustomError("load_direction", "direction needs a frame, and may not be zero")
 
 
-def read_load_cases(tables: Sequence[LoadCaseTable], file: Path, model: RobotModel) -> tuple[LoadCaseTable, ...]:
+def _checked(tables: tuple[LoadCaseTable, ...], loading: Loading) -> tuple[LoadCaseTable, ...]:
+    return require_load_cases(tables, loading.file, loading.model)
+
+
+def require_load_cases(tables: Sequence[LoadCaseTable], file: Path, model: RobotModel) -> tuple[LoadCaseTable, ...]:
     """Check load cases against the robot.
 
     Args:
@@ -118,3 +123,15 @@ def read_load_cases(tables: Sequence[LoadCaseTable], file: Path, model: RobotMod
                 f"{known_names(table.sensor, sensors)}"
             )
     return tuple(tables)
+
+
+LOAD_CASES: Section[tuple[LoadCaseTable, ...], tuple[LoadCaseTable, ...]] = Section(
+    key="load_case",
+    type=tuple[LoadCaseTable, ...],
+    default=(),
+    description="What the sensors are to be used for.",
+    read=_checked,
+    empty=(),
+    of_robot=False,
+    of_plan=True,
+)

@@ -76,7 +76,7 @@ def sphere_intervals(experiment: Experiment, names: Sequence[str] | None) -> tup
     """
     usable = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
     if names is None:
-        labels = experiment.sphere_intervals or tuple(interval.label for interval in usable)
+        labels = experiment.fit_options.sphere_intervals or tuple(interval.label for interval in usable)
     else:
         labels = tuple(dict.fromkeys(label for name in names for label in _labelled(experiment, usable, name)))
     chosen = tuple(interval for interval in usable if interval.label in labels)

@@ -16,6 +16,7 @@ from forcetorque.evaluation.sphere.pooled import PooledSphere, pool_trials
 from forcetorque.evaluation.sphere.result import FailureRow
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
 from forcetorque.evaluation.sphere.trials import Drift, TrialMean, drift_between, mean_of_trials
+from forcetorque.evaluation.trials.section import TRIAL
 from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.applicability import calibrations_of
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -151,9 +152,9 @@ def _read_sensors(reading: _Reading, path: Path, experiment: Experiment, spans: 
                 TrialSphere(
                     file=str(path),
                     experiment=experiment.name,
-                    condition=experiment.condition,
+                    condition=experiment.section(TRIAL).condition,
                     # a file with several trials numbers none of them
-                    number=None if reading.by_interval and len(spans) > 1 else experiment.trial,
+                    number=None if reading.by_interval and len(spans) > 1 else experiment.section(TRIAL).number,
                     prior=sensor.prior,
                     sphere=sphere,
                     added=added_to(experiment.recording),

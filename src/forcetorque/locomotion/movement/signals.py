@@ -21,6 +21,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.recorded_log import RecordedLog, load_recorded
 from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.locomotion.foot_forces import has_foot_forces, load_foot_forces
+from forcetorque.locomotion.section import SOLES
 from forcetorque.locomotion.standing.standing import Balance, balance
 from forcetorque.recording.alignment import require_overlap, seconds_since, usable_samples
 from forcetorque.recording.column import column_units, find_column, known_columns
@@ -205,7 +206,7 @@ def _desired(
 
 
 def _has_soles(path: Path | str) -> bool:
-    return Path(path).suffix == ".toml" and bool(parse_experiment(path).sole)
+    return Path(path).suffix == ".toml" and bool(parse_experiment(path).table(SOLES))
 
 
 def _balance(path: Path | str, calibrations: Mapping[str, Calibration]) -> Balance:

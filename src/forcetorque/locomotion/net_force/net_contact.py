@@ -11,6 +11,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import transform_wrench
+from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.interval import IntervalQuestion
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.recording.alignment import seconds_since
@@ -55,7 +56,7 @@ class NetContact:
             ExperimentError: If a contact that is named cannot be told from the sensors, or two links that touch move
                 against each other.
         """
-        samples = padded_samples(experiment.recording, experiment.clock_stream, interval, None)
+        samples = padded_samples(experiment.recording, clock_stream(experiment), interval, None)
         asked = IntervalQuestion.of(experiment, interval, samples, experiment.contacts, asked=True)
         net = cls(asked=asked, upright_R_support=_upright(asked), demanded=None)
         net._refuse_slip()
@@ -231,7 +232,7 @@ def _demanded(asked: IntervalQuestion) -> FloatArray | None:
         experiment.model,
         support,
         needed,
-        experiment.clock_stream,
+        clock_stream(experiment),
         asked.samples.stamp_ns,
         processing=experiment.processing,
     )

@@ -12,6 +12,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import invert_pose, make_pose
 from forcetorque.base.wrench import transform_wrench
+from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.skin.known_wrenches import uncertainty_of
 from forcetorque.estimation.uncertain.estimate import estimate_determined
 from forcetorque.estimation.uncertain.estimates import UncertainEstimates
@@ -20,6 +21,7 @@ from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.locomotion.foot_forces import FootForces
+from forcetorque.locomotion.section import SOLES
 from forcetorque.locomotion.standing.centre_of_mass import mass_of
 from forcetorque.locomotion.standing.interval import BalanceOptions, FootPressure, IntervalBalance
 from forcetorque.locomotion.standing.pressure import Sole, centre_of_pressure
@@ -53,7 +55,7 @@ def balance_of_sensors(
     Raises:
         ExperimentError: If the file has no sole, or every interval is to be ignored.
     """
-    if not experiment.soles:
+    if not experiment.section(SOLES):
         raise ExperimentError(
             f"experiment {experiment.name!r}: expected [[sole]], the flat soles that the robot stands on, got none; "
             "frame names a link whose plane z = 0 is a sole, outline_m its corners"
@@ -102,7 +104,7 @@ def _feet(
             scene.question, scene.joints, scene.root, measured=measured, known=known, uncertainty=uncertainty
         )
     least_N, inside = options.least_load_N(scene.weight_N), scene.samples.inside
-    for entry in scene.experiment.soles:
+    for entry in scene.experiment.section(SOLES):
         sole = entry.sole
         sensors = _nearest_sensors(scene, sole)
         wrench = scene.kept(plain.contact(sole.frame))
@@ -145,7 +147,7 @@ def _reading_alone(scene: BalanceScene, sole: Sole, sensor: str, reading: FloatA
 def _measured(scene: BalanceScene, corrections: Mapping[str, Correction]) -> Wrenches:
     experiment, at_ns = scene.experiment, scene.samples.stamp_ns
     for sensor in experiment.sensors:
-        require_overlap(experiment.clock_stream, experiment.recording.stream(sensor.stream))
+        require_overlap(clock_stream(experiment), experiment.recording.stream(sensor.stream))
     return Wrenches.of(
         {
             sensor.name: wrench_at(experiment, sensor, corrections[sensor.name], at_ns, interval=scene.interval)
@@ -159,7 +161,7 @@ def _known(scene: BalanceScene) -> Wrenches | None:
     for entry in scene.present:
         if entry.stream is not None:
             stream = recording.stream(entry.stream)
-            require_overlap(scene.experiment.clock_stream, stream)
+            require_overlap(clock_stream(scene.experiment), stream)
             wrenches[entry.contact.name] = interpolate(stream, stream.signal("wrench").values, scene.samples.stamp_ns)
     return Wrenches.of(wrenches) if wrenches else None
 

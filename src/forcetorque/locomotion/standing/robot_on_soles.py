@@ -11,8 +11,10 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.pose import invert_pose
+from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact
+from forcetorque.locomotion.section import SOLES
 from forcetorque.locomotion.standing.centre_of_mass import centre_of_mass, mass_of
 from forcetorque.locomotion.standing.pressure import Sole
 from forcetorque.recording.alignment import seconds_since
@@ -68,11 +70,11 @@ class BalanceScene:
         support = interval.support
         if support is None:
             raise ExperimentError(f"interval {interval.label!r}: expected a support frame")
-        recording, source = experiment.recording, experiment.clock_stream
+        recording, source = experiment.recording, clock_stream(experiment)
         apart = touched_otherwise(interval, recording, experiment.contacts)
         samples = padded_samples(recording, source, interval, experiment.processing.smoothing, apart=apart)
         tree = build_tree(experiment.model_on(support), support.frame)
-        soles = [entry.sole for entry in experiment.soles]
+        soles = [entry.sole for entry in experiment.section(SOLES)]
         frames = {sole.frame for sole in soles}
         # what touches a foot does so on its sole
         present = tuple(
@@ -122,7 +124,7 @@ class BalanceScene:
     @property
     def ground(self) -> Sole:
         """The sole whose plane is the ground: that of the support, or the first."""
-        soles = [entry.sole for entry in self.experiment.soles]
+        soles = [entry.sole for entry in self.experiment.section(SOLES)]
         return next((sole for sole in soles if sole.frame == self.support.frame), soles[0])
 
     @property

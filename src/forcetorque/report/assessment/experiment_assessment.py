@@ -13,6 +13,7 @@ from forcetorque.calibration.joint.interval import part_residuals
 from forcetorque.calibration.joint.outcome import PartRow
 from forcetorque.calibration.joint.residuals import PartResidual
 from forcetorque.estimation.estimate import estimate_experiment
+from forcetorque.estimation.section import FUSION
 from forcetorque.estimation.torque.fusion import TorqueFusion, fuse_experiment, summarise_fusion
 from forcetorque.estimation.torque_curves import TorquePicture, torque_picture
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -32,7 +33,7 @@ from forcetorque.report.assessment.assessment import (
     stream_overviews,
 )
 from forcetorque.results.row import Row
-from forcetorque.skin.experiment import PatchExperiment, is_skin_alone
+from forcetorque.skin.experiment import PATCHES, PatchExperiment, force_patches, is_skin_alone
 from forcetorque.skin.wrench.result import SkinEventPicture, SkinEventRow, skin_event_rows
 from forcetorque.skin.wrench.wrench import SkinWrench, skin_wrench
 
@@ -80,11 +81,11 @@ def assess_torques(experiment: Experiment, calibrations: Mapping[str, Calibratio
     Returns:
         Torques; nothing for an experiment with neither `[fusion]` nor a patch with a table, or without a robot.
     """
-    if is_skin_alone(experiment.model) or (experiment.fusion is None and not experiment.force_patches):
+    if is_skin_alone(experiment.model) or (experiment.section(FUSION) is None and not force_patches(experiment)):
         return TorqueAssessment()
     try:
         corrections = corrections_of(experiment, calibrations)
-        if experiment.fusion is None:
+        if experiment.section(FUSION) is None:
             return TorqueAssessment(picture=torque_picture(experiment, estimate_experiment(experiment, corrections)))
         fusions, frictions = fuse_experiment(experiment, corrections)
         return TorqueAssessment(
@@ -174,7 +175,7 @@ def assess_experiment(
         sensors.append(assess(run, calibrations.get(sensor.name, {}), others=others, demands=demands))
     first = {name: next(iter(group.values())) for name, group in calibrations.items() if group}
     residuals = part_residuals(experiment, first, Use.VALIDATION)
-    skin, skin_left_out = assess_skin(experiment.skin)
+    skin, skin_left_out = assess_skin(experiment.section(PATCHES))
     skin_events, skin_event_pictures = skin_event_rows(experiment.recording)
     torques = assess_torques(experiment, first)
     start, end = experiment.recording.span_ns

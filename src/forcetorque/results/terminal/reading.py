@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from contextlib import nullcontext
 from pathlib import Path
 
@@ -16,12 +16,11 @@ from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.experiment.loading import load_experiment, load_shown, load_touched_robot
+from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.planning.planned_experiment import load_planned
 
 
-def read_experiment(path: Path, log: logging.Logger) -> Experiment:
+def read_experiment(path: Path, log: logging.Logger, purpose: Purpose = Purpose.SENSORS) -> Experiment:
     """Read an experiment and warn of what is known to be wrong with its recording.
 
     What the file adds to its log is said by the results.
@@ -29,42 +28,13 @@ def read_experiment(path: Path, log: logging.Logger) -> Experiment:
     Args:
         path: Experiment file.
         log: Where messages go.
+        purpose: What it is read for.
 
     Returns:
         The experiment.
     """
-    return _with_findings(load_experiment, path, log)
-
-
-def read_touched_robot(path: Path, log: logging.Logger) -> Experiment:
-    """Read an experiment whose robot may have skin in place of sensors, and warn as `read_experiment` does.
-
-    Args:
-        path: Experiment file.
-        log: Where messages go.
-
-    Returns:
-        The experiment.
-    """
-    return _with_findings(load_touched_robot, path, log)
-
-
-def read_shown(path: Path, log: logging.Logger) -> Experiment:
-    """Read an experiment to show it, also one of skin alone, and warn as `read_experiment` does.
-
-    Args:
-        path: Experiment file.
-        log: Where messages go.
-
-    Returns:
-        The experiment.
-    """
-    return _with_findings(load_shown, path, log)
-
-
-def _with_findings(load: Callable[[Path], Experiment], path: Path, log: logging.Logger) -> Experiment:
     log.info("reading %s", path)
-    experiment = load(path)
+    experiment = load_experiment(path, purpose)
     for finding in experiment.recording.findings:
         if finding.kind not in ADDED:
             log.warning("%s: %s", finding.stream, finding.message)
@@ -107,7 +77,7 @@ def planned_experiments(paths: Iterable[Path], log: logging.Logger) -> list[Expe
     contents = []
     for path in files:
         log.info("reading %s", path)
-        contents.append(load_planned(path))
+        contents.append(load_experiment(path, Purpose.PLANNING))
     return contents
 
 

@@ -56,8 +56,8 @@ def has_contact(run: SensorRun) -> bool:
         Whether the robot stands on what is beyond the sensor, a contact is stated there, or a known wrench is applied.
     """
     experiment = run.experiment
-    if experiment.wrist is not None:
-        return experiment.wrist.table.applied is not None
+    if experiment.loads is not None and experiment.loads.in_place_of_robot:
+        return experiment.loads.applied is not None
     used = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
     return any(
         run.touched_beyond(interval) or run.possibly_touched(interval) or _stands_beyond(run, interval)

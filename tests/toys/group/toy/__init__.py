@@ -1,2 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How many taxels a layout has: a capability with a group of commands, for the test that adds one."""
+
+from forcetorque.results.capability import Capability
+
+CAPABILITY = Capability(commands=("forcetorque.toy.commands:toy",))

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of how sensors are fitted."""
+"""The `[calibration]` section of the experiment file: how sensors are fitted."""
 
 from __future__ import annotations
 
 from typing import Annotated, Any
 
+import numpy as np
 from pydantic import (
     BeforeValidator,
     Field,
@@ -18,6 +19,7 @@ from forcetorque.base.toml_file import NotNegative, Table, Text
 from forcetorque.experiment.calibration.artefact import GENERATIVE
 from forcetorque.experiment.calibration.assumptions import REPEATABILITY
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, OffsetStrategy
+from forcetorque.experiment.experiment import FitOptions
 
 
 def _lambda(value: Any) -> Any:
@@ -91,3 +93,35 @@ class CalibrationTable(Table):
         """Whether the generative model is asked for: nothing of a thesis' type is."""
         of_thesis = {"lambda_counts2", "offset", "from_reference"} & self.model_fields_set
         return self.type == GENERATIVE or (self.type is None and not of_thesis)
+
+
+def fit_options(table: CalibrationTable) -> FitOptions:
+    """Settle the estimator.
+
+    Args:
+        table: What the file says.
+
+    Returns:
+        The estimator, as far as the file settles it.
+    """
+    if table.type in ESTIMATION_TYPES:
+        kind = ESTIMATION_TYPES[table.type]
+        return FitOptions(
+            generative=False,
+            offset=kind.offset,
+            with_variables=kind.with_variables,
+            from_reference=kind.from_reference,
+            regularisation=table.lambda_counts2,
+        )
+    accuracy = table.accuracy
+    return FitOptions(
+        generative=table.generative,
+        accuracy=None if accuracy is None else np.repeat([accuracy.force_N, accuracy.moment_Nm], 3),
+        repeatability=table.repeatability,
+        drift=table.drift,
+        nonlinear=table.nonlinear,
+        offset=table.offset or OffsetStrategy.ONE_SHOT,
+        with_variables=table.with_variables,
+        from_reference=table.from_reference,
+        regularisation=table.lambda_counts2,
+    )
