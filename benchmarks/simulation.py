@@ -12,11 +12,11 @@ from benchmarks.harness import arguments, interleaved, write_result
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.family import FAMILIES
-from forcetorque.simulation.motions.random_smooth import random_movement
-from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.motions.held_robot import Stand
+from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.robots import named_robot
 from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.simulation.trace import record
 
 

@@ -15,9 +15,8 @@ import numpy as np
 
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.estimation.skin.known_wrenches import SkinSource, skin_sources
-from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
-from forcetorque.estimation.uncertain.estimates import UncertainEstimates
+from forcetorque.estimation.skin_contacts import SkinSource, skin_sources
+from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.robot.contacts import Contact, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
@@ -27,11 +26,11 @@ from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
-from forcetorque.skin.contact.reading import PatchReader
+from forcetorque.skin.contact.pressure_frame import PatchReader
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.taxels.pressure_table import PressureTable
+from forcetorque.skin.taxels.patch_calibration import PressureTable
+from forcetorque.skin.wrench.operator import DISC_POINTS, DISC_RADIUS_M
 from forcetorque.skin.wrench.patch import SkinPatch
-from forcetorque.skin.wrench.pressure_fields import DISC_POINTS, DISC_RADIUS_M
 
 PITCH_M = 6.6e-3
 FEW, MANY = 380, 4000

@@ -18,16 +18,15 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.recording.storage import write_recording
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.family import FAMILIES
-from forcetorque.simulation.motions.random_smooth import random_movement
-from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.motions.held_robot import Stand
+from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.robots import named_robot
 from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.simulation.trace import record
-from forcetorque.viewer.build import BuiltScene, build_scene
-from forcetorque.viewer.page import ASSETS, BUNDLE, MOST_SAMPLES, page_of, write_page
+from forcetorque.viewer.page import ASSETS, BUNDLE, DATA_URL, MOST_SAMPLES, ViewerServer, page_of, write_page
 from forcetorque.viewer.scene import scene_json
-from forcetorque.viewer.serve import DATA_URL, ViewerServer
+from forcetorque.viewer.scene_builder import BuiltScene, build_scene
 from forcetorque.viewer.video import find_browser, require_playwright
 
 SIZES, QUICK_SIZES = (20_000, 200_000, 1_000_000), (2_000, 20_000)

@@ -21,9 +21,9 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from forcetorque.viewer.build import BuiltScene
 from forcetorque.viewer.page import page_of
+from forcetorque.viewer.scene_builder import BuiltScene
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page

@@ -20,7 +20,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise
 from forcetorque.calibration.generative.fit import fit_generative
 from forcetorque.experiment.calibration.assumptions import Assumptions
-from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.experiment.calibration.moments import WindowMeans
 
 RECORDINGS, ROWS, UNKNOWNS = 8, 6, 39
 """Recordings of one power-up; rows of the model; unknowns of sensor, frame, quadratic terms and derivative window."""

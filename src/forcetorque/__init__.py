@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from forcetorque.evaluation.evaluation import evaluate
     from forcetorque.experiment.calibration.artefact import Calibration, read_calibration, write_calibration
     from forcetorque.experiment.calibration.moments import DataSet
-    from forcetorque.experiment.error_statistics import wrench_errors
+    from forcetorque.experiment.calibrations_under_test import wrench_errors
     from forcetorque.experiment.sensor_run import SensorRun
-    from forcetorque.planning.joint import plan_jointly
+    from forcetorque.planning.joint_calibration_plan import plan_jointly
     from forcetorque.recording.recording import Recording
     from forcetorque.recording.storage import read_recording, write_recording
+    from forcetorque.robot.dynamics import expected_wrenches
     from forcetorque.robot.model import RobotModel
-    from forcetorque.robot.newton_euler import expected_wrenches
     from forcetorque.robot.urdf import read_urdf
 
 
@@ -91,15 +91,15 @@ __getattr__, __dir__ = lazy_names(
         "calibrate_skin": "forcetorque.app.python.functions",
         "contest": "forcetorque.app.python.functions",
         "evaluate": "forcetorque.evaluation.evaluation",
-        "expected_wrenches": "forcetorque.robot.newton_euler",
+        "expected_wrenches": "forcetorque.robot.dynamics",
         "experiment_of_arrays": "forcetorque.app.python.arrays",
         "load_experiment": "forcetorque.app.python.experiment",
-        "plan_jointly": "forcetorque.planning.joint",
+        "plan_jointly": "forcetorque.planning.joint_calibration_plan",
         "read_calibration": "forcetorque.experiment.calibration.artefact",
         "read_recording": "forcetorque.recording.storage",
         "read_urdf": "forcetorque.robot.urdf",
         "skin_wrench": "forcetorque.app.python.functions",
-        "wrench_errors": "forcetorque.experiment.error_statistics",
+        "wrench_errors": "forcetorque.experiment.calibrations_under_test",
         "write_calibration": "forcetorque.experiment.calibration.artefact",
         "write_recording": "forcetorque.recording.storage",
     },

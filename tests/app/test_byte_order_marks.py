@@ -12,13 +12,13 @@ import pytest
 import forcetorque
 from forcetorque.base.errors import ForceTorqueError, FormatError
 from forcetorque.contests.entries import read_entries
-from forcetorque.device.file import DEFAULT_DEVICE, read_device
-from forcetorque.evaluation.acceptance.file import read_acceptance
+from forcetorque.device.device_file import DEFAULT_DEVICE, read_device
+from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.locomotion.torque_control.file import read_torque_loop
 from forcetorque.report.sources import sort_sources
 from forcetorque.simulation.scenario.file import bundled_scenario
-from forcetorque.simulation.scenario.run import load_scenario
+from forcetorque.simulation.scenario.scenario import load_scenario
 from forcetorque.workbench.recording import read_bench
 from tests.app.outcome import Run
 from tests.scenes.experiments import PARQUET

@@ -10,16 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.base.arrays import (
-    ArrayRecord,
-    BoolArray,
-    FloatArray,
-    IntArray,
-    array,
-    check_arrays,
-    mapping,
-    names,
-)
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, check_arrays, mapping, names
 from forcetorque.base.errors import ShapeError
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError, MissingFileError
-from forcetorque.base.files import STANDARD_OUTPUT, real_path, refuse_unwritable, write_bytes_atomically
+from forcetorque.base.output_file import STANDARD_OUTPUT, real_path, refuse_unwritable, write_bytes_atomically
 
 DATA = b"new\x00content\n"
 

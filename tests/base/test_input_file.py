@@ -18,10 +18,10 @@ from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.input_file import ALWAYS_UNPACKED, UNPACKED_RATIO, require_file, require_unpacked, unpacked_limit
 from forcetorque.formats.log_format import LogSketch, SketchingFormat
 from forcetorque.formats.registry import recognised_format
-from forcetorque.formats.ros import unpacking
+from forcetorque.formats.ros import bag as unpacking
 from forcetorque.formats.ros.log_format import RosFormat
-from forcetorque.formats.tabular.row_blocks import TableLayout, TableSignal
 from forcetorque.formats.tabular.table import read_table
+from forcetorque.formats.tabular.table_layout import TableLayout, TableSignal
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream

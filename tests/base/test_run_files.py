@@ -13,8 +13,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import OutputError
-from forcetorque.base.files import write_bytes_atomically
-from forcetorque.base.output_file import declare_outputs, is_replaceable, refuse_output
+from forcetorque.base.output_file import declare_outputs, is_replaceable, refuse_output, write_bytes_atomically
 from forcetorque.base.run_files import declare_input, declare_output, files_of_one_run
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.calibration.stored_moments import read_moments
@@ -25,11 +24,11 @@ from forcetorque.formats.prior.registry import read_prior_file
 from forcetorque.formats.registry import recognised_format
 from forcetorque.report.sources import sort_sources
 from forcetorque.robot.urdf import read_urdf
+from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.registry import describe_patch
-from forcetorque.skin.layout.formats.skin_gui import read_plan
 from forcetorque.skin.taxels.patch_calibration import read_patch_calibration
 from forcetorque.viewer.meshes import read_mesh
-from forcetorque.viewer.view import view_source
+from forcetorque.viewer.scene_builder import view_source
 
 READERS: dict[str, Callable[[Path], Any]] = {
     "experiment.toml": load_experiment,

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.base.files import new_folder, temporary_beside, write_bytes_atomically
+from forcetorque.base.output_file import new_folder, temporary_beside, write_bytes_atomically
 
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from forcetorque.base.files import temporary_beside
+from forcetorque.base.output_file import temporary_beside
 with temporary_beside(Path(sys.argv[1]), folder=sys.argv[2] == "folder") as path:
     (path / "part" if path.is_dir() else path).write_text("part")
     os.kill(os.getpid(), signal.SIGKILL)

@@ -21,15 +21,15 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
 from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.calibration.joint.calibrate import calibrate_jointly
 from forcetorque.calibration.joint.model_error import ModelTolerance
-from forcetorque.calibration.joint.robot import calibrate_jointly
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.simulation.recordings.recordings import write_scenario
+from forcetorque.simulation.recordings import write_scenario
 from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
-from forcetorque.simulation.scenario.run import build_scenario, simulate, trace_recordings
+from forcetorque.simulation.scenario.scenario import build_scenario, simulate, trace_recordings
 
 WAYS = {"sway": ["sway"], "steps": ["stepping"], "both": ["sway", "stepping"]}
 """Motions that are fitted together."""

@@ -15,18 +15,23 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.toml_file import read_toml
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.thesis.calibrate import CalibrationFit, calibrate
-from forcetorque.evaluation.push_error import push_error, pushes
+from forcetorque.evaluation.candidate_errors import push_error, pushes
 from forcetorque.experiment.calibration.assumptions import REPEATABILITY, Assumptions
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
-from forcetorque.experiment.calibration.moments import DataSet
-from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
 from forcetorque.robot.mechanics.samples import Processing, sensor_samples
 from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
-from forcetorque.simulation.scenario.plan import INTERVAL_MARGIN_S
-from forcetorque.simulation.scenario.run import Scenario, SimulatedRecording, build_scenario, simulate, trace_recordings
-from forcetorque.simulation.scenario.sensor_instance import Specimen
+from forcetorque.simulation.scenario.scenario import (
+    INTERVAL_MARGIN_S,
+    Scenario,
+    SimulatedRecording,
+    build_scenario,
+    simulate,
+    trace_recordings,
+)
+from forcetorque.simulation.sensor_family import Specimen
 from forcetorque.simulation.trace import Trace
 
 TEMPERATURE = LinearVariable(name="temperature", unit="degC")

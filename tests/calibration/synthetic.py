@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.experiment.calibration.assumptions import Assumptions
-from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.simulation.sensor import distorted_by_mounting, y_shaped_matrix
 
 LIMIT_COUNTS = 32767.0

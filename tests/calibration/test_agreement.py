@@ -7,8 +7,8 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.generative.agreement import disagreements
+from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
-from forcetorque.experiment.calibration.window_means import WindowMeans
 
 TRUTH = np.diag([100.0, 100.0, 100.0, 1500.0, 1500.0, 1500.0])
 """Counts per newton and newton metre."""

@@ -12,7 +12,7 @@ import pytest
 
 from forcetorque.app.python.experiment import calibrate_jointly, load_experiment
 from forcetorque.base.errors import FormatError
-from forcetorque.calibration.joint.posterior import read_joint_posterior
+from forcetorque.calibration.joint.artefact import read_joint_posterior
 from forcetorque.experiment.calibration.artefact import JOINT, read_calibration
 from tests.app.json_schema import faults
 from tests.app.outcome import Run

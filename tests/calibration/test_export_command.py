@@ -19,10 +19,8 @@ import pytest
 
 from forcetorque.app.command_line import main
 from forcetorque.base.arrays import FloatArray
-from forcetorque.calibration.export.export import export_icub_matrix, export_wholebodydynamics
-from forcetorque.calibration.export.result import Export
-from forcetorque.calibration.export.wholebodydynamics.correction import corrected
-from forcetorque.calibration.export.wholebodydynamics.file import read_groups
+from forcetorque.calibration.export.export import Export, export_icub_matrix, export_wholebodydynamics
+from forcetorque.calibration.export.wholebodydynamics import corrected, read_groups
 from forcetorque.experiment.calibration.artefact import Calibration, SessionOffset, write_calibration
 from forcetorque.formats.icub_matrix import read_matrix_file
 from tests.results.showing import require_shown

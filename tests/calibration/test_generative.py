@@ -16,9 +16,8 @@ from forcetorque.base.errors import FitError
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.thesis.regression import solve
 from forcetorque.experiment.calibration.estimation_type import Estimation
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
-from forcetorque.experiment.calibration.moments import Moments
-from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.experiment.calibration.moments import Moments, WindowMeans
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.simulation.sensor import distorted_by_mounting
 from tests.calibration.synthetic import (
     LIMIT_COUNTS,

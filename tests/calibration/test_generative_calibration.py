@@ -12,11 +12,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ExperimentError, FitError, FormatError, MissingFileError
-from forcetorque.calibration.calibrate import calibrate_sensor, fit_doubts
-from forcetorque.calibration.reduce_recordings import recording_moments
-from forcetorque.calibration.sensor_calibration import calibrate_for_file
+from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor, fit_doubts
+from forcetorque.calibration.moments import recording_moments
+from forcetorque.evaluation.candidate_errors import push_error
 from forcetorque.evaluation.evaluation import evaluate
-from forcetorque.evaluation.push_error import push_error
 from forcetorque.experiment.calibration.artefact import GENERATIVE, Calibration, read_calibration, write_calibration
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments, read_moments
 from forcetorque.experiment.campaign import Campaign

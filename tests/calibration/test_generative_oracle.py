@@ -12,8 +12,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.experiment.calibration import assumptions
 from forcetorque.experiment.calibration.assumptions import Scale
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
-from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.experiment.calibration.moments import WindowMeans
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from tests.calibration.synthetic import LIMIT_COUNTS, OFFSET, PRIOR, anyhow, hanging, read_by
 from tests.calibration.synthetic import assumptions as assumed
 

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.calibration.thesis.calibrate import HeldOut, calibrate
-from forcetorque.calibration.thesis.held_out import (
+from forcetorque.calibration.thesis.lambda_choice import (
     FLOOR,
     RULE,
     candidate_lambdas,
@@ -19,8 +19,8 @@ from forcetorque.calibration.thesis.held_out import (
     lambda_floor,
 )
 from forcetorque.experiment.calibration.estimation_type import Estimation, EstimationType
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
 from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 
 TRUTH = 0.02 * (np.eye(6) + 0.2 * np.random.default_rng(1).normal(size=(6, 6)))
 PRIOR = TRUTH * (1.0 + 0.1 * np.random.default_rng(2).normal(size=(6, 6)))

@@ -16,7 +16,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.joint.model_error import EXACT
-from forcetorque.simulation.scenario.sensor_section import LINEAR_ONLY
+from forcetorque.simulation.scenario.file import LINEAR_ONLY
 from tests.calibration.joint_trials import ALONE, ARMS, JUDGED, WAYS, SensorTrial, robots, trials
 
 ROBOTS: Final = 20

@@ -11,13 +11,13 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
-from forcetorque.calibration.load_error import load_error_of
+from forcetorque.calibration.moments import load_error_of
 from forcetorque.experiment.calibration.assumptions import Assumptions
-from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.experiment.calibration.moments import WindowMeans
+from forcetorque.payload.identification.load_estimates import LoadSolution
+from forcetorque.payload.identification.load_problem import Load, LoadProblem, LoadRows
 from forcetorque.payload.identification.partly_known_matrix import MatrixSpread, settled
 from forcetorque.payload.identification.prediction import load_wrench
-from forcetorque.payload.identification.problem import Load, LoadProblem, LoadRows
-from forcetorque.payload.identification.solution import LoadSolution
 from forcetorque.payload.identification.solve import solve
 
 POSES = 24

@@ -12,8 +12,7 @@ import pytest
 from forcetorque.app.python.arrays import experiment_of_arrays
 from forcetorque.app.python.experiment import load_experiment as interactive_experiment
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.calibration.sensor_calibration import SensorCalibrations, calibrate_for_file, data_doubts
+from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file, calibrate_sensor, data_doubts
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

@@ -14,8 +14,14 @@ from forcetorque.evaluation.evaluation import evaluate
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.simulation.recordings.recordings import write_scenario
-from forcetorque.simulation.scenario.run import Scenario, SimulatedRecording, build_scenario, simulate, trace_recordings
+from forcetorque.simulation.recordings import write_scenario
+from forcetorque.simulation.scenario.scenario import (
+    Scenario,
+    SimulatedRecording,
+    build_scenario,
+    simulate,
+    trace_recordings,
+)
 from tests.scenes.switchings import short_switching
 
 SEEDS = range(100, 120)

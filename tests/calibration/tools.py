@@ -11,17 +11,16 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
-from forcetorque.evaluation.push_error import pushes
+from forcetorque.evaluation.candidate_errors import pushes
 from forcetorque.experiment.calibration.assumptions import Assumptions
-from forcetorque.experiment.calibration.moments import DataSet
-from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
 from forcetorque.robot.mechanics.samples import Processing, sensor_samples
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.load import with_load
-from forcetorque.simulation.motions.random_smooth import random_movement
-from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.modified_robot import with_load
+from forcetorque.simulation.motions.held_robot import Stand
+from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.trace import Trace, trace_movement
 from tests.calibration.push_error import LIMIT_COUNTS

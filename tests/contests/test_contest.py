@@ -14,7 +14,7 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.contests.entries import Contestant, ContestRun, Entries, Method
 from forcetorque.contests.ranking import Contest
-from forcetorque.experiment.offset_policy import Offset
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.recording.recording import Use
 from forcetorque.sensor.catalogue import find_sensor
 from forcetorque.workbench.bench import Bench

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RecordingError
-from forcetorque.contests.pairs import Parts, RatedPair, Standing, rated_pairs, rms_intervals
+from forcetorque.contests.pairwise_comparison import Parts, RatedPair, Standing, rated_pairs, rms_intervals
 from forcetorque.contests.phases import Trial, by_load, common_phases, trial_of
 
 PHASES, LOADS = 120, (10.0, 15.0, 20.0)

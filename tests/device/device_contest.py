@@ -13,11 +13,10 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.contests.entries import PHASES, Contestant, ContestRun, Method
 from forcetorque.contests.phases import MotionPath, trial_of
 from forcetorque.device.description import device_load
+from forcetorque.device.device_file import read_device
 from forcetorque.device.expected_wrench import answer_of
-from forcetorque.device.file import read_device
 from forcetorque.device.model import device_model
-from forcetorque.device.sequence import twelve_steps
-from forcetorque.device.trajectory import DeviceTrajectory
+from forcetorque.device.motion import DeviceTrajectory, twelve_steps
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor, FitOptions, Role
 from forcetorque.recording.recording import Interval, Recording, Support, Use
 from forcetorque.recording.smoothing import SavitzkyGolay

@@ -8,11 +8,11 @@ import pytest
 
 from forcetorque.base.errors import SensorError
 from forcetorque.device.description import device_load
+from forcetorque.device.device_file import read_device
 from forcetorque.device.expected_wrench import answer_of
-from forcetorque.device.file import read_device
 from forcetorque.device.model import device_model
-from forcetorque.device.sequence import twelve_steps
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.device.motion import twelve_steps
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 

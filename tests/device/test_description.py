@@ -8,9 +8,9 @@ import pytest
 from pydantic import ValidationError
 
 from forcetorque.device.description import Turn, device_load
-from forcetorque.device.file import read_device
+from forcetorque.device.device_file import read_device
 from forcetorque.device.model import BASE, device_model
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from forcetorque.device.demands import DeviceDemands
-from forcetorque.device.device import DeviceDesign, design_device
-from forcetorque.device.file import read_device
+from forcetorque.device.design import DeviceDesign, design_device
+from forcetorque.device.device_file import read_device
 from forcetorque.device.span import DeviceSpan
 
 BALL = 0.01
@@ -22,8 +22,8 @@ GAP_DEG = 3.0
 def design() -> DeviceDesign:
     """Three sensors in the stack, without what it excites and what is demanded of it."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("forcetorque.device.device.device_demands", lambda _: DeviceDemands.model_construct())
-        patch.setattr("forcetorque.device.device.device_span", lambda _: DeviceSpan.model_construct())
+        patch.setattr("forcetorque.device.design.device_demands", lambda _: DeviceDemands.model_construct())
+        patch.setattr("forcetorque.device.design.device_span", lambda _: DeviceSpan.model_construct())
         return design_device(read_device().with_sensors(3))
 
 

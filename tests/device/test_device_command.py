@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from forcetorque.app.python.functions import design_device
-from forcetorque.device.device import DeviceDesign
-from forcetorque.device.file import DEFAULT_DEVICE, read_device
-from forcetorque.device.files import write_device
+from forcetorque.device.design import DeviceDesign
+from forcetorque.device.device_file import DEFAULT_DEVICE, read_device
+from forcetorque.device.simulated_recordings import write_device
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.robot.urdf import read_urdf
 from tests.app.outcome import Run
@@ -36,7 +36,7 @@ NOISE_N = 0.5
 @pytest.fixture(scope="module")
 def design() -> DeviceDesign:
     """The answer to the device that comes with the library, with a motion that is hardly optimised."""
-    from forcetorque.device.device import design_device
+    from forcetorque.device.design import design_device
 
     with pytest.MonkeyPatch.context() as patch:
         hardly_optimise(patch)
@@ -46,8 +46,8 @@ def design() -> DeviceDesign:
 @pytest.fixture(autouse=True)
 def sections_of_the_default(design: DeviceDesign, monkeypatch: pytest.MonkeyPatch) -> None:
     """Ask what a device excites and what is demanded of it but once: it takes seconds, and has tests of its own."""
-    monkeypatch.setattr("forcetorque.device.device.device_demands", lambda _: design.demands)
-    monkeypatch.setattr("forcetorque.device.device.device_span", lambda _: design.span)
+    monkeypatch.setattr("forcetorque.device.design.device_demands", lambda _: design.demands)
+    monkeypatch.setattr("forcetorque.device.design.device_span", lambda _: design.span)
 
 
 @pytest.fixture(scope="module")

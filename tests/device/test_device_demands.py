@@ -11,9 +11,9 @@ import pytest
 from forcetorque.base.errors import RobotError
 from forcetorque.device.demand_result import RequirementRow, Verdict, requirement_rows
 from forcetorque.device.demands import DeviceDemands, device_demands
-from forcetorque.device.file import DeviceMotion, DevicePosture, DeviceSimulation, read_device
-from forcetorque.device.grades import load_errors
-from forcetorque.device.motor_duty import average_torque
+from forcetorque.device.device_file import DeviceMotion, DevicePosture, DeviceSimulation, read_device
+from forcetorque.device.error_budget import load_errors
+from forcetorque.device.mechanical_demands import average_torque
 from forcetorque.device.tolerances import Tolerance
 
 DEVICE = read_device()

@@ -10,14 +10,13 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.device.description import Device, HungLoad, device_load
+from forcetorque.device.device_file import read_device
 from forcetorque.device.expected_wrench import answer_of
-from forcetorque.device.file import read_device
 from forcetorque.device.model import BASE, device_model, device_root
-from forcetorque.device.sequence import twelve_steps
-from forcetorque.device.trajectory import DeviceTrajectory
+from forcetorque.device.motion import DeviceTrajectory, twelve_steps
+from forcetorque.robot.model_text import urdf_text, write_urdf
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.robot.urdf_text import urdf_text, write_urdf
 from tests.robot.mechanics.idyntree_oracle import IDynTree
 from tests.robot.mechanics.pinocchio_oracle import Pinocchio
 from tests.scenes.robots import random_motion

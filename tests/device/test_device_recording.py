@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.device.file import DeviceFile, read_device
-from forcetorque.device.recording import DeviceRecording, DeviceSpecimens, simulate_device
+from forcetorque.device.device_file import DeviceFile, read_device
+from forcetorque.device.simulated_recordings import DeviceRecording, DeviceSpecimens, simulate_device
 from forcetorque.recording.recording import Use
 
 RATE_HZ = 20.0

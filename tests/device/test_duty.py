@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.device.motor_duty import average_torque, motor_duty
+from forcetorque.device.mechanical_demands import average_torque, motor_duty
 
 HALF_SINE = (4.0 / (3.0 * np.pi)) ** (1.0 / 3.0)
 """Cubic mean of a half-sine over its peak, in closed form: 0.7515."""

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from forcetorque.device.description import device_load
-from forcetorque.device.envelope import ARM_RADIUS_M, Silhouette, envelope
-from forcetorque.device.file import read_device
-from forcetorque.device.sequence import Sequence, twelve_steps
+from forcetorque.device.device_file import read_device
+from forcetorque.device.mechanical_demands import ARM_RADIUS_M, Silhouette, envelope
+from forcetorque.device.motion import Sequence, twelve_steps
 
 DEVICE = read_device().with_sensors(3)
 LOAD = device_load(DEVICE, 35.0)

@@ -11,7 +11,8 @@ import pytest
 
 from forcetorque.base.errors import SensorError
 from forcetorque.device.description import HungLoad, device_load
-from forcetorque.device.error_budget import ErrorBudget, drawn_errors
+from forcetorque.device.device_file import read_device
+from forcetorque.device.error_budget import DATA_SHEETS, THESIS_GRADES, ErrorBudget, Grade, Graded, drawn_errors, graded
 from forcetorque.device.expected_wrench import (
     BRACKET_LENGTH,
     COMPLIANCE,
@@ -22,9 +23,7 @@ from forcetorque.device.expected_wrench import (
     QUANTITIES,
     Reference,
 )
-from forcetorque.device.file import read_device
-from forcetorque.device.grades import DATA_SHEETS, THESIS_GRADES, Grade, Graded, graded
-from forcetorque.device.sequence import twelve_steps
+from forcetorque.device.motion import twelve_steps
 from forcetorque.device.tolerances import NOISE_REACH, Tolerance
 
 THREE = read_device().with_sensors(3)

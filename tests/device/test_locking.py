@@ -9,10 +9,9 @@ from scipy.integrate import solve_ivp
 
 from forcetorque.base.errors import RobotError, SensorError
 from forcetorque.device.description import HungLoad, device_load
-from forcetorque.device.file import read_device
-from forcetorque.device.locking import hinge_ways, lag_rad, pendulum_Nm
-from forcetorque.device.sequence import Sequence, twelve_steps
-from forcetorque.device.trajectory import DeviceTrajectory
+from forcetorque.device.device_file import read_device
+from forcetorque.device.mechanical_demands import hinge_ways, lag_rad, pendulum_Nm
+from forcetorque.device.motion import DeviceTrajectory, Sequence, twelve_steps
 
 DEVICE = read_device()
 

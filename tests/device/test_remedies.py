@@ -11,17 +11,16 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
 from forcetorque.base.wrench import MeasureDirection
+from forcetorque.device.device_file import read_device
 from forcetorque.device.excitation import Remedy, Run, remedies, swing_at_yaw_zero, third_lock_steps, uncertain
 from forcetorque.device.expected_wrench import answer_of
-from forcetorque.device.file import read_device
 from forcetorque.device.held_out import SAMPLES, bench_error, device_error, held_out_loads, sample_noise
 from forcetorque.device.motion_design import Designer
-from forcetorque.device.rest_wrenches import RestTable
 from forcetorque.device.span import better_motion, device_span
-from forcetorque.device.tolerances import Tolerances
+from forcetorque.device.tolerances import RestTable, Tolerances
 from forcetorque.workbench.bench import Placement
+from forcetorque.workbench.excitation import Span
 from forcetorque.workbench.loads import THESIS_TABLE, read_loads
-from forcetorque.workbench.span import Span
 
 ROUNDING = 1e-9
 """Share below which a singular value counts as zero."""

@@ -8,10 +8,9 @@ import pytest
 
 from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.device.description import Device, HungLoad, Turn, device_load
-from forcetorque.device.file import read_device
+from forcetorque.device.device_file import read_device
 from forcetorque.device.model import hanging
-from forcetorque.device.sequence import Sequence, YawReturn, twelve_steps
-from forcetorque.device.trajectory import DeviceTrajectory
+from forcetorque.device.motion import DeviceTrajectory, Sequence, YawReturn, twelve_steps
 from forcetorque.robot.motion import JointMotion
 
 DIFFERENCE = 1e-4

@@ -17,9 +17,9 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.estimation.fusion.fuse import Fusion, fuse
-from forcetorque.estimation.fusion.motor import Friction, Motor, fit_friction, motor_source
-from forcetorque.estimation.fusion.source import TorqueSource, wrench_source
+from forcetorque.estimation.torque.covariance_fusion import Fusion, fuse
+from forcetorque.estimation.torque.motor import Friction, Motor, fit_friction, motor_source
+from forcetorque.estimation.torque.source import TorqueSource, wrench_source
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
@@ -28,11 +28,11 @@ from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.motions.random_smooth import random_movement
-from forcetorque.simulation.motions.stand import Stand
-from forcetorque.simulation.motor import SimulatedMotor
+from forcetorque.simulation.imu_and_motor import SimulatedMotor
+from forcetorque.simulation.motions.held_robot import Stand
+from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.robots import ARM_URDF
-from tests.estimation.fusion.sources import three
+from tests.estimation.torque.sources import three
 
 JOINTS: Final = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll", "elbow")
 """Joints that bear the push; the torque of the wrist is that of the model, whatever FT and skin say."""

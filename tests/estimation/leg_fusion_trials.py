@@ -16,7 +16,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.estimation.torque.fusion import fuse_experiment
+from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_models import corrections_of
 from tests.scenes.moving_leg import DRIVEN, FILE, Faults, write_moving_leg

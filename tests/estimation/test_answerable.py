@@ -6,7 +6,7 @@ from __future__ import annotations
 import pytest
 
 from forcetorque.base.errors import ExperimentError
-from forcetorque.estimation.interval import narrowed
+from forcetorque.estimation.estimate import narrowed
 from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.mechanics.question import Question, TorqueSum
 from forcetorque.robot.tree import build_tree

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pytest
 
-from forcetorque.estimation.fusion.fuse import FALSE_ALARM
+from forcetorque.estimation.torque.covariance_fusion import FALSE_ALARM
 from tests.estimation import model_error_trials
 from tests.estimation.fusion_trials import (
     FAULTS,

@@ -13,18 +13,17 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
+from forcetorque.evaluation.validation.joint_torque_errors import judged_torques
 from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, JointTorques, joint_torques
-from forcetorque.evaluation.validation.torque_samples import judged_torques
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.free_sub_model import SubModelChoice
+from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
 from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sub_model_choice import OtherSensors
+from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.recording.recording import Use
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.mechanics.estimate import estimate

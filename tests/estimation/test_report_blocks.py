@@ -11,13 +11,12 @@ import pytest
 from forcetorque.base.errors import ExperimentError
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.report_blocks import torque_section
-from forcetorque.estimation.torque.fusion import fuse_experiment
-from forcetorque.estimation.torque_curves import torque_picture
+from forcetorque.estimation.torque.experiment_fusion import fuse_experiment, torque_picture
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_models import corrections_of
-from forcetorque.report.assessment.assessment import Demands
-from forcetorque.report.assessment.experiment_assessment import ExperimentAssessment, assess_experiment
+from forcetorque.report.assessment import Demands
+from forcetorque.report.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.results.document.content import Figure, List, Section
 from forcetorque.results.table import Table
 from tests.scenes.experiments import PARQUET

@@ -14,7 +14,7 @@ from forcetorque.base.errors import ExperimentError, FormatError, RecordingError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import EstimateSummary, summarise_estimates
-from forcetorque.estimation.torque.fusion import fuse_experiment
+from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_models import corrections_of

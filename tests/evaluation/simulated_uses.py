@@ -12,10 +12,9 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.generative.fit import GenerativeFit
-from forcetorque.evaluation.load_cases.evidence import Evidence, JudgedStretch, evidence
-from forcetorque.evaluation.load_cases.judgement import HOPELESS, UseJudge
 from forcetorque.evaluation.load_cases.load_case import LoadCase, UseOffset, pushes_at, pushes_within, shares_of
-from forcetorque.evaluation.load_cases.verdict import Decision
+from forcetorque.evaluation.load_cases.validation_evidence import Evidence, JudgedStretch, evidence
+from forcetorque.evaluation.load_cases.verdict import HOPELESS, Decision, UseJudge
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moments import DataSet
 from tests.calibration.push_error import LIMIT_COUNTS, Case, cases

@@ -16,8 +16,8 @@ from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatErr
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.acceptance.acceptance import Acceptance, accept
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
-from forcetorque.evaluation.acceptance.file import AcceptanceFile, read_acceptance
 from forcetorque.evaluation.acceptance.static_checks import check
 from forcetorque.evaluation.evaluation import evaluate
 from forcetorque.evaluation.validation.contact_forces import contact_forces
@@ -25,8 +25,8 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.provenance import FittedInterval, Selection
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.offset_policy import Offset
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import sentences
 from forcetorque.recording.recording import Use
 from tests.scenes.experiments import MOUNTED, PARQUET, TWO, YARP, edit, holed

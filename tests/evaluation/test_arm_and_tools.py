@@ -14,11 +14,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FitError, ForceTorqueError
-from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.calibration.sensor_calibration import calibrate_for_file, data_doubts
+from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor, data_doubts
 from forcetorque.evaluation.evaluation import evaluate
-from forcetorque.evaluation.load_cases.judgement import use_verdicts
 from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
+from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.experiment.calibration.estimation_type import EstimationType, estimation_type
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

@@ -14,7 +14,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors
-from forcetorque.experiment.error_statistics import wrench_errors
+from forcetorque.experiment.calibrations_under_test import wrench_errors
 from forcetorque.robot.mechanics.estimate import Evaluator
 
 EPS = float(np.finfo(np.float64).eps)

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.evaluation.sphere.findings import RULE, TOLERANCE
+from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
 from tests.app.json_schema import faults
 from tests.app.outcome import Outcome, Run
 from tests.scenes.axia import write_axia
@@ -258,7 +258,7 @@ def test_a_figure_that_could_not_be_drawn_is_not_named(trials: Path, run: Run, m
         raise OSError("no room")
 
     (trials / "compare.png").write_bytes(b"\x89PNG\r\n\x1a\n of another day")
-    monkeypatch.setattr("forcetorque.evaluation.figures.compare.index_figure", refuse)
+    monkeypatch.setattr("forcetorque.evaluation.figures.sphere.index_figure", refuse)
     words = ("compare", FIRST, SECOND, "--figure", "compare.png")
     result = _ended_with_failures(run(*words, "--format", "json"))
     assert (result["figure"], len(result["trials"])) == (None, 2)

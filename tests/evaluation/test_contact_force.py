@@ -16,23 +16,22 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError, ForceTorqueError, RobotError, ShapeError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.evaluation.validation.contact_wrenches import ContactForces, contact_forces
-from forcetorque.experiment.error_statistics import errors_from_zero
-from forcetorque.experiment.sub_model_choice import ContactForceValidation, OtherSensors
+from forcetorque.experiment.calibrations_under_test import errors_from_zero
+from forcetorque.experiment.free_sub_model import ContactForceValidation, OtherSensors
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Recording, Support
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
-from forcetorque.robot.kinematics import joints_between
+from forcetorque.robot.dynamics import joints_between
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.mechanics.samples import Processing, robot_motion_at
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.sub_model import SubModel
-from forcetorque.robot.tree import build_tree
-from forcetorque.simulation.family import FAMILIES
-from forcetorque.simulation.motions.random_smooth import random_movement
+from forcetorque.robot.tree import SubModel, build_tree
+from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting
+from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.simulation.trace import record
 from tests.robot.mechanics.random_robots import robots
 from tests.robot.mechanics.simulated import Simulation, from_root, random_pose, random_root, to_root

@@ -18,13 +18,12 @@ from forcetorque.evaluation.validation.contact_forces import ContactForceErrors,
 from forcetorque.evaluation.validation.contact_wrenches import contact_wrenches
 from forcetorque.evaluation.validation.joint_torques import joint_torques
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.error_statistics import wrench_errors
+from forcetorque.experiment.calibrations_under_test import wrench_errors
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.free_sub_model import SubModelChoice
+from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sub_model_choice import OtherSensors
+from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Use
 from tests.scenes.experiments import PARQUET, TWO, add, edit, holed

@@ -19,8 +19,7 @@ from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.robot.mechanics.question import Question, moving_joints
 from forcetorque.robot.model import RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.sub_model import sub_models
-from forcetorque.robot.tree import BodyTree, build_tree
+from forcetorque.robot.tree import BodyTree, build_tree, sub_models
 from tests.robot.mechanics.idyntree_oracle import IDynTree
 from tests.robot.mechanics.random_robots import robots
 from tests.robot.mechanics.simulated import Simulation, random_root

@@ -12,13 +12,13 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.evaluation import Evaluation, evaluate
-from forcetorque.evaluation.load_cases.evidence import HARDLY
+from forcetorque.evaluation.load_cases.validation_evidence import HARDLY
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.storage import read_recording, write_recording
-from forcetorque.report.assessment.assessment import assess
+from forcetorque.report.assessment import assess
 from tests.scenes.experiments import MOUNTED, OFFSET, PARQUET, add
 
 NAME = "turned.json"

@@ -10,8 +10,7 @@ import pytest
 
 from forcetorque.base.errors import ExperimentError, SerialNumberError, UnitError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.evaluation.sphere.analysis import analyse_sphere
-from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sphere_intervals
+from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, analyse_sphere, sphere_intervals
 from forcetorque.evaluation.sphere.sphere import Spheres, spheres
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment

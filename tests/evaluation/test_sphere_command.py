@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.evaluation.sphere.findings import RULE, TOLERANCE
+from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

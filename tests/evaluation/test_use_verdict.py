@@ -12,13 +12,17 @@ import pytest
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.acceptance.acceptance import accept
-from forcetorque.evaluation.acceptance.file import AcceptanceFile
-from forcetorque.evaluation.load_cases.evidence import Evidence, JudgedExcitation, JudgedStretch, evidence
-from forcetorque.evaluation.load_cases.judgement import UseJudge, use_verdicts
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
-from forcetorque.evaluation.load_cases.prior_comparison import compare_with_prior
 from forcetorque.evaluation.load_cases.section import LOAD_CASES
-from forcetorque.evaluation.load_cases.verdict import UseVerdict
+from forcetorque.evaluation.load_cases.validation_evidence import (
+    Evidence,
+    JudgedExcitation,
+    JudgedStretch,
+    compare_with_prior,
+    evidence,
+)
+from forcetorque.evaluation.load_cases.verdict import UseJudge, UseVerdict, use_verdicts
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

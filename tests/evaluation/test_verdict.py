@@ -12,10 +12,10 @@ from forcetorque.base.noise.paired_comparison import Judgement
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.summary import LearntDirection
 from forcetorque.evaluation.evaluation import CandidateErrors
-from forcetorque.evaluation.load_cases.prior_comparison import PriorComparison
-from forcetorque.experiment.offset_policy import Offset
-from forcetorque.report.assessment.assessment import Assessment
-from forcetorque.report.assessment.verdict import verdict
+from forcetorque.evaluation.load_cases.validation_evidence import PriorComparison
+from forcetorque.experiment.validation_offset import Offset
+from forcetorque.report.assessment import Assessment
+from forcetorque.report.verdict import verdict
 
 BETTER: Judgement = "better"
 WORSE: Judgement = "worse"

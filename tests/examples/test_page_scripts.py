@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.simulation.scenario.run import SimulatedRecording
+from forcetorque.simulation.scenario.scenario import SimulatedRecording
 from tests.page_scripts import marked, unmarked
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -17,7 +17,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.plausibility.checks import examine
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation, evaluate
-from forcetorque.evaluation.load_cases.prior_comparison import PriorComparison
+from forcetorque.evaluation.load_cases.validation_evidence import PriorComparison
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_models import corrections_of

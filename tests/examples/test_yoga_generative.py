@@ -12,8 +12,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.generative.fit import fit_generative
 from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, Assumptions
-from forcetorque.experiment.calibration.moments import DataSet
-from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
-from forcetorque.experiment.offset_policy import Offset
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.study.candidate import SWEEP_LAMBDAS
-from forcetorque.study.data import read_study_data
 from forcetorque.study.study import study_sensor
+from forcetorque.study.study_data import read_study_data
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "10_icub_yoga_study.toml"
 

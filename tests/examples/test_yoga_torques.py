@@ -10,8 +10,8 @@ import pytest
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.offset_policy import Offset
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.validation_offset import Offset
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "02_icub_yoga_forward.toml"
 

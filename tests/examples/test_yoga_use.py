@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.evaluation.load_cases.judgement import use_verdicts
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
 from forcetorque.evaluation.load_cases.prediction import predict, predict_prior
+from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from tests.examples.test_yoga_generative import EXAMPLES

@@ -17,8 +17,8 @@ from forcetorque.base.units import SI_FACTORS
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.formats.tabular.row_blocks import TableLayout, TableSignal
 from forcetorque.formats.tabular.table import read_table
+from forcetorque.formats.tabular.table_layout import TableLayout, TableSignal
 from forcetorque.recording.storage import read_recording, recording_schema
 from forcetorque.recording.stream import QUANTITIES, Labels, Quantity, Signal
 from tests.scenes.experiments import MOUNTED, PARQUET

@@ -15,13 +15,12 @@ import pytest
 
 import forcetorque
 from forcetorque import evaluation
-from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.calibration.reduce_recordings import recording_moments
-from forcetorque.calibration.sensor_calibration import calibrate_for_file
+from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor
+from forcetorque.calibration.moments import recording_moments
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.evaluation.acceptance.acceptance import accept
-from forcetorque.evaluation.acceptance.file import AcceptanceFile
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.evaluation import evaluate
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.trials.comparison import compare
@@ -32,12 +31,11 @@ from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.locomotion.movement.movement import motion
-from forcetorque.locomotion.movement.signals import motion_signals
+from forcetorque.locomotion.logged_signals import motion_signals
+from forcetorque.locomotion.movement import motion
 from forcetorque.locomotion.net_force.net_force import coherence
 from forcetorque.payload.zeroing import tare
-from forcetorque.results.registry import result_classes
-from forcetorque.results.result import Result
+from forcetorque.results.result import Result, result_classes
 from forcetorque.sensor.gains.gains import select_gains
 from tests.scenes.experiments import PARQUET, add
 from tests.test_import_order import NEEDS

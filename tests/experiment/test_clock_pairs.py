@@ -17,13 +17,12 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.clocks import aligned_clocks
 from forcetorque.experiment.file import experiment_file
-from forcetorque.recording.clock import ClockShift
+from forcetorque.recording.alignment import ClockShift
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.kinematics import link_pose, motion_of_link
+from forcetorque.robot.dynamics import expected_wrenches, link_pose, motion_of_link
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import ARM_URDF

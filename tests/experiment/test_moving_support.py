@@ -15,10 +15,9 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.joint_motion import joint_motion_at
-from forcetorque.robot.kinematics import joints_between, motion_of_link
+from forcetorque.robot.dynamics import joints_between, motion_of_link
 from forcetorque.robot.mechanics.samples import Processing, sensor_samples
-from forcetorque.robot.motion import RootMotion
+from forcetorque.robot.motion import RootMotion, joint_motion_at
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import ARM_URDF

@@ -12,15 +12,14 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ShapeError
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.offset_policy import Offset, OffsetEstimate, OffsetPolicy, mean_offset
-from forcetorque.experiment.offsets import offset_policies, sensor_offset, with_policy
+from forcetorque.experiment.offsets import offset_policies, sensor_offset, still_seconds, with_policy
 from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.static_seconds import still_seconds
+from forcetorque.experiment.validation_offset import Offset, OffsetEstimate, OffsetPolicy, mean_offset
 from forcetorque.payload.zeroing import tare
-from forcetorque.simulation.recordings.recordings import write_scenario
-from forcetorque.simulation.scenario.run import build_scenario, simulate
+from forcetorque.simulation.recordings import write_scenario
+from forcetorque.simulation.scenario.scenario import build_scenario, simulate
 from tests.scenes.switchings import short_switching
 
 BIAS_N = 1e-6

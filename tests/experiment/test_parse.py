@@ -10,11 +10,11 @@ import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
-from forcetorque.experiment.processing_section import Smoothing
+from forcetorque.experiment.sections import Smoothing
 from forcetorque.formats.parquet import ParquetLog
 from forcetorque.formats.ros.log_format import RosLog
 from forcetorque.formats.tabular.log_format import TabularLog
-from forcetorque.formats.yarp.log_tables import StateExtPort, YarpLog
+from forcetorque.formats.yarp.log_format import StateExtPort, YarpLog
 from forcetorque.recording.recording import Use
 from tests.scenes.experiments import JOINTS, PARQUET, TEXTS, TWO, YARP
 

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import BoolArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, RecordingError, RobotError
-from forcetorque.calibration.sensor_calibration import data_doubts
+from forcetorque.calibration.calibrate import data_doubts
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import inspect_experiment

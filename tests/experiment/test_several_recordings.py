@@ -11,13 +11,13 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.evaluation.acceptance.acceptance import accept
-from forcetorque.evaluation.acceptance.file import AcceptanceFile
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.evaluation import evaluate
-from forcetorque.evaluation.load_cases.prior_comparison import compare_with_prior
+from forcetorque.evaluation.load_cases.validation_evidence import compare_with_prior
 from forcetorque.evaluation.validation.contact_forces import contact_forces
 from forcetorque.evaluation.validation.validation import validate
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.offset_policy import Offset
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.recording.recording import Use
 from tests.scenes.campaigns import FITTED, by_day, run_of, two_days
 from tests.scenes.experiments import edit

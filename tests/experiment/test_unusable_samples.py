@@ -12,10 +12,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor
 from forcetorque.calibration.joint.interval import joint_interval
-from forcetorque.calibration.reduce_recordings import store_moments
-from forcetorque.calibration.sensor_calibration import calibrate_for_file
+from forcetorque.calibration.moments import store_moments
 from forcetorque.evaluation.evaluation import evaluate
 from forcetorque.evaluation.validation.validation import validate
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration

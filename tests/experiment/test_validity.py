@@ -17,7 +17,7 @@ from forcetorque.calibration.export.export import export_table
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.evaluation.acceptance.acceptance import accept
-from forcetorque.evaluation.acceptance.file import read_acceptance
+from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
 from forcetorque.evaluation.evaluation import evaluate
 from forcetorque.evaluation.validation.validation import validate
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration, write_calibration
@@ -27,7 +27,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validity import ReadingsOutside, sentences
 from forcetorque.recording.recording import Use
 from forcetorque.recording.storage import read_recording, write_recording
-from forcetorque.report.assessment.assessment import assess
+from forcetorque.report.assessment import assess
 from tests.scenes.experiments import PARQUET, edit
 
 NAME = "new.json"

@@ -14,8 +14,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.hdf5_file import dataset_numbers, opened_hdf5
-from forcetorque.formats.hdf5_layout import elsewhere
+from forcetorque.formats.hdf5_file import dataset_numbers, elsewhere, opened_hdf5
 from forcetorque.formats.log_format import SketchingFormat
 from forcetorque.formats.registry import recognised_format
 from forcetorque.formats.robometry.log_format import RobometryFormat

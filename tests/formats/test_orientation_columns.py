@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from forcetorque.base.errors import FormatError, UnitError
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.formats.array_file.log_format import MatlabFormat
-from forcetorque.formats.array_file.statement import MatlabLog
+from forcetorque.formats.array_file.streams import MatlabLog
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.tabular.log_format import TabularFormat, TabularLog
 from forcetorque.recording.recording import Recording

@@ -17,8 +17,7 @@ from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.robometry.log_format import RobometryFormat, RobometryLog
 from forcetorque.formats.ros.log_format import RosFormat, RosLog
-from forcetorque.formats.yarp.log_format import YarpFormat
-from forcetorque.formats.yarp.log_tables import YarpLog
+from forcetorque.formats.yarp.log_format import YarpFormat, YarpLog
 from tests.formats.robometry.logger import Leaf, write_log
 from tests.formats.ros.bags import Types, write_bag
 from tests.formats.yarp.port_logs import write_port

@@ -20,9 +20,9 @@ from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.signals import OrientationTable
-from forcetorque.inspection.draft.column_match import likenesses
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.draft.joints import joint_rows
+from forcetorque.inspection.draft.streams import likenesses
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording

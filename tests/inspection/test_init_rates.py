@@ -16,9 +16,9 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.inspection.draft.gravity import Hanging, free_spans, hanging
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import example_robot

@@ -16,14 +16,14 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.locomotion.section import SOLES as SECTION
 from forcetorque.locomotion.section import ExperimentSole
-from forcetorque.locomotion.standing.pressure import Sole
+from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Interval, Recording, Support, Use
 from forcetorque.recording.storage import read_recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.simulation.motions.movement import Movement
-from forcetorque.simulation.recordings.recordings import write_scenario
-from forcetorque.simulation.scenario.run import build_scenario, simulate
+from forcetorque.simulation.recordings import write_scenario
+from forcetorque.simulation.scenario.scenario import build_scenario, simulate
 from tests.scenes.switchings import short_switching
 
 DAY = "switching_day1"

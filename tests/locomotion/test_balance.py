@@ -15,14 +15,14 @@ from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.experiment.sensor_reading import Correction
-from forcetorque.locomotion.foot_forces import load_foot_forces
 from forcetorque.locomotion.section import SOLES
+from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces
 from forcetorque.locomotion.standing.interval import BalanceOptions
 from forcetorque.locomotion.standing.standing import balance
 from forcetorque.locomotion.standing.support_phases import NO_FOOT, ContactThresholds, ForceLimit, support_phases
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.motions.insitu import balancing_movement
-from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.motions.held_robot import Stand
+from forcetorque.simulation.motions.joint_motions import balancing_movement
 from forcetorque.simulation.robots import BIPED_URDF
 from tests.locomotion.standing_robot import Standing, moving, switching
 from tests.page_scripts import unmarked

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from forcetorque.experiment.calibration.artefact import read_calibration
-from forcetorque.simulation.recordings.recordings import write_scenario
-from forcetorque.simulation.scenario.run import build_scenario
+from forcetorque.simulation.recordings import write_scenario
+from forcetorque.simulation.scenario.scenario import build_scenario
 from tests.app.outcome import Run
 from tests.scenes.switchings import short_switching
 

@@ -16,14 +16,14 @@ from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.offset_policy import Offset, OffsetPolicy
+from forcetorque.experiment.offsets import still_seconds
 from forcetorque.experiment.sensor_models import corrections_of
-from forcetorque.experiment.static_seconds import still_seconds
+from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
 from forcetorque.locomotion.net_force.net_force import coherence, force_error
 from forcetorque.locomotion.net_force.result import Coherence
 from forcetorque.recording.recording import Interval, Use
-from forcetorque.simulation.recordings.recordings import write_scenario
-from forcetorque.simulation.scenario.run import SimulatedRecording, build_scenario, simulate
+from forcetorque.simulation.recordings import write_scenario
+from forcetorque.simulation.scenario.scenario import SimulatedRecording, build_scenario, simulate
 from tests.locomotion.coherence_truth import net_force_errors, stamps_in
 from tests.scenes.switchings import short_switching
 

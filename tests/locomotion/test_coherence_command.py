@@ -10,8 +10,8 @@ import pytest
 
 from forcetorque.app.python.experiment import load_experiment
 from forcetorque.experiment.calibration.artefact import write_calibration
-from forcetorque.simulation.recordings.recordings import write_scenario
-from forcetorque.simulation.scenario.run import build_scenario
+from forcetorque.simulation.recordings import write_scenario
+from forcetorque.simulation.scenario.scenario import build_scenario
 from tests.app.outcome import Run
 from tests.page_scripts import unmarked
 from tests.scenes.switchings import short_switching
@@ -68,7 +68,7 @@ def test_a_folder_of_calibrations_stands_beside_the_prior(inside: Path, run: Run
 
 def test_files_are_one_candidate_and_a_lone_one_says_what_it_lacks(inside: Path, run: Run) -> None:
     """Two files are called by what they are, one by its name; one alone leaves the other foot to the prior."""
-    from forcetorque.calibration.joint.data import read_candidates
+    from forcetorque.calibration.joint.calibrate import read_candidates
 
     files = [Path("feet") / f"{name}.json" for name in FEET]
     candidates = read_candidates([*files, Path("feet")])

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, RecordingError, UnitError
-from forcetorque.experiment.recorded_log import load_recorded
-from forcetorque.locomotion.movement.movement import Motion, motion
-from forcetorque.locomotion.movement.signals import motion_signals, motion_signals_of_arrays
+from forcetorque.experiment.streams import load_recorded
+from forcetorque.locomotion.logged_signals import motion_signals, motion_signals_of_arrays
+from forcetorque.locomotion.movement import Motion, motion
 from forcetorque.recording.column import find_column
 from tests.page_scripts import unmarked
 from tests.scenes.swaying import OFFSET_NM, STEP_RAD, STEP_S, SWAY_HZ, SWAY_M, TORQUE_NM, write_swaying

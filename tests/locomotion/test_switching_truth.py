@@ -17,8 +17,8 @@ from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording
-from forcetorque.simulation.recordings.recordings import write_scenario
-from forcetorque.simulation.scenario.run import build_scenario, simulate
+from forcetorque.simulation.recordings import write_scenario
+from forcetorque.simulation.scenario.scenario import build_scenario, simulate
 from forcetorque.simulation.sensor import SimulatedSensor
 from tests.scenes.switchings import short_switching
 

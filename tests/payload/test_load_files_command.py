@@ -15,8 +15,8 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.load_for_robot import robot_load
 from forcetorque.payload.robot_files.formats import LoadFormat
-from forcetorque.payload.robot_files.ft_tools import read_ft_tools
-from forcetorque.payload.robot_files.mc_rtc import read_mc_rtc
+from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import read_mc_rtc
+from forcetorque.payload.robot_files.ros import read_ft_tools
 from tests.app.outcome import Run
 from tests.scenes.wrist_postures import BIAS, CENTRE, HELD_S, MASS, SLOW, write_postures
 

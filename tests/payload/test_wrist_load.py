@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError
-from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.calibration.sensor_calibration import data_doubts
+from forcetorque.calibration.calibrate import calibrate_sensor, data_doubts
 from forcetorque.evaluation.evaluation import evaluate
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, EstimationType
 from forcetorque.experiment.loading import load_experiment
@@ -20,7 +19,7 @@ from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.payload import diagnostics as sense
 from forcetorque.payload import wrist_load
 from forcetorque.payload.diagnostics import overweight_loads, reference_doubts
-from forcetorque.payload.identification.solution import LoadSolution
+from forcetorque.payload.identification.load_estimates import LoadSolution
 from forcetorque.payload.identification.solve import solve
 from forcetorque.payload.payload import weigh_load
 from forcetorque.payload.wrist_load import wrist_loads

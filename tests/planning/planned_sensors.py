@@ -13,9 +13,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.experiment.calibration.assumptions import REPEATABILITY, Assumptions
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
-from forcetorque.experiment.calibration.moments import DataSet
-from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
@@ -24,9 +23,8 @@ from forcetorque.recording.recording import Interval, Recording, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
 from forcetorque.robot.mechanics.samples import Processing, sensor_samples
 from forcetorque.simulation.motions.movement import Movement, MovementKind
-from forcetorque.simulation.scenario.plan import INTERVAL_MARGIN_S
-from forcetorque.simulation.scenario.run import Scenario
-from forcetorque.simulation.scenario.sensor_instance import Specimen
+from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S, Scenario
+from forcetorque.simulation.sensor_family import Specimen
 from forcetorque.simulation.trace import Trace, trace_movement
 
 TEMPERATURE = LinearVariable(name="temperature", unit="degC")

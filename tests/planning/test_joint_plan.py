@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.calibration.joint.robot import calibrate_jointly
+from forcetorque.calibration.joint.calibrate import calibrate_jointly
 from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
 from forcetorque.evaluation.load_cases.prediction import predict
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.planning.joint import plan_jointly
+from forcetorque.planning.joint_calibration_plan import plan_jointly
 
 MOTIONS = ("grid_cold", "grid_warm", "move_cold")
 STANCE = ("sway_day1", "stepping_day1", "left_foot_day1")

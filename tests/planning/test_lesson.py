@@ -13,8 +13,8 @@ from forcetorque.base.errors import FitError
 from forcetorque.evaluation.load_cases.load_case import LoadCase, UseOffset, pushes_within
 from forcetorque.evaluation.load_cases.prediction import moment_of_use, predict_by
 from forcetorque.experiment.calibration.assumptions import Assumptions
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
 from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.planning.information import Knowledge, Lesson, Nuisance, unfitted_posterior
 from forcetorque.planning.search import Choices, Criterion, pick
 

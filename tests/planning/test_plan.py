@@ -15,11 +15,11 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.formats.tabular.row_blocks import StampColumn, TableLayout, TableSignal
 from forcetorque.formats.tabular.table import read_table
+from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 from forcetorque.formats.yarp.plain_ports import read_state
-from forcetorque.planning.files import write_plan
 from forcetorque.planning.planning import Plan, plan, plan_sentence
+from forcetorque.planning.trajectory_files import write_plan
 from tests.scenes.experiments import JOINTS, PARQUET
 
 CLEARANCE_DEG = 12.0

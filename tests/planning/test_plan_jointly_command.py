@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.app.python.experiment import load_experiment
-from forcetorque.planning.joint import plan_jointly
+from forcetorque.planning.joint_calibration_plan import plan_jointly
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 

@@ -20,15 +20,13 @@ from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.information import Knowledge, Nuisance
 from forcetorque.planning.planning import Plan, plan
-from forcetorque.planning.proposal import Demand, Effort, propose
+from forcetorque.planning.proposal import Demand, Effort, Workplace, propose, supports_of, workplaces
 from forcetorque.planning.search import Criterion
 from forcetorque.planning.section import PLAN, PlanTable
-from forcetorque.planning.workplace import Workplace, supports_of, workplaces
 from forcetorque.simulation.motions.movement import Movement, MovementKind
-from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
-from forcetorque.simulation.scenario.run import build_scenario, load_scenario
-from forcetorque.simulation.scenario.sensor_instance import Specimen
-from forcetorque.simulation.scenario.sensor_section import LINEAR_ONLY
+from forcetorque.simulation.scenario.file import LINEAR_ONLY, ScenarioFile, bundled_scenario
+from forcetorque.simulation.scenario.scenario import build_scenario, load_scenario
+from forcetorque.simulation.sensor_family import Specimen
 from tests.planning.planned_sensors import LIMIT_COUNTS, Motion, calibrated, planned_motions, planned_run, true_error
 
 LEG, ARM = "l_leg_ft", "arm_ft"

@@ -12,7 +12,7 @@ from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.stream import Stream
-from forcetorque.robot.joint_motion import joint_motion_at
+from forcetorque.robot.motion import joint_motion_at
 from tests.recording.recordings import EPOCH_NS, even_stamps, jittered_stamps, recording, refused, signal, stream
 
 WINDOW = SavitzkyGolay(window_s=0.2, order=2)

@@ -19,52 +19,47 @@ from matplotlib.text import Text
 
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.figures.excitation import excitation_figure, space_figure
-from forcetorque.calibration.figures.held_out import held_out_figure
 from forcetorque.calibration.figures.information import learnt_figure
 from forcetorque.calibration.figures.joint import joint_figure
-from forcetorque.calibration.figures.lambda_axis import lambda_difference_figure
-from forcetorque.calibration.joint.residuals import PartResidual
+from forcetorque.calibration.figures.lambda_curves import held_out_figure, lambda_difference_figure
+from forcetorque.calibration.joint.robust_fit import PartResidual
 from forcetorque.calibration.summary import LearntDirection
 from forcetorque.contests.figure import contest_figure
-from forcetorque.contests.result import ContestLoadRow
+from forcetorque.contests.ranking import ContestLoadRow
 from forcetorque.device.demand_result import GradeRow
-from forcetorque.device.envelope import VIEWS, Silhouette
 from forcetorque.device.figures import device_figure, envelope_figure, reference_error_figure, remedies_figure
+from forcetorque.device.mechanical_demands import VIEWS, Silhouette
 from forcetorque.device.span import DirectionRow
 from forcetorque.estimation.figures import contact_figure, torque_figure
-from forcetorque.evaluation.figures.compare import index_figure
-from forcetorque.evaluation.figures.errors import comparison_figure, residual_figure
+from forcetorque.evaluation.figures.errors_and_matrices import comparison_figure, difference_figure, residual_figure
 from forcetorque.evaluation.figures.load_cases import use_figure
-from forcetorque.evaluation.figures.matrix_differences import difference_figure
-from forcetorque.evaluation.figures.sphere import force_space_figure, sphere_figure
+from forcetorque.evaluation.figures.sphere import force_space_figure, index_figure, sphere_figure
 from forcetorque.evaluation.load_cases.verdict import Reason, UseError, UseVerdict
-from forcetorque.evaluation.sphere.analysis import analyse_sphere
-from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
+from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, analyse_sphere
 from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials
-from forcetorque.experiment.offset_policy import Offset
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.locomotion.figures import balance_figure, coherence_figure, motion_figure, torque_loop_figure
-from forcetorque.locomotion.movement.movement import motion
-from forcetorque.locomotion.movement.signals import motion_signals_of_arrays
+from forcetorque.locomotion.logged_signals import motion_signals_of_arrays
+from forcetorque.locomotion.movement import motion
 from forcetorque.locomotion.net_force.result import Coherence, PhaseForce
+from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole, centre_of_pressure
 from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance, RobotBalance
-from forcetorque.locomotion.standing.pressure import Sole, centre_of_pressure
 from forcetorque.locomotion.standing.support_phases import ContactThresholds, support_phases
-from forcetorque.locomotion.torque_control.result import TorqueLoopRow
-from forcetorque.locomotion.torque_control.study import TorqueLoopStudy
-from forcetorque.results.figures.canvas import png_bytes
+from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy
+from forcetorque.results.figures import png_bytes
 from forcetorque.robot.motion import JointMotion
 from forcetorque.sensor.bandwidth.bandwidth import Response
+from forcetorque.sensor.bandwidth.excited_records import ExcitationKind
 from forcetorque.sensor.bandwidth.figure import response_figure
-from forcetorque.sensor.bandwidth.records import ExcitationKind
 from forcetorque.sensor.bandwidth.result import DecayCurve, ResponseCurve
 from forcetorque.sensor.bandwidth.second_order import SecondOrder
 from forcetorque.sensor.temperature.figure import thermal_figure
-from forcetorque.sensor.temperature.result import SensorThermal, ThermalCurve, ThermalDriftRow
+from forcetorque.sensor.temperature.temperature_drift import SensorThermal, ThermalCurve, ThermalDriftRow
 from forcetorque.skin.figures import skin_event_figure, skin_layout_figure, skin_wrench_figure, taxel_figure
-from forcetorque.skin.surface.surface import skin_surface, unrolled
-from forcetorque.skin.taxels.figure_data import TaxelPicture
+from forcetorque.skin.surface import skin_surface, unrolled
+from forcetorque.skin.taxels.result import TaxelPicture
 from forcetorque.skin.wrench.result import SkinEventPicture, SkinWrenchPicture
-from forcetorque.study.figures.contact_force import lambda_force_figure
+from forcetorque.study.figures import lambda_force_figure
 from forcetorque.workbench.figure import bench_figure
 from forcetorque.workbench.result import BenchPicture
 from tests.scenes.patches import cylinder_patch

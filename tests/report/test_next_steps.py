@@ -10,8 +10,7 @@ import numpy as np
 
 from forcetorque.evaluation.load_cases.verdict import Reason, UseVerdict
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.report.load_cases import Undecided
-from forcetorque.report.next_steps import gathered, next_steps, said_once
+from forcetorque.report.decision import Undecided, gathered, next_steps, said_once
 from tests.report.drawing import use_of
 from tests.scenes.calibrations import make_calibration
 

@@ -9,11 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from forcetorque.results.document.pdf_text import lines_of
-from forcetorque.results.html import html_table
+from forcetorque.results.document.pdf_layout import lines_of
 from forcetorque.results.number_text import NO_BREAK, with_joined_units
 from forcetorque.results.table import Table
-from forcetorque.results.text import table_text, wrapped
+from forcetorque.results.table_rendering import html_table, table_text, wrapped
 
 SENTENCE = (
     "it errs by some 0.85 N, at most 1.4 N (1.7 N allowed) and by 0.124 N m, at most 0.027 ±0.003 N m after 3.5 s at "

@@ -10,15 +10,14 @@ import pytest
 
 import forcetorque
 from forcetorque.evaluation.evaluation import Evaluation
-from forcetorque.results.registry import result_classes
-from forcetorque.results.result import Result
+from forcetorque.results.result import Result, result_classes
 from forcetorque.study.result import Studies
 
 MODULE = """
 from typing import Literal
 from pydantic import Field
 from forcetorque.results.result import Result
-from forcetorque.results.row import Row
+from forcetorque.results.table import Row
 from forcetorque.study.result import Studies
 
 class Drift(Result):

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from forcetorque.results.number_text import is_number
 from forcetorque.results.table import Table
-from forcetorque.results.text import table_text
+from forcetorque.results.table_rendering import table_text
 
 WIDTHS = (60, 80, 100, 120)
 NUMBERS = st.floats(-1e6, 1e6).map(lambda value: f"{value:.3f}")

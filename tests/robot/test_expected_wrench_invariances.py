@@ -10,9 +10,9 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.pose import rotation_from_rpy
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import BodyTree, build_tree
 from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import (

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from tests.robot.kinematics import link_poses
 from tests.scenes.robots import joint_xml, link_xml, read_text, robot_xml, sensor_xml

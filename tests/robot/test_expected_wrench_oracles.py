@@ -11,9 +11,9 @@ import pytest
 
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import example_robot, icub, random_motion

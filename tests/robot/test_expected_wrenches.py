@@ -11,9 +11,9 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
 from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from tests.robot.kinematics import link_poses, links_below

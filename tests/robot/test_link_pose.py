@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.base.errors import RobotError
 from forcetorque.base.pose import invert_pose
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.model import Joint, JointType
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf

@@ -12,8 +12,8 @@ import pytest
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from tests.scenes.robots import PENDULUM_URDF, read_text
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RobotError
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree, required_joints
 from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import icub, joint_xml, link_xml, random_motion, read_text, robot_xml, sensor_xml

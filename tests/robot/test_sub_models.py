@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import RobotError
-from forcetorque.robot.sub_model import SubModel, cut_of, outboard_bodies, path_to_root, sub_models
-from forcetorque.robot.tree import BodyTree, build_tree
+from forcetorque.robot.tree import BodyTree, SubModel, build_tree, cut_of, outboard_bodies, path_to_root, sub_models
 from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import icub, joint_xml, link_xml, read_text, robot_xml, sensor_xml
 

@@ -11,9 +11,9 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, RobotError
 from forcetorque.base.wrench import MeasureDirection
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import ForceTorqueSensor, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from tests.scenes.robots import PENDULUM_URDF, joint_xml, link_xml, read_text, robot_xml, sensor_xml
 

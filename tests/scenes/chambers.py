@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
-from forcetorque.skin.simulation.chamber import REFERENCE_PA, TaxelResponses, chamber_recording
+from forcetorque.skin.simulation.recordings import REFERENCE_PA, TaxelResponses, chamber_recording
 from forcetorque.skin.taxels.health import Ailment
 
 TAXELS = 60

@@ -16,4 +16,4 @@ def hardly_optimise(patch: pytest.MonkeyPatch) -> None:
     Args:
         patch: What takes it back.
     """
-    patch.setattr("forcetorque.device.device.device_span", partial(device_span, swaps=5))
+    patch.setattr("forcetorque.device.design.device_span", partial(device_span, swaps=5))

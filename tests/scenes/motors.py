@@ -11,13 +11,12 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.joint_motion import joint_motion_at
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question, required_joints_of
-from forcetorque.robot.motion import RootMotion
+from forcetorque.robot.motion import RootMotion, joint_motion_at
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.motor import SimulatedMotor
+from forcetorque.simulation.imu_and_motor import SimulatedMotor
 from tests.scenes.experiments import PARQUET, RATE_HZ, add, edit
 
 DRIVEN = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll")

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.formats.yarp.skin_events import COLUMNS, UNITS
+from forcetorque.formats.yarp.skin_ports import COLUMNS, UNITS
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream

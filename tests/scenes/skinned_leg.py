@@ -17,7 +17,7 @@ from forcetorque.robot.contacts import Contact
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.skin.simulation.contact import ContactTruth
-from forcetorque.skin.simulation.recording import Loading
+from forcetorque.skin.simulation.recordings import Loading
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.robots import joint_xml, link_xml, robot_xml, sensor_xml
 from tests.scenes.touched import write_touched

@@ -12,7 +12,7 @@ from pathlib import Path
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.recording.storage import write_recording
 from forcetorque.simulation.scenario.file import ScenarioFile
-from forcetorque.simulation.scenario.run import Scenario, build_scenario, simulate
+from forcetorque.simulation.scenario.scenario import Scenario, build_scenario, simulate
 
 SENSOR, SERIAL = "arm_ft", "SIM001"
 

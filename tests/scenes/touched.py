@@ -14,9 +14,14 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
 from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.chamber import REFERENCE_PA, TaxelResponses, chamber_recording
 from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
-from forcetorque.skin.simulation.recording import Loading, contact_recording
+from forcetorque.skin.simulation.recordings import (
+    REFERENCE_PA,
+    Loading,
+    TaxelResponses,
+    chamber_recording,
+    contact_recording,
+)
 from forcetorque.skin.taxels.calibrate import calibrate_skin
 from tests.scenes.patches import cylinder_patch
 

@@ -15,9 +15,9 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import ARM_URDF

@@ -14,15 +14,15 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
 from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.chamber import (
+from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
+from forcetorque.skin.simulation.heat import HeatResponses, Warmth, warm_recording
+from forcetorque.skin.simulation.recordings import (
     NOISE_COUNTS,
     REFERENCE_PA,
     REST_COUNTS,
     TaxelResponses,
     chamber_recording,
 )
-from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
-from forcetorque.skin.simulation.heat import HeatResponses, Warmth, warm_recording
 from tests.scenes.patches import cylinder_patch
 from tests.scenes.touched import EXPERIMENT
 

@@ -21,7 +21,7 @@ from forcetorque.sensor.electronics import (
     bridge_ratio,
     linearised_bridge_ratio,
 )
-from forcetorque.sensor.gauge.resistive import ResistiveGauge
+from forcetorque.sensor.gauge import ResistiveGauge
 
 GAUGE = ResistiveGauge(gauge_factor=2.0, resistance=350.0, temperature_coefficient=1e-3)
 ALL = (QUARTER_BRIDGE, QUARTER_BRIDGE_WITH_DUMMY, HALF_BRIDGE, OPPOSITE_HALF_BRIDGE, FULL_BRIDGE)

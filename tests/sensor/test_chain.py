@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.sensor.elastic.beam import Beam, Material, RectangularSection
-from forcetorque.sensor.elastic.element import y_shaped_element
+from forcetorque.sensor.elastic import Beam, Material, RectangularSection, y_shaped_element
 from forcetorque.sensor.electronics import FULL_BRIDGE, QUARTER_BRIDGE, Adc, Amplifier, Bridge, hold_on_saturation
 from forcetorque.sensor.full_scale import RawLimits, axis_resolution, coverage, reachable_full_scale
-from forcetorque.sensor.gauge.resistive import ResistiveGauge
+from forcetorque.sensor.gauge import ResistiveGauge
 
 ELEMENT = y_shaped_element(
     beam=Beam(

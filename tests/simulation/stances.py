@@ -10,6 +10,7 @@ from types import MappingProxyType
 import numpy as np
 
 from forcetorque.robot.model import RobotModel
+from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.movement import Movement
 from forcetorque.simulation.motions.on_both_feet import (
     squat_movement,
@@ -18,7 +19,6 @@ from forcetorque.simulation.motions.on_both_feet import (
     sway_movement,
 )
 from forcetorque.simulation.motions.stance import Stance, random_placement
-from forcetorque.simulation.motions.stand import Stand
 from tests.simulation.stands import DOWN, robot
 
 DURATION_S = 10.0

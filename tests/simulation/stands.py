@@ -14,8 +14,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.movement import Movement
-from forcetorque.simulation.motions.stand import Stand
 from forcetorque.simulation.robots import ARM_URDF, BIPED_URDF
 from tests.scenes.robots import icub
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RobotError, ShapeError
-from forcetorque.simulation.motions.insitu import balancing_movement, balancing_postures, weight_at_support
-from forcetorque.simulation.motions.limbs import legs_of
+from forcetorque.simulation.motions.held_robot import legs_of
+from forcetorque.simulation.motions.joint_motions import balancing_movement, balancing_postures, weight_at_support
 from tests.simulation.stands import POLES, ROBOTS, arm, on_foot, on_pole, times
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.simulation.robots import BIPED_URDF

@@ -10,7 +10,7 @@ import pytest
 from scipy.stats import ks_2samp
 
 from forcetorque.formats.icub_matrix import read_matrix_file
-from forcetorque.simulation.family import CHANNEL_ANGLES, FAMILIES, IN_PLANE, Y_ELEMENT
+from forcetorque.simulation.sensor_family import CHANNEL_ANGLES, FAMILIES, IN_PLANE, Y_ELEMENT
 
 SPECIMENS = 300
 SIGNIFICANCE = 0.05

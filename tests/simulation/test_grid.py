@@ -9,11 +9,9 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.base.pose import invert_pose
-from forcetorque.simulation.motions.insitu import grid_movement
-from forcetorque.simulation.motions.limbs import limb_of
+from forcetorque.simulation.motions.held_robot import Stand, limb_of
+from forcetorque.simulation.motions.joint_motions import grid_movement, random_movement
 from forcetorque.simulation.motions.movement import Movement
-from forcetorque.simulation.motions.random_smooth import random_movement
-from forcetorque.simulation.motions.stand import Stand
 from tests.robot.kinematics import links_below
 from tests.simulation.stands import ROBOTS, arm, on_foot, on_pole, robot, times
 

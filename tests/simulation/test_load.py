@@ -8,11 +8,11 @@ import pytest
 
 from forcetorque.base.errors import RobotError
 from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
-from forcetorque.simulation.load import with_load
+from forcetorque.simulation.modified_robot import with_load
 from tests.simulation.stands import robot
 
 AT = np.array([0.03, -0.02, 0.05])

@@ -11,11 +11,15 @@ import pytest
 from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.base.pose import invert_pose
 from forcetorque.robot.contacts import Contact
-from forcetorque.robot.newton_euler import expected_wrenches
-from forcetorque.simulation.motions.insitu import balancing_movement, grid_movement, z_torque_movement
+from forcetorque.robot.dynamics import expected_wrenches
+from forcetorque.simulation.motions.held_robot import Stand
+from forcetorque.simulation.motions.joint_motions import (
+    balancing_movement,
+    grid_movement,
+    random_movement,
+    z_torque_movement,
+)
 from forcetorque.simulation.motions.movement import Movement, MovementKind, Touch
-from forcetorque.simulation.motions.random_smooth import random_movement
-from forcetorque.simulation.motions.stand import Stand
 from tests.simulation.stances import MOVEMENTS
 from tests.simulation.stands import (
     DOWN,

@@ -11,10 +11,9 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import transform_wrench
 from forcetorque.robot.contacts import Wrenches
-from forcetorque.robot.kinematics import body_pose, link_pose
+from forcetorque.robot.dynamics import body_pose, expected_wrenches, link_pose
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from forcetorque.simulation.motions.movement import Movement
 from tests.simulation.stances import IMU_LINKS, MOVEMENTS, on_both_feet, stance

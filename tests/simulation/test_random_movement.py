@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import RobotError, ShapeError
-from forcetorque.simulation.motions.random_smooth import random_movement
+from forcetorque.simulation.motions.joint_motions import random_movement
 from tests.simulation.stands import arm, on_pole, require_inside_limits, times
 
 

@@ -8,13 +8,12 @@ import pytest
 
 from forcetorque.base.errors import RobotError
 from forcetorque.base.pose import skew
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.dynamics import expected_wrenches, link_pose
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
+from forcetorque.simulation.modified_robot import RobotErrors
 from forcetorque.simulation.motions.on_both_feet import sway_movement
-from forcetorque.simulation.robot_errors import RobotErrors
 from tests.simulation.stances import stance
 from tests.simulation.stands import ROBOTS, robot
 

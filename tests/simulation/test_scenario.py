@@ -12,11 +12,16 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, RobotError
 from forcetorque.base.toml_file import read_toml
 from forcetorque.recording.recording import Use
-from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
-from forcetorque.simulation.scenario.plan import INTERVAL_MARGIN_S
-from forcetorque.simulation.scenario.run import Scenario, build_scenario, load_scenario, simulate, trace_recordings
-from forcetorque.simulation.scenario.sensor_instance import mounted_with_error, workbench_errors
-from forcetorque.simulation.scenario.sensor_section import LINEAR_ONLY
+from forcetorque.simulation.scenario.file import LINEAR_ONLY, ScenarioFile, bundled_scenario
+from forcetorque.simulation.scenario.scenario import (
+    INTERVAL_MARGIN_S,
+    Scenario,
+    build_scenario,
+    load_scenario,
+    simulate,
+    trace_recordings,
+)
+from forcetorque.simulation.sensor_family import mounted_with_error, workbench_errors
 
 LEG = "l_leg_ft"
 WANTED = np.array([8.90, 11.18, 4.00, 0.790, 0.715, 0.277])

@@ -10,10 +10,10 @@ import pytest
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.simulation.recordings import recordings as simulated
-from forcetorque.simulation.recordings.recordings import write_scenario
+from forcetorque.simulation import recordings as simulated
+from forcetorque.simulation.recordings import write_scenario
 from forcetorque.simulation.scenario.file import ScenarioFile
-from forcetorque.simulation.scenario.run import Scenario, build_scenario
+from forcetorque.simulation.scenario.scenario import Scenario, build_scenario
 from tests.results.showing import require_shown
 
 

@@ -8,12 +8,12 @@ import pytest
 
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Recording
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.motions.random_smooth import random_smooth_motion
+from forcetorque.simulation.motions.joint_motions import random_smooth_motion
 from forcetorque.simulation.robots import ARM_URDF
 from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
 from forcetorque.simulation.trace import simulate_recording

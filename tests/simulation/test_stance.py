@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RobotError, ShapeError
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.simulation.motions.inverse_kinematics import joints_reaching
 from forcetorque.simulation.motions.on_both_feet import standing_movement, sway_movement
-from forcetorque.simulation.motions.spline import Spline
 from forcetorque.simulation.motions.stance import Stance
+from forcetorque.simulation.motions.trajectories import Spline
 from tests.simulation.stances import stance
 from tests.simulation.stands import ROBOTS, on_foot, on_pole
 

@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.errors import RobotError
 from forcetorque.base.toml_file import read_toml
 from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
-from forcetorque.simulation.scenario.run import Scenario, build_scenario, simulate, trace_recordings
+from forcetorque.simulation.scenario.scenario import Scenario, build_scenario, simulate, trace_recordings
 
 
 def _content(*motions: dict[str, Any], **changes: Any) -> dict[str, Any]:

@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.robot.model import RobotModel
-from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.motions.held_robot import Stand
 from tests.scenes.robots import joint_xml, link_xml, read_text, robot_xml
 from tests.simulation.stands import DOWN, arm, robot
 

@@ -13,7 +13,7 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.toml_file import read_toml
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
-from forcetorque.simulation.scenario.run import Scenario, build_scenario, simulate, trace_recordings
+from forcetorque.simulation.scenario.scenario import Scenario, build_scenario, simulate, trace_recordings
 from tests.scenes.switchings import short_switching
 
 READ_N = 1e-6

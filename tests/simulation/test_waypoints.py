@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.simulation.motions.waypoints import Waypoints
+from forcetorque.simulation.motions.trajectories import Waypoints
 from tests.simulation.stands import require_exact_derivatives
 
 NAMES = ("a", "b")

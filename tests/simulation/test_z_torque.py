@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RobotError, ShapeError
-from forcetorque.simulation.motions.insitu import grid_movement, z_torque_movement
-from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.motions.held_robot import Stand
+from forcetorque.simulation.motions.joint_motions import grid_movement, z_torque_movement
 from tests.scenes.robots import PENDULUM_URDF, read_text
 from tests.simulation.stands import DOWN, ROBOTS, arm, on_foot, on_pole, times
 

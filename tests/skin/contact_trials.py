@@ -18,16 +18,16 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.skin.contact.contacts import find_contacts
-from forcetorque.skin.contact.reading import PatchReader, PressureFrame
+from forcetorque.skin.contact.pressure_frame import PatchReader, PressureFrame
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.layout.normals import rebuilt_normals
-from forcetorque.skin.simulation.chamber import REFERENCE_PA, TaxelResponses, chamber_recording
 from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
+from forcetorque.skin.simulation.recordings import REFERENCE_PA, TaxelResponses, chamber_recording
 from forcetorque.skin.taxels.curve import CurveKind, fit_curve
-from forcetorque.skin.taxels.cycle import REST_SHARE, pressure_cycle
 from forcetorque.skin.taxels.health import taxel_response
-from forcetorque.skin.taxels.pressure_table import PressureTable
+from forcetorque.skin.taxels.patch_calibration import PressureTable
+from forcetorque.skin.taxels.recording import REST_SHARE, pressure_cycle
 from forcetorque.skin.wrench.operator import WrenchMethod
 from forcetorque.skin.wrench.patch import SkinPatch
 

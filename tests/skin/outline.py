@@ -6,8 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.skin.surface.rim import rim_strip
-from forcetorque.skin.surface.surface import SkinSurface
+from forcetorque.skin.surface import SkinSurface, rim_strip
 from forcetorque.skin.wrench.patch import SkinPatch
 
 

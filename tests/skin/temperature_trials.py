@@ -18,13 +18,13 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.recording.recording import Recording
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
-from forcetorque.skin.contact.following import PatchFollower
-from forcetorque.skin.contact.reading import PatchReader
+from forcetorque.skin.contact.pressure_frame import PatchReader
+from forcetorque.skin.contact.tracking import PatchFollower
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.chamber import TaxelResponses
 from forcetorque.skin.simulation.contact import ON_SKIN, ContactTruth, SkinBody, contacts
 from forcetorque.skin.simulation.heat import HeatResponses, Warmth, warm_recording
-from forcetorque.skin.taxels.pressure_table import PressureTable
+from forcetorque.skin.simulation.recordings import TaxelResponses
+from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.temperature.gains import HeatGains, TaxelDrift
 from forcetorque.skin.temperature.warm_up import fit_warm_up
 from forcetorque.skin.wrench.patch import SkinPatch

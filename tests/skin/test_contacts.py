@@ -10,9 +10,8 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError, SkinError
-from forcetorque.skin.contact.clusters import NO_CONTACT, clusters
-from forcetorque.skin.contact.contacts import find_contacts, lobes
-from forcetorque.skin.contact.reading import PressureFrame
+from forcetorque.skin.contact.contacts import NO_CONTACT, clusters, find_contacts, lobes
+from forcetorque.skin.contact.pressure_frame import PressureFrame
 from forcetorque.skin.wrench.patch import SkinPatch
 from tests.skin.skins import PITCH_M, plane_layout
 

@@ -14,8 +14,8 @@ import pytest
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
-from forcetorque.estimation.skin.known_wrenches import frames_of_patches
-from forcetorque.estimation.torque.fusion import fuse_experiment
+from forcetorque.estimation.skin_contacts import frames_of_patches
+from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.skin.wrench.wrench import PatchFrames

@@ -11,7 +11,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.skin.simulation.contact import ContactTruth
-from forcetorque.skin.simulation.recording import Loading
+from forcetorque.skin.simulation.recordings import Loading
 from tests.app.outcome import Run
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.skinned_leg import FILE, write_leg

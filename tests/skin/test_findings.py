@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.skin.layout.findings import layout_findings
-from forcetorque.skin.layout.findings.finding import Defect, LayoutFinding
+from forcetorque.skin.layout.check import layout_findings
+from forcetorque.skin.layout.finding import Defect, LayoutFinding
 from forcetorque.skin.layout.layout import PatchDescription
 from forcetorque.skin.layout.modules import MODULE_TAXELS, placed_pads
 from tests.scenes.patches import HEAD_LINES, collapsed, cylinder_patch, moved_module, without_modules

@@ -10,10 +10,10 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.skin.contact.contacts import SkinContacts
-from forcetorque.skin.contact.following import PatchFollower
-from forcetorque.skin.contact.reading import PatchReader
+from forcetorque.skin.contact.pressure_frame import PatchReader
+from forcetorque.skin.contact.tracking import PatchFollower
 from forcetorque.skin.simulation.heat import Warmth
-from forcetorque.skin.taxels.pressure_table import PressureTable
+from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.temperature.gains import HeatGains
 from forcetorque.skin.temperature.warm_up import fit_warm_up
 from forcetorque.skin.wrench.patch import SkinPatch

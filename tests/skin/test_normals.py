@@ -12,7 +12,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import PatchDescription
 from forcetorque.skin.layout.normals import patch_normals, rebuilt_normals
-from forcetorque.skin.surface.surface import skin_surface
+from forcetorque.skin.surface import skin_surface
 from tests.scenes.patches import cylinder_patch, ellipsoid_patch
 
 CYLINDER = cylinder_patch(across=9, along=4)

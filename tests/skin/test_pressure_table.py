@@ -16,9 +16,10 @@ from forcetorque.skin.taxels.patch_calibration import (
     CalibratedTaxel,
     PatchCalibration,
     PatchProvenance,
+    PressureTable,
     read_patch_calibration,
+    write_pressure_table,
 )
-from forcetorque.skin.taxels.pressure_table import PressureTable, write_pressure_table
 
 REST = np.array([240.0, 0.0, 241.5, 239.0])
 """The second column is no taxel, the last one is broken."""

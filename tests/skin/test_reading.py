@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SkinError
-from forcetorque.skin.contact.reading import WAKING, PatchReader
-from forcetorque.skin.taxels.pressure_table import PressureTable
+from forcetorque.skin.contact.pressure_frame import WAKING, PatchReader
+from forcetorque.skin.taxels.patch_calibration import PressureTable
 from tests.skin.skins import plane_layout
 
 TAXELS: Final = 2000

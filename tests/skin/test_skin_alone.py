@@ -12,7 +12,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Use
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.skin.experiment import BESIDE_M, ROOT, is_skin_alone, links_side_by_side

@@ -12,8 +12,8 @@ import pytest
 
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.viewer.arrays import read_array
-from forcetorque.viewer.build import BuiltScene, scene_of
 from forcetorque.viewer.scene import SkinEventSeries
+from forcetorque.viewer.scene_builder import BuiltScene, scene_of
 from tests.app.outcome import Run
 from tests.scenes.skin_alone import EVENTS, HEURISTIC, MESSAGES, PERIOD_S, TOUCHED, write_events
 from tests.scenes.touched import write_table, write_touched

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ExperimentError, FitError, SkinError
-from forcetorque.skin.simulation.chamber import REFERENCE_PA
+from forcetorque.skin.simulation.recordings import REFERENCE_PA
 from forcetorque.skin.taxels.calibrate import SkinCalibration, calibrate_skin
 from forcetorque.skin.taxels.health import Ailment
 from tests.scenes.chambers import BROKEN, HIGHEST_PA, LATER, TAXELS, chamber, responses, write_chamber, write_chambers

@@ -12,13 +12,12 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.skin.layout.check import SkinCheck, check_patch, check_skin
-from forcetorque.skin.layout.findings.finding import Defect
+from forcetorque.skin.layout.finding import Defect
+from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.registry import describe_patch, read_layout
-from forcetorque.skin.layout.formats.skin_gui import read_plan
-from forcetorque.skin.layout.modules import MODULE_TAXELS, outward_of_boards, placed_pads
+from forcetorque.skin.layout.modules import MODULE_TAXELS, module_poses, outward_of_boards, placed_pads
 from forcetorque.skin.layout.normals import module_planes, patch_normals
-from forcetorque.skin.layout.plan import module_poses
-from forcetorque.skin.surface.surface import skin_surface
+from forcetorque.skin.surface import skin_surface
 from tests.scenes.patches import collapsed, cylinder_patch
 
 

@@ -12,7 +12,7 @@ import pytest
 from forcetorque.app.python.functions import skin_wrench
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.simulation.contact import ContactTruth
-from forcetorque.skin.simulation.recording import Loading
+from forcetorque.skin.simulation.recordings import Loading
 from forcetorque.skin.wrench.wrench import SkinWrench
 from tests.scenes.touched import write_table, write_touched
 

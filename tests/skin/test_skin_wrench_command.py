@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.skin.simulation.contact import ContactTruth
-from forcetorque.skin.simulation.recording import Loading
+from forcetorque.skin.simulation.recordings import Loading
 from tests.app.outcome import Run
 from tests.report.drawing import size_of
 from tests.scenes.touched import OBJECTS, write_table, write_touched

@@ -8,9 +8,15 @@ import pytest
 
 from forcetorque.base.errors import SkinError
 from forcetorque.base.pose import rotation_from_rpy
-from forcetorque.skin.surface.rim import HALF_PITCH_M, edge_taxels, rim_strip
-from forcetorque.skin.surface.surface import skin_surface, unrolled
-from forcetorque.skin.surface.triangulation import LONGEST_EDGE_M, surface_triangles
+from forcetorque.skin.surface import (
+    HALF_PITCH_M,
+    LONGEST_EDGE_M,
+    edge_taxels,
+    rim_strip,
+    skin_surface,
+    surface_triangles,
+    unrolled,
+)
 from tests.skin.skins import PITCH_M, cylinder, plane_lattice
 
 ROUNDING = 1e-12

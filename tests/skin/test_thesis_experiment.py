@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.chamber import REFERENCE_PA
-from forcetorque.skin.simulation.recording import Loading
+from forcetorque.skin.simulation.recordings import REFERENCE_PA, Loading
 from tests.scenes.patches import cylinder_patch
 from tests.skin.contact_trials import leg_layout
 from tests.skin.thesis_leg import LOADS, Load

@@ -22,7 +22,7 @@ from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.recording import Loading
+from forcetorque.skin.simulation.recordings import Loading
 from forcetorque.skin.wrench.wrench import WrenchChoice, skin_wrench
 from tests.skin.contact_trials import SIMPLE_AREA_M2, leg_layout
 from tests.skin.thesis_leg import KNEE, LOADS, Load, LoadTruth, write_leg

@@ -8,11 +8,9 @@ from functools import cache
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
 from forcetorque.experiment.calibration.moments import DataSet
-from forcetorque.experiment.calibration.sensor_model import WrenchModel
-from forcetorque.experiment.offset_policy import Offset
-from forcetorque.experiment.validation_set import ValidationSet
+from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
+from forcetorque.experiment.validation_offset import Offset, ValidationSet
 from forcetorque.study.one_sensor import Study, run_study
 
 RATE_HZ = 100.0

@@ -13,20 +13,23 @@ import pytest
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.calibration.thesis.calibrate import calibrate
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
 from forcetorque.experiment.calibration.moments import DataSet
-from forcetorque.experiment.calibration.sensor_model import WrenchModel
-from forcetorque.experiment.offset_policy import Offset
-from forcetorque.experiment.validation_set import ValidationSet
+from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
+from forcetorque.experiment.validation_offset import Offset, ValidationSet
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
 from forcetorque.robot.mechanics.samples import Processing, sensor_samples
-from forcetorque.simulation.scenario.file import bundled_scenario
-from forcetorque.simulation.scenario.plan import INTERVAL_MARGIN_S
-from forcetorque.simulation.scenario.run import Scenario, SimulatedRecording, load_scenario, simulate, trace_recordings
-from forcetorque.simulation.scenario.sensor_section import LINEAR_ONLY
+from forcetorque.simulation.scenario.file import LINEAR_ONLY, bundled_scenario
+from forcetorque.simulation.scenario.scenario import (
+    INTERVAL_MARGIN_S,
+    Scenario,
+    SimulatedRecording,
+    load_scenario,
+    simulate,
+    trace_recordings,
+)
 from forcetorque.study.one_sensor import Study, run_study
-from forcetorque.study.validation import judge
+from forcetorque.study.selection import judge
 
 LEG = "l_leg_ft"
 SEEDS = [range(1, 6), pytest.param(range(6, 26), marks=pytest.mark.long)]

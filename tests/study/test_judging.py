@@ -14,9 +14,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.evaluation.candidate_errors import PooledErrors
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
-from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
-from forcetorque.experiment.validation_set import OFFSET_S, ValidationSet
-from forcetorque.study.validation import Judgement, judge, with_offset
+from forcetorque.experiment.validation_offset import KNOWN_BEFORE, OFFSET_S, Offset, ValidationSet
+from forcetorque.study.selection import Judgement, judge, with_offset
 from tests.study import measured
 from tests.study.measured import JUDGED, NOISE, TRUTH, errors_by_samples, judged, study
 

@@ -12,9 +12,15 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
-from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
-from forcetorque.study.selection import assembled, best_by_axis, best_by_magnitude, scored_across_sessions
-from forcetorque.study.validation import Judgement, judge
+from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
+from forcetorque.study.selection import (
+    Judgement,
+    assembled,
+    best_by_axis,
+    best_by_magnitude,
+    judge,
+    scored_across_sessions,
+)
 from tests.study.measured import JUDGED, PRIOR, TRUTH, study
 
 EXACT = 1e-10

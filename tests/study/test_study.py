@@ -20,12 +20,12 @@ from forcetorque.experiment.calibration.artefact import read_calibration, write_
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.campaign_intervals import CampaignInterval
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.study.candidate import Candidate, GenerativeCandidate
-from forcetorque.study.data import StudyData, read_study_data
 from forcetorque.study.result import Studies, studied_sensor, study_warnings
 from forcetorque.study.study import SensorStudy, combinations_of, study_sensor
+from forcetorque.study.study_data import StudyData, read_study_data
 from tests.results.showing import require_shown
 from tests.scenes.experiments import PARQUET, edit
 from tests.scenes.studies import CALIBRATION, FILES, SERIAL, VALIDATION, scenario

@@ -17,7 +17,7 @@ from forcetorque.base.errors import MissingExtraError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
-from forcetorque.study import figure_files as study_figures
+from forcetorque.study import figures as study_figures
 from forcetorque.study.study import SensorStudy
 from tests.app.json_schema import faults
 from tests.app.outcome import Outcome, Run

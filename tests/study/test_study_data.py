@@ -17,7 +17,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.recording.recording import Use
 from forcetorque.recording.storage import read_recording, write_recording
-from forcetorque.study.data import StudyData, read_study_data
+from forcetorque.study.study_data import StudyData, read_study_data
 from tests.scenes.experiments import PARQUET, TWO, add, edit
 from tests.scenes.studies import CALIBRATION, FILES, SENSOR, SERIAL, VALIDATION, scenario
 

@@ -12,20 +12,20 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.evaluation.push_error import push_error
+from forcetorque.evaluation.candidate_errors import push_error
 from forcetorque.experiment.calibration.artefact import read_calibration, write_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.offset_policy import Offset
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.simulation.recordings.truth import true_matrix
+from forcetorque.experiment.validation_offset import Offset
+from forcetorque.simulation.recordings import true_matrix
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate import Candidate
-from forcetorque.study.data import StudyData, read_study_data
-from forcetorque.study.loads_not_fitted import FAR_SD
 from forcetorque.study.result import studied_sensor, study_warnings
+from forcetorque.study.selection import FAR_SD
 from forcetorque.study.study import SensorStudy, study_sensor
+from forcetorque.study.study_data import StudyData, read_study_data
 from tests.scenes.experiments import edit
 from tests.scenes.studies import CALIBRATION, FILES, SENSOR, SERIAL, VALIDATION, scenario
 

@@ -14,7 +14,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
-from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
+from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate import TABLE_LAMBDAS, Candidate
 from forcetorque.study.one_sensor import Study, run_study

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.viewer.build import BuiltScene, build_scene
 from forcetorque.viewer.page import ASSETS
+from forcetorque.viewer.scene_builder import BuiltScene, build_scene
 from tests.scenes.experiments import PARQUET
 
 

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.viewer.arrays import read_array
-from forcetorque.viewer.build import BuiltScene
+from forcetorque.viewer.scene_builder import BuiltScene
 
 
 def link_poses(built: BuiltScene, sample: int) -> dict[str, FloatArray]:

@@ -19,7 +19,7 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.viewer.annotations import Annotations, intervals_toml, samples_csv, save_annotations
 from forcetorque.viewer.arrays import read_array
-from forcetorque.viewer.build import BuiltScene, build_scene
+from forcetorque.viewer.scene_builder import BuiltScene, build_scene
 from tests.payload.test_wrist_load import _write as write_wrist
 from tests.scenes.experiments import JOINTS, PARQUET, add, edit
 

@@ -24,8 +24,8 @@ from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Use
 from forcetorque.recording.stream import Stream
 from forcetorque.viewer.arrays import read_array
-from forcetorque.viewer.build import BuiltScene, build_scene
 from forcetorque.viewer.scene import ArrayRef, Sensor, WrenchSeries, scene_json
+from forcetorque.viewer.scene_builder import BuiltScene, build_scene
 from tests.scenes.experiments import DURATION_S, JOINTS, PARQUET, RATE_HZ, TWO, YARP, add, edit
 
 FLOAT32 = 2e-7
@@ -175,7 +175,7 @@ def test_sphere_and_ellipsoid_lie_in_the_clouds(intact: Path) -> None:
 def test_ellipsoids_of_a_long_log_see_a_part_of_it(intact: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """From every third sample they are nearly the same, and the page says that they are."""
     whole = _view(intact / PARQUET)
-    monkeypatch.setattr("forcetorque.viewer.series._SPHERE_SAMPLES", 500)
+    monkeypatch.setattr("forcetorque.viewer.sensor_wrenches._SPHERE_SAMPLES", 500)
     part = _view(intact / PARQUET)
     assert any(line.endswith("over 'fit', 'judge', from one sample in 3") for line in part.scene.provenance)
     for name in ("prior", "expected"):

@@ -15,10 +15,9 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.simulation.motions.movement import Movement
-from forcetorque.simulation.recordings.recordings import write_scenario
-from forcetorque.simulation.scenario.run import build_scenario, simulate
-from forcetorque.viewer.instants import posture_at, shown_stream
-from forcetorque.viewer.root_pose import root_poses
+from forcetorque.simulation.recordings import write_scenario
+from forcetorque.simulation.scenario.scenario import build_scenario, simulate
+from forcetorque.viewer.posture import posture_at, root_poses, shown_stream
 from tests.scenes.switchings import short_switching
 
 LEVEL_M = 1e-7

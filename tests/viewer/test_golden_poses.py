@@ -17,13 +17,13 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.recording import Interval, Recording, Support, Use
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.viewer.build import BuiltScene, build_scene
-from forcetorque.viewer.root_pose import upright
+from forcetorque.viewer.posture import upright
+from forcetorque.viewer.scene_builder import BuiltScene, build_scene
 from tests.robot.mechanics.random_robots import robots
 from tests.scenes.experiments import PARQUET
 from tests.scenes.robots import example_robot, icub

@@ -14,9 +14,9 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError, MissingFileError
-from forcetorque.viewer.build import BuiltScene
 from forcetorque.viewer.page import MOST_SAMPLES, page_of, write_page
 from forcetorque.viewer.scene import scene_json
+from forcetorque.viewer.scene_builder import BuiltScene
 
 EVIL = "</script><script>alert(1)</script><!-- <b>& é \u2028"
 

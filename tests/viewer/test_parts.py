@@ -18,9 +18,8 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
 from forcetorque.viewer.arrays import read_array
-from forcetorque.viewer.build import build_scene
 from forcetorque.viewer.scene import Sensor
-from forcetorque.viewer.view import View
+from forcetorque.viewer.scene_builder import View, build_scene
 from tests.scenes.experiments import TWO
 
 FLOAT32 = 1e-5

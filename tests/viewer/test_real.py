@@ -11,7 +11,7 @@ import pytest
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.viewer.arrays import read_array
-from forcetorque.viewer.build import BuiltScene, build_scene
+from forcetorque.viewer.scene_builder import BuiltScene, build_scene
 from tests.viewer.poses import link_poses
 
 pytestmark = pytest.mark.real_data

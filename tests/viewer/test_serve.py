@@ -16,7 +16,7 @@ import pytest
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.viewer.annotations import Annotations
-from forcetorque.viewer.serve import MOST_BYTES, ViewerServer, byte_range
+from forcetorque.viewer.page import MOST_BYTES, ViewerServer, byte_range
 
 PAGE, DATA = b"<!DOCTYPE html>page", bytes(range(256)) * 40
 SAVED = {"samples": [{"sample": 1, "time_s": 0.5, "mark": "point", "label": "a", "use": "ignore"}], "intervals": []}

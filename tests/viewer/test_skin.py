@@ -15,18 +15,18 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.yarp.skin_ports import SkinPart, read_skin_events
 from forcetorque.recording.alignment import usable_samples
 from forcetorque.recording.recording import Recording
-from forcetorque.results.figures.canvas import png_bytes
+from forcetorque.results.figures import png_bytes
 from forcetorque.skin.experiment import load_patches
 from forcetorque.skin.figures import skin_event_figure
 from forcetorque.skin.simulation.contact import ContactTruth
-from forcetorque.skin.simulation.recording import Loading
+from forcetorque.skin.simulation.recordings import Loading
 from forcetorque.skin.wrench.result import skin_event_rows
 from forcetorque.skin.wrench.wrench import skin_wrench
 from forcetorque.viewer import skin as viewer_events
 from forcetorque.viewer import skin as viewer_skin
 from forcetorque.viewer.arrays import SceneDraft, read_array
-from forcetorque.viewer.build import BuiltScene, scene_of
 from forcetorque.viewer.scene import SkinContactFrames
+from forcetorque.viewer.scene_builder import BuiltScene, scene_of
 from forcetorque.viewer.skin import half_axes, scene_skin, scene_skin_events
 from tests.scenes.experiments import edit
 from tests.scenes.skin_arm import EVENT, EVENT_S, EVENTS, LINK, PATCH, SKIN, write_skin_arm

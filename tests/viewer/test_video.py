@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError, MissingExtraError, MissingFileError
-from forcetorque.viewer.serve import ViewerServer
+from forcetorque.viewer.page import ViewerServer
 from forcetorque.viewer.video import Film, film_page, find_browser, require_playwright
 
 FILM = Film(start=3, end=9, fps=10.0, speed=2.0, width=320, height=200)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError, FormatError
-from forcetorque.viewer.view import View, view_source
+from forcetorque.viewer.scene_builder import View, view_source
 
 VIEW = View(
     experiment="arm",

@@ -15,8 +15,7 @@ from typing import Any
 
 import pytest
 
-from forcetorque.viewer.page import ASSETS, BUNDLE
-from forcetorque.viewer.serve import ViewerServer
+from forcetorque.viewer.page import ASSETS, BUNDLE, ViewerServer
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.scenes.experiments import PARQUET, edit, snapshot

@@ -11,12 +11,12 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, SensorError, ShapeError
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.calibration.generative import evidence
-from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.calibration.generative import model as evidence
+from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.workbench.bench import Bench, Placement
 from forcetorque.workbench.fit import fit_bench, fit_means
-from forcetorque.workbench.held_out import held_out_errors, one_by_one, rms, whole_series
 from forcetorque.workbench.loads import BenchLoads, Weights
+from forcetorque.workbench.sensor_fit import held_out_errors, one_by_one, rms, whole_series
 from forcetorque.workbench.simulated_benches import simulate_specimen
 from tests.scenes.benches import PLACEMENT, thesis_loads
 

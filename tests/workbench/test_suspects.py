@@ -11,8 +11,8 @@ from scipy.stats import binomtest
 
 from forcetorque.base.errors import SensorError
 from forcetorque.workbench.faults import FALSE_ALARMS, Fault, log_upper_tail, signatures, suspects
+from forcetorque.workbench.fit import ResidualSpace, Scatter, own_scatter, scatter_of_sensors, stated_scatter
 from forcetorque.workbench.loads import BenchLoads
-from forcetorque.workbench.scatter import ResidualSpace, Scatter, own_scatter, scatter_of_sensors, stated_scatter
 from forcetorque.workbench.simulated_benches import BenchFaults, simulate_specimen
 from tests.scenes.benches import PLACEMENT, thesis_loads
 from tests.workbench.trials import TRIALS, alarm_share, examined, named_share, plainly_named_share, specimens

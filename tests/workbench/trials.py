@@ -9,9 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.workbench.fault_report import Examined, examine
-from forcetorque.workbench.faults import Fault, Suspect, suspects
-from forcetorque.workbench.scatter import stated_scatter
+from forcetorque.workbench.faults import Examined, Fault, Suspect, examine, suspects
+from forcetorque.workbench.fit import stated_scatter
 from forcetorque.workbench.simulated_benches import BenchFaults, Specimen, simulate_specimen
 from tests.scenes.benches import PLACEMENT, thesis_loads
 

@@ -38,10 +38,10 @@ def _require(name: str, known: dict[str, Callable[[], dict[str, Any]]]) -> None:
 
 
 def _files() -> dict[str, Callable[[], dict[str, Any]]]:
-    from forcetorque.calibration.joint.posterior import JointPosterior
+    from forcetorque.calibration.joint.artefact import JointPosterior
     from forcetorque.contests.entries import ContestFile
-    from forcetorque.device.file import DeviceFile
-    from forcetorque.evaluation.acceptance.file import AcceptanceFile
+    from forcetorque.device.device_file import DeviceFile
+    from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
     from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.calibration.stored_moments import RecordingMoments
     from forcetorque.experiment.file import experiment_file
@@ -50,7 +50,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.simulation.scenario.file import ScenarioFile
     from forcetorque.skin.layout.formats.urdf_frames import ModuleFrames
     from forcetorque.skin.taxels.patch_calibration import PatchCalibration
-    from forcetorque.workbench.file import BenchFile
+    from forcetorque.workbench.workbench_file import BenchFile
 
     return {
         "experiment": experiment_file().model_json_schema,
@@ -71,7 +71,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
 
 def _results() -> dict[str, Callable[[], dict[str, Any]]]:
     import forcetorque
-    from forcetorque.results.registry import result_classes
+    from forcetorque.results.result import result_classes
 
     results = result_classes(forcetorque)
     return {name: kind.described for name, kind in results.items()}

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of the user: regular ones only, each an input of the run, none of which unpacks to much more than it is."""
+"""Files of the user: regular ones only, each an input of the run; XML files are parsed without entities."""
 
 from __future__ import annotations
 
 import stat
 from pathlib import Path
+from xml.etree.ElementTree import Element, ParseError
+
+from defusedxml.common import DefusedXmlException
+from defusedxml.ElementTree import parse
 
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.run_files import declare_input
@@ -120,3 +124,25 @@ def require_unpacked(path: Path, size: int, *, where: str = "") -> None:
             f"{UNPACKED_RATIO} times its size), got {size >> 20} MiB; copy it again if it is damaged, else save it "
             "without compression or split it"
         )
+
+
+def read_xml(file: Path) -> Element | None:
+    """Parse an XML file that exists.
+
+    Args:
+        file: The file.
+
+    Returns:
+        Its root element.
+
+    Raises:
+        FormatError: If it is not XML, or uses entities or external files.
+    """
+    declare_input(file)
+    try:
+        root: Element | None = parse(file).getroot()
+    except ParseError as error:
+        raise FormatError(f"{file}:{error.position[0]}: expected XML, got {error.msg}") from error
+    except (DefusedXmlException, ValueError, LookupError) as error:
+        raise FormatError(f"{file}: expected plain XML, got {error!r}") from error
+    return root

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Physical constants with their sources, and units of files with their conversion to SI units."""
+"""Physical constants with their sources, units of files with their SI factors, and decimal numbers in text."""
 
 from __future__ import annotations
 
 import math
+import re
 
-from forcetorque.base.decimal_text import DECIMAL_NUMBER
 from forcetorque.base.errors import UnitError, known_names
+
+DECIMAL_NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+"""Digits with or without sign, fraction and exponent, to be matched as a whole."""
+
 
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of free fall, m/s2 (3rd CGPM, 1901)."""

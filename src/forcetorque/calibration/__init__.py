@@ -7,16 +7,15 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.calibration.calibrate import calibrate_sensor
+    from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor
     from forcetorque.calibration.export.export import (
         export_coefficients,
         export_icub_matrix,
         export_table,
         export_wholebodydynamics,
     )
-    from forcetorque.calibration.joint.robot import calibrate_jointly
-    from forcetorque.calibration.reduce_recordings import recording_moments, store_moments
-    from forcetorque.calibration.sensor_calibration import calibrate_for_file
+    from forcetorque.calibration.joint.calibrate import calibrate_jointly
+    from forcetorque.calibration.moments import recording_moments, store_moments
 
 CAPABILITY = Capability(
     needs=(
@@ -30,7 +29,6 @@ CAPABILITY = Capability(
 )
 
 __all__ = [
-    "CAPABILITY",
     "calibrate_for_file",
     "calibrate_jointly",
     "calibrate_sensor",
@@ -45,14 +43,14 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "calibrate_for_file": "forcetorque.calibration.sensor_calibration",
-        "calibrate_jointly": "forcetorque.calibration.joint.robot",
+        "calibrate_for_file": "forcetorque.calibration.calibrate",
+        "calibrate_jointly": "forcetorque.calibration.joint.calibrate",
         "calibrate_sensor": "forcetorque.calibration.calibrate",
         "export_coefficients": "forcetorque.calibration.export.export",
         "export_icub_matrix": "forcetorque.calibration.export.export",
         "export_table": "forcetorque.calibration.export.export",
         "export_wholebodydynamics": "forcetorque.calibration.export.export",
-        "recording_moments": "forcetorque.calibration.reduce_recordings",
-        "store_moments": "forcetorque.calibration.reduce_recordings",
+        "recording_moments": "forcetorque.calibration.moments",
+        "store_moments": "forcetorque.calibration.moments",
     },
 )

@@ -1,22 +1,44 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calibrate a sensor, by the generative model or by a type of the thesis, and warn of what makes it doubtful."""
+"""Calibrate a sensor, by the generative model or a type of the thesis, for a file; warnings about the result."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from typing import Literal
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Literal, Self
 
+from pydantic import Field
+
+from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.generative.artefact import generative_calibration
-from forcetorque.calibration.reduce_recordings import recording_moments
-from forcetorque.calibration.thesis.from_samples import thesis_calibration
+from forcetorque.calibration.joint.artefact import JointPosterior
+from forcetorque.calibration.joint.outcome import JointOutcome
+from forcetorque.calibration.moments import recording_moments
+from forcetorque.calibration.summary import (
+    LearntDirection,
+    calibration_blocks,
+    component_records,
+    learnt_directions,
+    learnt_words,
+)
+from forcetorque.calibration.thesis.calibrate import thesis_calibration
+from forcetorque.experiment.additions import added_to, with_recording_notes
 from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration
 from forcetorque.experiment.calibration.estimation_type import EstimationType, estimation_type
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.free_sub_model import possible_touch
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.inspection.findings import doubtful_spans
+from forcetorque.payload.diagnostics import contradicted_statements, load_doubts
+from forcetorque.payload.wrist_load import wrist_loads
+from forcetorque.recording.recording import Use
+from forcetorque.results.result import Result
+from forcetorque.results.table import Row, Table, table_of
 
 _MOMENTS = "stored moments are fitted by the generative model; leave out the estimation type and lambda"
 
@@ -186,3 +208,191 @@ def _refused(calibration: Calibration) -> Iterator[str]:
 
 def _unit(variable: CalibratedVariable) -> str:
     return f"{variable.unit} " if variable.unit else ""
+
+
+_MOST_ALIKE = 5
+"""Findings of one kind in an interval that are doubts by themselves; the rest is counted."""
+
+
+class SensorCalibration(Row):
+    """One calibration and the file that holds it."""
+
+    file: str
+    """Path of the file."""
+    calibration: Calibration = Field(repr=False)
+    """Its content."""
+    secondary_matrix: Annotated[FloatArray, ArrayField((6, 6))] | None
+    """`C C_prior^-1`, for a stream that is calibrated with the prior."""
+    learnt: tuple[LearntDirection, ...] | None
+    """What the recordings taught of every load direction; None for a type of the thesis, or without a prior."""
+
+
+class SensorCalibrations(Result):
+    """Calibrations of the sensors of an experiment."""
+
+    interval_uses = ("calibration",)
+
+    schema_name: Literal["forcetorque/calibrate/1"] = Field(default="forcetorque/calibrate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    calibrations: tuple[SensorCalibration, ...]
+    """One per sensor that could be fitted."""
+    joint: JointOutcome | None = None
+    """What a joint calibration says beside that; None where every sensor was calibrated alone."""
+    figure: str | None = None
+    """File of the figure of what the recordings taught; none where none was drawn."""
+    saved: bool = Field(default=False, exclude=True, repr=False)
+    """Whether the files are written; nothing is until `save`."""
+
+    def save(self, *, force: bool = False) -> Self:
+        """Write every calibration to its file, in folders that are made where they are missing.
+
+        Args:
+            force: As of `Calibration.save`.
+
+        Returns:
+            The same, which says that it is written.
+        """
+        for entry in self.calibrations:
+            file = Path(entry.file)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            entry.calibration.save(file, force=force)
+        if self.joint is not None and self.joint.file is not None:
+            sensors = [entry.calibration.sensor for entry in self.calibrations]
+            JointPosterior.of(self.joint.fit, {one.name: one.serial for one in sensors}).save(
+                self.joint.file, force=force
+            )
+        return self.model_copy(update={"saved": True})
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give matrix, variables and excitation of every sensor.
+
+        Yields:
+            Tables and sentences.
+        """
+        for entry in self.calibrations:
+            yield from calibration_blocks(entry.calibration)
+            if entry.learnt:
+                yield table_of(entry.learnt, "what the recordings taught: error that a unit load makes, one s.d.")
+                yield learnt_words(entry.learnt)
+            yield f"written to {entry.file}" if self.saved else f"not written yet: `save` writes {entry.file}"
+        if self.joint is not None:
+            yield from self.joint.blocks()
+            if self.joint.file is not None:
+                written = f"written to {self.joint.file}" if self.saved else f"goes to {self.joint.file} by `save`"
+                yield f"covariance of all sensors together {written}"
+        if self.figure is not None:
+            yield f"drawn to {self.figure}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give matrices, offsets and coefficients as flat lines.
+
+        Returns:
+            One line per sensor and component.
+        """
+        return [line for entry in self.calibrations for line in component_records(entry.calibration)]
+
+
+@with_recording_notes
+def calibrate_for_file(
+    runs: Runs | None,
+    file: Path | str,
+    *,
+    code_version: str,
+    created: str,
+    moments: Sequence[RecordingMoments] = (),
+    regularisation: float | Literal["held-out"] | None = None,
+    kind: EstimationType | str | None = None,
+    nonlinear: bool | None = None,
+) -> SensorCalibrations:
+    """Fit a sensor, and say what makes the calibration doubtful.
+
+    Args:
+        runs: The sensor, in one experiment or several.
+        file: File that `save` of the result writes.
+        code_version: As of `calibrate_sensor`.
+        created: As of `calibrate_sensor`.
+        moments: As of `calibrate_sensor`.
+        regularisation: As of `calibrate_sensor`.
+        kind: As of `calibrate_sensor`.
+        nonlinear: As of `calibrate_sensor`.
+
+    Returns:
+        The calibration, which no file holds yet.
+    """
+    calibration = calibrate_sensor(
+        runs,
+        code_version=code_version,
+        created=created,
+        moments=moments,
+        regularisation=regularisation,
+        kind=kind,
+        nonlinear=nonlinear,
+    )
+    entry = SensorCalibration(
+        file=str(file),
+        calibration=calibration,
+        secondary_matrix=calibration.secondary_matrix(),
+        learnt=learnt_directions(calibration),
+    )
+    campaign = None if runs is None else Campaign.of(runs)
+    doubts = [sentence for run in (campaign.runs if campaign else ()) for sentence in data_doubts(run)]
+    doubts += [sentence for sentence in calibration.provenance.added if sentence not in doubts]  # of stored moments
+    return SensorCalibrations(
+        experiment=calibration.provenance.experiment,
+        calibrations=(entry,),
+        warnings=(*doubts, *fit_doubts(calibration, said=doubts)),
+    )
+
+
+def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
+    """Say what makes any fit on the calibration intervals doubtful.
+
+    Args:
+        run: The sensor.
+        by_model: Whether it is compared with the model, as if nothing but the support touched the robot.
+
+    Yields:
+        A sentence where the load was weighed with the sensor itself, one for whatever the readings then contradict of
+        the file, one per interval in which the file says that something touches the robot beyond it, and one per
+        finding in a fitted interval; of many of one kind the first few, and how many more there are.
+    """
+    experiment = run.experiment
+    if (loads := wrist_loads(experiment)) is not None and not loads.are_stated:
+        yield (
+            "the load was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
+            "give mass_kg and centre_of_mass_m to judge it"
+        )
+    yield from contradicted_statements(run)
+    yield from load_doubts(run)
+    if by_model:
+        yield from _touched(run)
+        if (sentence := possible_touch(run)) is not None:
+            yield sentence
+    yield from added_to(experiment.recording)
+    yield from _found(run, by_model=by_model)
+
+
+def _found(run: SensorRun, *, by_model: bool) -> Iterator[str]:
+    """Findings in fitted intervals; a channel that saturates in every swing does not hide the others."""
+    start_ns, alone = run.experiment.recording.start_ns, replace(run.experiment, sensors=(run.sensor,))
+    alike: dict[str, list[str]] = {}
+    for interval, finding in doubtful_spans(alone, Use.CALIBRATION, by_model=by_model):
+        start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
+        kind = f"interval {interval.label!r}: {finding.stream} {finding.kind}"
+        alike.setdefault(kind, []).append(f"{kind} at {start:.2f}-{end:.2f} s: {finding.message}")
+    for kind, sentences in alike.items():
+        yield from sentences[:_MOST_ALIKE]
+        if len(sentences) > _MOST_ALIKE:
+            yield f"{kind}: {len(sentences) - _MOST_ALIKE} more, which `inspect` lists"
+
+
+def _touched(run: SensorRun) -> Iterator[str]:
+    for interval in run.experiment.intervals(Use.CALIBRATION):
+        if names := run.touched_beyond(interval):
+            yield (
+                f"interval {interval.label!r} is left out: {', '.join(names)} touches the robot beyond the sensor, by "
+                "[[contact]] or touched, so that nobody knows what it must read; calibrate all sensors at once, "
+                "--jointly, from Python calibrate_jointly"
+            )

@@ -16,7 +16,7 @@ from forcetorque.results.terminal.output import Format, refuse_standard_output, 
 if TYPE_CHECKING:
     import logging
 
-    from forcetorque.calibration.sensor_calibration import SensorCalibrations
+    from forcetorque.calibration.calibrate import SensorCalibrations
     from forcetorque.experiment.calibration.estimation_type import EstimationType
     from forcetorque.experiment.calibration.stored_moments import RecordingMoments
     from forcetorque.experiment.campaign import Campaign
@@ -87,11 +87,11 @@ def calibrate(
     from importlib.metadata import version
 
     from forcetorque.base.output_file import declare_outputs
+    from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file
     from forcetorque.calibration.calibrate_jointly_command import calibrate_together, refuse_beside_jointly
-    from forcetorque.calibration.reduce_recordings import store_moments
-    from forcetorque.calibration.sensor_calibration import SensorCalibrations, calibrate_for_file
+    from forcetorque.calibration.moments import store_moments
     from forcetorque.experiment.input_files import stated_in
-    from forcetorque.results.created import created_now
+    from forcetorque.results.result import created_now
     from forcetorque.results.terminal.output import refuse_figure
     from forcetorque.results.terminal.reading import campaign_of, read_experiments, stored_moments
 
@@ -136,7 +136,7 @@ def calibrate(
 
 def _warn_of_doubts(campaign: Campaign | None, log: logging.Logger) -> None:
     """Say what is doubtful in the data of a sensor that could not be fitted: it may be the reason."""
-    from forcetorque.calibration.sensor_calibration import data_doubts
+    from forcetorque.calibration.calibrate import data_doubts
 
     for run in campaign.runs if campaign else ():
         for sentence in data_doubts(run):
@@ -157,9 +157,9 @@ def _show(calibrations: SensorCalibrations, figure: Path | None, output_format: 
 
 def _drawn(calibrations: SensorCalibrations, figure: Path) -> SensorCalibrations:
     """Draw what the recordings taught of every sensor, and name the file in the result."""
-    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.calibration.figures.information import learnt_figure
-    from forcetorque.results.figures.canvas import png_bytes
+    from forcetorque.results.figures import png_bytes
 
     learnt = {
         f"{entry.calibration.sensor.name} ({entry.calibration.sensor.serial})": entry.learnt
@@ -209,7 +209,7 @@ def _sensors(
 
 
 def _files(output: Path, sensors: Sequence[tuple[str, str]]) -> list[Path]:
-    from forcetorque.calibration.joint.robot import calibration_file
+    from forcetorque.calibration.joint.calibrate import calibration_file
 
     if output.suffix == ".json":
         if len(sensors) != 1:

@@ -9,12 +9,10 @@ from importlib.metadata import version
 from pathlib import Path
 
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.files import write_bytes_atomically
-from forcetorque.base.output_file import declare_outputs
-from forcetorque.calibration.joint.data import JOINT_FILE
-from forcetorque.calibration.joint.robot import calibrate_jointly, calibration_file
-from forcetorque.calibration.sensor_calibration import SensorCalibrations
-from forcetorque.results.created import created_now
+from forcetorque.base.output_file import declare_outputs, write_bytes_atomically
+from forcetorque.calibration.calibrate import SensorCalibrations
+from forcetorque.calibration.joint.calibrate import JOINT_FILE, calibrate_jointly, calibration_file
+from forcetorque.results.result import created_now
 from forcetorque.results.terminal.output import Format, show
 from forcetorque.results.terminal.reading import read_experiments, sensors_named
 
@@ -81,7 +79,7 @@ def calibrate_together(
 
 def _drawn(result: SensorCalibrations, figure: Path) -> SensorCalibrations:
     from forcetorque.calibration.figures.joint import joint_figure
-    from forcetorque.results.figures.canvas import png_bytes
+    from forcetorque.results.figures import png_bytes
 
     if result.joint is None:
         return result

@@ -12,7 +12,7 @@ from forcetorque.calibration.summary import learnt_words, session_table
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.report import record_tables as tables
-from forcetorque.report.assessment.assessment import Assessment
+from forcetorque.report.assessment import Assessment
 from forcetorque.results.document.content import Block, Figure, Text
 from forcetorque.results.document.picture import Picture
 from forcetorque.results.table import short_names
@@ -85,7 +85,7 @@ def lambda_blocks(sensor: Assessment) -> Iterator[Block]:
     Yields:
         Sentences and a figure; nothing for the generative model, which has no lambda.
     """
-    from forcetorque.calibration.figures.held_out import held_out_figure
+    from forcetorque.calibration.figures.lambda_curves import held_out_figure
 
     chosen = _of_thesis(sensor)
     curves, ratios = {}, {}

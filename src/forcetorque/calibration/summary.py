@@ -12,8 +12,7 @@ import numpy as np
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.calibration.artefact import JOINT, Calibration, SessionOffset
 from forcetorque.results.number_text import number, with_error
-from forcetorque.results.row import COMPONENTS, Row, Shown
-from forcetorque.results.table import Table
+from forcetorque.results.table import COMPONENTS, Row, Shown, Table
 
 
 def calibration_blocks(calibration: Calibration) -> Iterator[Table | str]:

@@ -20,7 +20,6 @@ CAPABILITY = Capability(
 )
 
 __all__ = [
-    "CAPABILITY",
     "contest",
     "read_entries",
 ]

@@ -27,11 +27,11 @@ def contest(
     """
     from importlib.metadata import version
 
-    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.contests.entries import read_entries
     from forcetorque.contests.ranking import contest
     from forcetorque.experiment.input_files import stated_in
-    from forcetorque.results.created import created_now
+    from forcetorque.results.result import created_now
     from forcetorque.results.terminal.output import refuse_figure
 
     start_logging()
@@ -41,7 +41,7 @@ def contest(
         result = contest(entries, code_version=version("forcetorque"), created=created_now())
     if figure is not None:
         from forcetorque.contests.figure import contest_figure
-        from forcetorque.results.figures.canvas import png_bytes
+        from forcetorque.results.figures import png_bytes
 
         write_bytes_atomically(figure, png_bytes(contest_figure(result.loads)))
         result = result.model_copy(update={"figure": str(figure)})

@@ -20,9 +20,9 @@ from forcetorque.experiment.calibration.artefact import Calibration, read_calibr
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.offset_policy import Offset
+from forcetorque.experiment.sections import SixPositive
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_section import SixPositive
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.sensor.catalogue import find_sensor
 from forcetorque.workbench.recording import BenchRecording, read_bench
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.contests.result import ContestLoadRow
-from forcetorque.results.figures.canvas import (
+from forcetorque.contests.ranking import ContestLoadRow
+from forcetorque.results.figures import (
     ROW_INCHES,
     SMALL_POINTS,
     TITLE_POINTS,

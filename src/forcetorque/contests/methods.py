@@ -12,20 +12,19 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.generative.artefact import generative_calibration
-from forcetorque.calibration.reduce_recordings import recording_moments
+from forcetorque.calibration.moments import recording_moments
 from forcetorque.contests.entries import Contestant, ContestRun, Method
 from forcetorque.contests.phases import MotionPath, Trial, trial_of
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.experiment.offset_policy import Offset, mean_offset
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.unfitted_samples import require_unseen
-from forcetorque.experiment.validation_set import OFFSET_S
+from forcetorque.experiment.validation_offset import OFFSET_S, Offset, mean_offset
+from forcetorque.experiment.validity import require_unseen
 from forcetorque.recording.recording import Interval, Use
-from forcetorque.workbench.artefact import bench_calibration
 from forcetorque.workbench.fit import fit_bench
+from forcetorque.workbench.sensor_fit import bench_calibration
 
 _FITTED = (Method.IN_SITU, Method.IN_SITU_WITHOUT_PRIOR, Method.KNOWN_MASSES, Method.REFERENCE_SENSOR)
 

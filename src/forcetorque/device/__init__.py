@@ -7,8 +7,8 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.device.device import design_device
-    from forcetorque.device.files import write_device
+    from forcetorque.device.design import design_device
+    from forcetorque.device.simulated_recordings import write_device
 
 CAPABILITY = Capability(
     needs=(
@@ -21,7 +21,6 @@ CAPABILITY = Capability(
 )
 
 __all__ = [
-    "CAPABILITY",
     "design_device",
     "write_device",
 ]
@@ -29,7 +28,7 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "design_device": "forcetorque.device.device",
-        "write_device": "forcetorque.device.files",
+        "design_device": "forcetorque.device.design",
+        "write_device": "forcetorque.device.simulated_recordings",
     },
 )

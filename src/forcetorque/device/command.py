@@ -37,9 +37,9 @@ def device(
 
     Example: forcetorque device device.toml -o simulated
     """
-    from forcetorque.device.device import design_device
-    from forcetorque.device.file import DEFAULT_DEVICE, read_device
-    from forcetorque.device.files import write_device
+    from forcetorque.device.design import design_device
+    from forcetorque.device.device_file import DEFAULT_DEVICE, read_device
+    from forcetorque.device.simulated_recordings import write_device
 
     log = start_logging()
     refuse_standard_output("--output", output)

@@ -11,14 +11,14 @@ from typing import Annotated
 import numpy as np
 
 from forcetorque.device.description import device_load
-from forcetorque.device.envelope import Silhouette
+from forcetorque.device.device_file import DeviceFile
+from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM, LoadErrors
 from forcetorque.device.excitation import Run, least_excitation, uncertain, workbench_loads
 from forcetorque.device.expected_wrench import answer_of
-from forcetorque.device.file import DeviceFile
-from forcetorque.device.grades import FORCE_LIMIT_N, MOMENT_LIMIT_NM, LoadErrors
 from forcetorque.device.held_out import SAMPLES
+from forcetorque.device.mechanical_demands import Silhouette
 from forcetorque.device.tolerances import Tolerances
-from forcetorque.results.row import Row, Shown, ShownWrench, WrenchValues
+from forcetorque.results.table import Row, Shown, ShownWrench, WrenchValues
 from forcetorque.workbench.bench import Placement
 
 

@@ -22,18 +22,29 @@ from forcetorque.device.demand_result import (
     requirement_rows,
 )
 from forcetorque.device.description import Device, device_load
-from forcetorque.device.envelope import ARM_RADIUS_M, Silhouette, envelope
-from forcetorque.device.error_budget import ErrorBudget
+from forcetorque.device.device_file import DeviceFile
+from forcetorque.device.error_budget import (
+    DATA_SHEETS,
+    THESIS_GRADES,
+    ErrorBudget,
+    Graded,
+    LoadErrors,
+    graded,
+    load_errors,
+)
 from forcetorque.device.expected_wrench import BRACKET_LENGTH, COMPLIANCE, ENCODERS, LOAD_LENGTH, MASS, answer_of
-from forcetorque.device.file import DeviceFile
-from forcetorque.device.grades import DATA_SHEETS, THESIS_GRADES, Graded, LoadErrors, graded, load_errors
-from forcetorque.device.locking import hinge_ways, pendulum_Nm
-from forcetorque.device.motor_duty import MotorDuty, motor_duty
-from forcetorque.device.sequence import Sequence, YawReturn, twelve_steps
+from forcetorque.device.mechanical_demands import (
+    ARM_RADIUS_M,
+    MotorDuty,
+    Silhouette,
+    envelope,
+    hinge_ways,
+    motor_duty,
+    pendulum_Nm,
+)
+from forcetorque.device.motion import DeviceTrajectory, Sequence, YawReturn, twelve_steps
 from forcetorque.device.tolerances import Tolerance
-from forcetorque.device.trajectory import DeviceTrajectory
-from forcetorque.results.row import Row
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import Row, Table, table_of
 from forcetorque.robot.motion import JointMotion
 
 RATE_HZ = 20.0

@@ -10,13 +10,11 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.device.description import Device, HungLoad, Turn, device_load
-from forcetorque.device.sequence import Sequence, twelve_steps
+from forcetorque.device.motion import DeviceTrajectory, Sequence, twelve_steps
 from forcetorque.device.tolerances import Poses, Tolerances
-from forcetorque.device.trajectory import DeviceTrajectory
 from forcetorque.workbench.bench import Placement
+from forcetorque.workbench.excitation import UncertainLoads, load_sizes
 from forcetorque.workbench.loads import THESIS_TABLE, read_loads
-from forcetorque.workbench.span import load_sizes
-from forcetorque.workbench.uncertain_loads import UncertainLoads
 
 
 def workbench_loads(placement: Placement, samples: int) -> UncertainLoads:

@@ -16,11 +16,10 @@ from forcetorque.base.pose import split_pose
 from forcetorque.device.description import Device, HungLoad
 from forcetorque.device.model import BASE, device_model, device_root
 from forcetorque.robot.contacts import Wrenches
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.dynamics import expected_wrenches, link_pose
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.motion import JointMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import BodyTree, build_tree
 
 

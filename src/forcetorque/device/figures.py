@@ -11,26 +11,29 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
-from forcetorque.base.files import new_folder
+from forcetorque.base.output_file import new_folder
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.figures.excitation import space_figure
 from forcetorque.device.demand_result import GradeRow
-from forcetorque.device.device import DeviceDesign
-from forcetorque.device.envelope import VIEWS, Silhouette
-from forcetorque.device.grades import FORCE_LIMIT_N, MOMENT_LIMIT_NM
+from forcetorque.device.design import DeviceDesign
+from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM
+from forcetorque.device.mechanical_demands import VIEWS, Silhouette
 from forcetorque.device.span import DirectionRow
-from forcetorque.results.figures.canvas import (
+from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,
     SMALL_POINTS,
     TITLE_POINTS,
+    draw_over_time,
+    drawable_each,
+    instants,
     legend_below,
     look,
     new_figure,
     png_bytes,
     shown_name,
+    thinned_line,
 )
-from forcetorque.results.figures.curves import draw_over_time, drawable_each, instants, thinned_line
 from forcetorque.robot.motion import JointMotion
 
 if TYPE_CHECKING:

@@ -12,11 +12,11 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.device.tolerances import Poses, Tolerances
-from forcetorque.simulation.family import FAMILIES
+from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.workbench.bench import Placement
+from forcetorque.workbench.excitation import RANK_TOLERANCE, load_sizes
 from forcetorque.workbench.loads import BenchLoads
 from forcetorque.workbench.simulated_benches import simulate_specimen
-from forcetorque.workbench.span import RANK_TOLERANCE, load_sizes
 
 HELD_OUT_FORCE_N: Final = 100.0
 """Standard deviation of every component of a held-out force; N."""

@@ -11,7 +11,7 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import cross, make_pose, rotation_from_rpy
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.device.description import Axis, Device, HungLoad, part_inertia
-from forcetorque.robot.kinematics import motion_of_link
+from forcetorque.robot.dynamics import motion_of_link
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree

@@ -17,15 +17,12 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.device.description import Device, HungLoad
 from forcetorque.device.held_out import SAMPLES, held_out_loads, sample_noise
-from forcetorque.device.rest_wrenches import RestTable
-from forcetorque.device.sequence import Sequence, joint_ranges
-from forcetorque.device.tolerances import Tolerances
-from forcetorque.device.trajectory import joint_speeds
+from forcetorque.device.motion import Sequence, joint_ranges, joint_speeds
+from forcetorque.device.tolerances import RestTable, Tolerances
 from forcetorque.planning.information import blank_posterior
 from forcetorque.planning.search import Choices, Volume, picked_orders, search
-from forcetorque.simulation.motions.waypoints import Waypoints, shortest_moves
-from forcetorque.workbench.span import load_sizes
-from forcetorque.workbench.uncertain_loads import MatrixError
+from forcetorque.simulation.motions.trajectories import Waypoints, shortest_moves
+from forcetorque.workbench.excitation import MatrixError, load_sizes
 
 _SEED: Final = 22
 _AROUND_DEG: Final = 360.0

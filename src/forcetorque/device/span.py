@@ -24,14 +24,12 @@ from forcetorque.device.excitation import (
 )
 from forcetorque.device.expected_wrench import answer_of
 from forcetorque.device.held_out import HELD_OUT_FORCE_N, HELD_OUT_MOMENT_NM, SAMPLES, held_out_loads, sample_noise
+from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.motion_design import Designer
 from forcetorque.device.tolerances import Tolerances
-from forcetorque.device.trajectory import DeviceTrajectory
-from forcetorque.results.row import FloatOrNull, Row, Shown
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 from forcetorque.workbench.bench import Placement
-from forcetorque.workbench.span import Span
-from forcetorque.workbench.uncertain_loads import MatrixError
+from forcetorque.workbench.excitation import MatrixError, Span
 
 
 class SensorSpanRow(Row):

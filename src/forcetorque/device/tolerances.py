@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far the quantities of a device may be off, and what its sensors then measure."""
+"""How far the quantities of a device may be off, and what its sensors then measure at rest, for many postures."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from forcetorque.base.errors import SensorError
 from forcetorque.device.description import Device, HungLoad
 from forcetorque.device.expected_wrench import BRACKET_LENGTH, HINGE, LOAD_LENGTH, MASS, Reference
 from forcetorque.robot.motion import JointMotion
-from forcetorque.workbench.uncertain_loads import UncertainLoads
+from forcetorque.workbench.excitation import UncertainLoads
 
 NOISE_REACH = 3.0
 """Standard deviations of noise that count as its largest error, as normal noise has no largest one."""
@@ -247,3 +247,74 @@ class Poses:
         locks = np.array(self.device.hinge.locks_deg)
         nearest = locks[np.abs(hinge[:, None] - locks).argmin(axis=1)]
         return np.where(np.abs(hinge - nearest) < _AT_LOCK_DEG, nearest, _FREE)
+
+
+_THIRDS = np.deg2rad([-120.0, 0.0, 120.0])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RestTable:
+    """Loads of one device with one load at its locks."""
+
+    wrench: Mapping[float, FloatArray]
+    """What pitch and yaw make of the load, by lock in deg; shapes (9, 6); N, N m."""
+    lasting: Mapping[float, Mapping[str, FloatArray]]
+    """The same of every error that stays, by lock in deg and name; shapes (9, 6); N, N m."""
+
+    @classmethod
+    def of(cls, device: Device, load: HungLoad, sensor: str, tolerances: Tolerances) -> RestTable:
+        """Tabulate a device without a turn.
+
+        Args:
+            device: The device.
+            load: What hangs on its hinge.
+            sensor: Name of the sensor.
+            tolerances: How exact the device is.
+
+        Returns:
+            The table.
+        """
+        pitch, yaw = (angles.ravel() for angles in np.meshgrid(_THIRDS, _THIRDS))
+        inverse = np.asarray(np.linalg.inv(_basis(pitch, yaw)), dtype=np.float64)
+        wrench: dict[float, FloatArray] = {}
+        lasting: dict[float, dict[str, FloatArray]] = {}
+        for lock in device.hinge.locks_deg:
+            position = np.column_stack([pitch, yaw, np.full(len(pitch), np.deg2rad(lock))])
+            poses = Poses(device=device, load=load, position=position, count=np.ones(len(pitch)))
+            loads = poses.uncertain(sensor, tolerances)
+            wrench[lock] = inverse @ loads.wrench
+            lasting[lock] = {name: inverse @ change for name, change in loads.lasting.items()}
+        return cls(wrench=wrench, lasting=lasting)
+
+    def loads(self, position: FloatArray) -> UncertainLoads:
+        """Give the loads of samples that follow each other, with what may be wrong of them.
+
+        Args:
+            position: Pitch, yaw and hinge, at a lock; shape (n, 3); rad.
+
+        Returns:
+            The loads; samples of one hold are one pose.
+        """
+        starts = np.flatnonzero(np.append(True, np.abs(np.diff(position, axis=0)).max(axis=1) > 0.0))
+        poses = position[starts]
+        basis, hinge = _basis(poses[:, 0], poses[:, 1]), np.rad2deg(poses[:, 2])
+        names = dict.fromkeys(name for errors in self.lasting.values() for name in errors)
+        wrench = np.zeros((len(poses), 6))
+        lasting = {name: np.zeros_like(wrench) for name in names}
+        for lock, table in self.wrench.items():
+            at = np.abs(hinge - lock) < 1.0
+            wrench[at] = basis[at] @ table
+            for name, change in self.lasting[lock].items():
+                lasting[name][at] = basis[at] @ change
+        return UncertainLoads(
+            wrench=wrench,
+            count=np.diff(np.append(starts, len(position))),
+            lasting=lasting,
+            fresh=np.stack([lasting["pitch"], lasting["yaw"]], axis=2),
+        )
+
+
+def _basis(pitch: FloatArray, yaw: FloatArray) -> FloatArray:
+    """Products of the waves of both; shape (n, 9)."""
+    waves = [np.column_stack([np.ones(len(angle)), np.cos(angle), np.sin(angle)]) for angle in (pitch, yaw)]
+    return np.einsum("ni,nj->nij", *waves).reshape(len(pitch), 9)

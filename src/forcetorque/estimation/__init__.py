@@ -9,7 +9,7 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.estimation.estimate import estimate_experiment
     from forcetorque.estimation.result import summarise_estimates
-    from forcetorque.estimation.torque.fusion import fuse_experiment
+    from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 
 CAPABILITY = Capability(
     needs=("skin",),
@@ -22,7 +22,6 @@ CAPABILITY = Capability(
 )
 
 __all__ = [
-    "CAPABILITY",
     "estimate_experiment",
     "fuse_experiment",
     "summarise_estimates",
@@ -32,7 +31,7 @@ __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "estimate_experiment": "forcetorque.estimation.estimate",
-        "fuse_experiment": "forcetorque.estimation.torque.fusion",
+        "fuse_experiment": "forcetorque.estimation.torque.experiment_fusion",
         "summarise_estimates": "forcetorque.estimation.result",
     },
 )

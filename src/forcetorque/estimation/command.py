@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from logging import Logger
 
     from forcetorque.estimation.result import EstimateSummary
-    from forcetorque.estimation.torque_curves import TorquePicture
+    from forcetorque.estimation.torque.experiment_fusion import TorquePicture
     from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.experiment import Experiment
 
@@ -128,9 +128,8 @@ def _estimated(
     """Estimate over one experiment, write every sample, and draw the torques where a file is named."""
     from forcetorque.estimation.estimate import estimate_experiment
     from forcetorque.estimation.result import summarise_estimates
-    from forcetorque.estimation.skin.known_wrenches import frames_of_patches
-    from forcetorque.estimation.torque.fusion import fuse_experiment
-    from forcetorque.estimation.torque_curves import torque_picture
+    from forcetorque.estimation.skin_contacts import frames_of_patches
+    from forcetorque.estimation.torque.experiment_fusion import fuse_experiment, torque_picture
     from forcetorque.experiment.contacts import contact_in_words
     from forcetorque.experiment.sensor_models import corrections_of
 
@@ -157,9 +156,9 @@ def _estimated(
 
 
 def _draw(picture: TorquePicture, figure: Path, log: Logger) -> None:
-    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.estimation.figures import torque_figure
-    from forcetorque.results.figures.canvas import png_bytes
+    from forcetorque.results.figures import png_bytes
 
     if picture.left_out:
         log.info("drawn are the joints whose torques change most, not %s", ", ".join(picture.left_out))
@@ -169,7 +168,7 @@ def _draw(picture: TorquePicture, figure: Path, log: Logger) -> None:
 
 def _outputs(experiments: Sequence[Path], output: Path) -> dict[Path, Path]:
     """File for the samples of every experiment: the one that is named, or one each with its name before the ending."""
-    from forcetorque.experiment.recording_names import distinct_files
+    from forcetorque.experiment.input_files import distinct_files
 
     if len(experiments) == 1:
         return {experiments[0]: output}

@@ -1,32 +1,280 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact wrenches, joint torques and expected readings over the intervals of an experiment."""
+"""Contact wrenches, joint torques and expected wrenches over the intervals of an experiment."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.estimation.clock_stream import clock_stream
-from forcetorque.estimation.interval import IntervalQuestion
 from forcetorque.estimation.section import LENGTH_SCALE
-from forcetorque.estimation.skin.known_wrenches import SkinSource, frames_of_patches, uncertainty_of, with_skin
-from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
-from forcetorque.estimation.uncertain.estimates import UncertainEstimates
-from forcetorque.experiment.contacts import touched_otherwise
+from forcetorque.estimation.skin_contacts import SkinSource, frames_of_patches, sources_at, uncertainty_of, with_skin
+from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
+from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact
-from forcetorque.experiment.sensor_reading import Correction, Readings, readings_at
+from forcetorque.experiment.sensor_reading import Correction, Readings, readings_at, wrench_at
 from forcetorque.experiment.validity import AppliedReadings, applied_readings
-from forcetorque.recording.recording import Interval, Use
-from forcetorque.robot.contacts import Wrenches
+from forcetorque.recording.alignment import interpolate, require_overlap
+from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
+from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.ambiguity import indistinguishable
+from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimates import Estimates
-from forcetorque.robot.mechanics.samples import PaddedSamples, padded_samples
-from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum, moving_joints, required_joints_of
+from forcetorque.robot.mechanics.samples import PaddedSamples, padded_samples, robot_motion_at
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.tree import build_tree, outboard_bodies
+from forcetorque.skin.experiment import force_patches
 from forcetorque.skin.wrench.wrench import PatchFrames
+
+
+def narrowed(
+    question: Question, available: Collection[str], *, required: Collection[str]
+) -> tuple[Question, list[str]]:
+    """Leave out what needs joints that are not there.
+
+    A torque is left out too if a contact that it depends on is: it would be wrong without. Contacts whose wrench is
+    known need no equation, and stay.
+
+    Args:
+        question: Everything that is wanted.
+        available: Joints whose motion is known.
+        required: Contacts that somebody asked for by name.
+
+    Returns:
+        What can be answered, and what was left out, in words.
+
+    Raises:
+        ExperimentError: If a required contact would be left out.
+    """
+    kept: list[Contact] = []
+    solved, left_out = [], []
+    for part in question.parts:
+        inside = [contact for contact in question.contacts if question.body_of(contact) in part.bodies]
+        missing = _missing(question, available, contacts=inside, equations=(part.name,))
+        if not missing:
+            kept += inside
+            solved.append(part.name)
+            continue
+        asked = [contact.name for contact in inside if contact.name in required]
+        if asked:
+            raise ExperimentError(
+                f"contact {asked[0]!r}: its sub-model {part.name!r} cannot be solved, {_words(missing)}"
+            )
+        known = [contact for contact in inside if contact.type is ContactType.KNOWN]
+        kept += known
+        names = ", ".join(contact.name for contact in inside if contact not in known) or "none"
+        left_out.append(f"sub-model {part.name} with its contacts ({names}): {_words(missing)}")
+    torques = [joint for joint in question.torques if not _missing_for_torque(question, available, kept, joint)]
+    dropped = [joint for joint in question.torques if joint not in torques]
+    if dropped:
+        left_out.append(f"torques of {', '.join(dropped)}: joints, or contacts that act on them, are not known")
+    expected = []
+    for sensor in question.expected:
+        missing = _missing(question, available, expected=(sensor,))
+        if missing:
+            left_out.append(f"expected readings of {sensor}: {_words(missing)}")
+        else:
+            expected.append(sensor)
+    contacts = tuple(contact for contact in question.contacts if contact in kept)
+    answerable = replace(
+        question, contacts=contacts, equations=tuple(solved), torques=tuple(torques), expected=tuple(expected)
+    )
+    return answerable, left_out
+
+
+def _missing_for_torque(question: Question, available: Collection[str], kept: list[Contact], joint: str) -> list[str]:
+    body = next(index for index, body in enumerate(question.tree.bodies) if body.joint == joint)
+    outboard = outboard_bodies(question.tree, body)
+    acting = [c for c in question.contacts if c in kept or outboard[question.body_of(c)]]
+    return _missing(question, available, contacts=acting, torques=(joint,))
+
+
+def _missing(
+    question: Question,
+    available: Collection[str],
+    *,
+    contacts: Collection[Contact] = (),
+    equations: tuple[str, ...] = (),
+    torques: tuple[str, ...] = (),
+    expected: tuple[str, ...] = (),
+) -> list[str]:
+    part = replace(question, contacts=tuple(contacts), equations=equations, torques=torques, expected=expected)
+    return [joint for joint in required_joints_of(part) if joint not in available]
+
+
+def _words(missing: list[str]) -> str:
+    return f"no stream holds the joint(s) {', '.join(missing)}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class IntervalQuestion:
+    """A question over one interval, with the motion of the robot and the wrenches that are known."""
+
+    experiment: Experiment
+    """The experiment."""
+    interval: Interval
+    """The interval."""
+    samples: PaddedSamples
+    """Its instants, n with those around it."""
+    question: Question
+    """What is asked, as far as the log allows."""
+    left_out: tuple[str, ...]
+    """What it does not allow, in words."""
+    joints: JointMotion
+    """Motion of the joints; n samples."""
+    root: RootMotion
+    """Motion of the support frame."""
+    skin: tuple[SkinSource, ...]
+    """Contacts on skin; n samples."""
+    known: Wrenches | None
+    """Wrenches of known contacts; n samples."""
+
+    @classmethod
+    def of(
+        cls,
+        experiment: Experiment,
+        interval: Interval,
+        samples: PaddedSamples,
+        contacts: Sequence[ExperimentContact],
+        *,
+        asked: bool | None = None,
+        length_scale: float | None = None,
+        patches: Sequence[PatchFrames] = (),
+    ) -> IntervalQuestion:
+        """Ask what touches the robot over an interval.
+
+        Args:
+            experiment: The experiment.
+            interval: The interval.
+            samples: Its instants.
+            contacts: Contacts beside the support, of all intervals.
+            asked: Whether only the contacts that are named are asked for; where not, whatever touches the part outboard
+                of a sensor is, at that sensor. By whether any is named if None.
+            length_scale: Moment that weighs as much as one newton, where contacts leave something undetermined; m.
+            patches: What patches of skin say.
+
+        Returns:
+            The question.
+
+        Raises:
+            ExperimentError: If the interval has no support, or a named contact cannot be told.
+        """
+        support = interval.support
+        if support is None:
+            raise ExperimentError(f"interval {interval.label!r}: expected a support frame")
+        present, at_ns = contacts_in(interval, contacts), samples.stamp_ns
+        skin = sources_at(experiment, patches, at_ns)
+        named = bool(contacts) if asked is None else asked
+        question = _question(experiment, support, present, skin, asked=named, length_scale=length_scale)
+        available = set(experiment.recording.joint_signals("position"))
+        question, left_out = narrowed(question, available, required={entry.contact.name for entry in present})
+        source = clock_stream(experiment)
+        joints, root = robot_motion_at(
+            experiment.recording,
+            experiment.model,
+            support,
+            required_joints_of(question),
+            source,
+            at_ns,
+            processing=experiment.processing,
+        )
+        for stream in (entry.stream for entry in present if entry.stream):
+            require_overlap(source, experiment.recording.stream(stream))
+        return cls(
+            experiment=experiment,
+            interval=interval,
+            samples=samples,
+            question=question,
+            left_out=tuple(left_out),
+            joints=joints,
+            root=root,
+            skin=tuple(skin),
+            known=_known(experiment, question, present, skin, at_ns),
+        )
+
+    def measured(self, corrections: Mapping[str, Correction]) -> Wrenches:
+        """Read the sensors.
+
+        Args:
+            corrections: How each is read.
+
+        Returns:
+            What they measured; n samples.
+
+        Raises:
+            RecordingError: If a stream does not overlap the instants.
+        """
+        experiment, readings = self.experiment, {}
+        for sensor in experiment.sensors:
+            correction = corrections[sensor.name]
+            streams = [sensor.stream, *(sensor.variable(name).source.stream for name in correction.variables)]
+            for stream in streams:
+                require_overlap(clock_stream(experiment), experiment.recording.stream(stream))
+            readings[sensor.name] = wrench_at(
+                experiment, sensor, correction, self.samples.stamp_ns, interval=self.interval
+            )
+        return Wrenches.of(readings) if readings else Wrenches(names=(), values=np.empty((len(self.joints), 0, 6)))
+
+    def estimates(self, measured: Wrenches, *, progress: Callable[[int], None] | None = None) -> Estimates:
+        """Answer it.
+
+        Args:
+            measured: What the sensors measured; n samples.
+            progress: Called with the number of samples done.
+
+        Returns:
+            The answer; n samples, not filtered.
+        """
+        return estimate(self.question, self.joints, self.root, measured=measured, known=self.known, progress=progress)
+
+
+def _question(
+    experiment: Experiment,
+    support: Support | MovingSupport,
+    present: Sequence[ExperimentContact],
+    skin: Sequence[SkinSource],
+    *,
+    asked: bool,
+    length_scale: float | None,
+) -> Question:
+    tree = build_tree(experiment.model_on(support), support.frame)
+    sensors = tuple(sensor.name for sensor in experiment.sensors)
+    contacts = [entry.contact for entry in present]
+    if support.frame not in [contact.name for contact in contacts]:
+        contacts.insert(0, Contact(link=support.frame))
+    if not asked:
+        contacts += contacts_at_sensors(tree, sensors)
+    return Question(
+        tree=tree,
+        measured=sensors,
+        contacts=(*contacts, *(source.contact for source in skin)),
+        torques=moving_joints(tree),
+        # errors leave nothing in a sub-model that its neighbours' torques would need
+        torque_sum=TorqueSum.SUB_MODEL if force_patches(experiment) else TorqueSum.WHOLE_TREE,
+        expected=sensors,
+        minimum_norm=None if length_scale is None else MinimumNorm(length_scale=length_scale),
+    )
+
+
+def _known(
+    experiment: Experiment,
+    question: Question,
+    present: Sequence[ExperimentContact],
+    skin: Sequence[SkinSource],
+    at_ns: IntArray,
+) -> Wrenches | None:
+    streams = {e.contact.name: e.stream for e in present if e.stream is not None}
+    wrenches = {source.contact.name: source.wrench for source in skin}
+    for contact in question.contacts:
+        if contact.type is ContactType.KNOWN and contact.name in streams:
+            stream = experiment.recording.stream(streams[contact.name])
+            wrenches[contact.name] = interpolate(stream, stream.signal("wrench").values, at_ns)
+    return Wrenches.of(wrenches) if wrenches else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -13,24 +13,22 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError, UnitError, known_names
 from forcetorque.base.units import NORMAL_95
-from forcetorque.results.figures.canvas import (
+from forcetorque.results.figures import (
+    DRAWN_SAMPLES,
     REFERENCE_COLOUR,
     ROW_INCHES,
     SMALL_POINTS,
     TITLE_POINTS,
     Look,
+    draw_over_time,
+    drawable,
+    drawable_each,
+    instants,
     legend_below,
     look,
     new_figure,
     shown_name,
     text_inches,
-)
-from forcetorque.results.figures.curves import (
-    DRAWN_SAMPLES,
-    draw_over_time,
-    drawable,
-    drawable_each,
-    instants,
     thinned_line,
 )
 

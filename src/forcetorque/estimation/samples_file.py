@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.estimation.uncertain.estimates import UncertainEstimates
+from forcetorque.estimation.uncertain.estimate import UncertainEstimates
 from forcetorque.formats.sample_table import Column, SampleSpan, write_samples
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.estimates import Estimates

@@ -8,13 +8,13 @@ from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.evaluation.acceptance.acceptance import accept
-    from forcetorque.evaluation.acceptance.file import read_acceptance
+    from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
     from forcetorque.evaluation.evaluation import Evaluation, evaluate
-    from forcetorque.evaluation.load_cases.judgement import use_verdicts
+    from forcetorque.evaluation.load_cases.verdict import use_verdicts
     from forcetorque.evaluation.sphere.sphere import spheres, spheres_of_sensors
     from forcetorque.evaluation.trials.comparison import compare
     from forcetorque.evaluation.validation.validation import Validation, validate
-    from forcetorque.experiment.error_statistics import wrench_errors
+    from forcetorque.experiment.calibrations_under_test import wrench_errors
 
 CAPABILITY = Capability(
     needs=(
@@ -37,7 +37,6 @@ CAPABILITY = Capability(
 )
 
 __all__ = [
-    "CAPABILITY",
     "Evaluation",
     "Validation",
     "accept",
@@ -59,11 +58,11 @@ __getattr__, __dir__ = lazy_names(
         "accept": "forcetorque.evaluation.acceptance.acceptance",
         "compare": "forcetorque.evaluation.trials.comparison",
         "evaluate": "forcetorque.evaluation.evaluation",
-        "read_acceptance": "forcetorque.evaluation.acceptance.file",
+        "read_acceptance": "forcetorque.evaluation.acceptance.acceptance_file",
         "spheres": "forcetorque.evaluation.sphere.sphere",
         "spheres_of_sensors": "forcetorque.evaluation.sphere.sphere",
-        "use_verdicts": "forcetorque.evaluation.load_cases.judgement",
+        "use_verdicts": "forcetorque.evaluation.load_cases.verdict",
         "validate": "forcetorque.evaluation.validation.validation",
-        "wrench_errors": "forcetorque.experiment.error_statistics",
+        "wrench_errors": "forcetorque.experiment.calibrations_under_test",
     },
 )

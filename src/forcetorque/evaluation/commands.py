@@ -74,7 +74,7 @@ def accept(
     Example: forcetorque accept experiment.toml --spec limits.toml -c leg.json
     """
     from forcetorque.evaluation.acceptance.acceptance import Acceptance, accept
-    from forcetorque.evaluation.acceptance.file import read_acceptance
+    from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
     from forcetorque.experiment.applicability import one_per_sensor, read_population
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.results.terminal.reading import campaign_of, read_calibrations, read_experiments
@@ -144,10 +144,10 @@ def compare(
 def _drawn(result: Comparison, figure: Path) -> Comparison:
     """Draw the figure, and name it if it was drawn; what fails then must not cost the result."""
     from forcetorque.base.errors import ForceTorqueError
-    from forcetorque.base.files import write_bytes_atomically
-    from forcetorque.evaluation.figures.compare import index_figure
+    from forcetorque.base.output_file import write_bytes_atomically
+    from forcetorque.evaluation.figures.sphere import index_figure
     from forcetorque.evaluation.sphere.result import FailureRow
-    from forcetorque.results.figures.canvas import png_bytes
+    from forcetorque.results.figures import png_bytes
 
     try:
         write_bytes_atomically(figure, png_bytes(index_figure(result.analyses)))
@@ -171,7 +171,7 @@ def sphere(
 
     Example: forcetorque sphere experiment.toml --interval grid
     """
-    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.evaluation.sphere.sphere import spheres_of_sensors
     from forcetorque.results.terminal.output import refuse_figure
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
@@ -185,7 +185,7 @@ def sphere(
     result = spheres_of_sensors(content, chosen, calibrations, interval, file=str(experiment), progress=log.info)
     if figure is not None:
         from forcetorque.evaluation.figures.sphere import sphere_figure
-        from forcetorque.results.figures.canvas import png_bytes
+        from forcetorque.results.figures import png_bytes
 
         write_bytes_atomically(figure, png_bytes(sphere_figure(result.analyses)))
         result = result.model_copy(update={"figure": str(figure)})
@@ -226,8 +226,8 @@ def validate(
     """
     from forcetorque.evaluation.validation.validation import Validation, validate
     from forcetorque.experiment.applicability import by_sensor, one_per_sensor
+    from forcetorque.experiment.free_sub_model import OtherSensors
     from forcetorque.experiment.input_files import stated_in
-    from forcetorque.experiment.sub_model_choice import OtherSensors
     from forcetorque.results.terminal.reading import campaign_of, read_calibrations, read_experiments
 
     log = start_logging()

@@ -12,24 +12,49 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import one_after_another
-from forcetorque.evaluation.load_cases.evidence import JudgedExcitation, fewest_independent, still_words
-from forcetorque.evaluation.load_cases.judgement import use_verdicts
-from forcetorque.evaluation.load_cases.prior_comparison import PriorComparison, comparison_sentence, prior_comparisons
-from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_sentences
+from forcetorque.evaluation.load_cases.validation_evidence import (
+    JudgedExcitation,
+    PriorComparison,
+    comparison_sentence,
+    fewest_independent,
+    prior_comparisons,
+    still_words,
+)
+from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_sentences, use_verdicts
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibrations_under_test import (
+    Calibrations,
+    JudgedCandidate,
+    JudgedRow,
+    JudgedWrenches,
+    named,
+    wrench_errors,
+)
 from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.candidates import Calibrations, JudgedCandidate, JudgedRow, JudgedWrenches, named
-from forcetorque.experiment.error_statistics import wrench_errors
-from forcetorque.experiment.offset_policy import Offset
-from forcetorque.experiment.unfitted_samples import doubts_about_choice, require_unseen
-from forcetorque.experiment.validity import ReadingsOutside, readings_outside, sentences
+from forcetorque.experiment.validation_offset import Offset
+from forcetorque.experiment.validity import (
+    ReadingsOutside,
+    doubts_about_choice,
+    readings_outside,
+    require_unseen,
+    sentences,
+)
 from forcetorque.payload.diagnostics import circular_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
-from forcetorque.results.row import Shown, ShownWrench, WrenchValues
-from forcetorque.results.table import VAGUE_WORDS, Table, short_names, table_of, with_first_column, without_vague
+from forcetorque.results.table import (
+    VAGUE_WORDS,
+    Shown,
+    ShownWrench,
+    Table,
+    WrenchValues,
+    short_names,
+    table_of,
+    with_first_column,
+    without_vague,
+)
 
 if TYPE_CHECKING:
     from forcetorque.experiment.sensor_run import SensorRun

@@ -12,7 +12,7 @@ from forcetorque.base.arrays import FloatArray, read_only, require_shape
 from forcetorque.base.errors import SensorError, ShapeError
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.results.row import FloatOrNull, Row
+from forcetorque.results.table import FloatOrNull, Row
 from forcetorque.sensor.full_scale import RawLimits, ReachableFullScale, all_channels_full_scale, reachable_full_scale
 from forcetorque.sensor.gains.amplifier_gains import AxisResolution, axis_resolution
 

@@ -17,11 +17,10 @@ from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.experiment import file as schema
 from forcetorque.experiment.clocks import aligned_clocks
 from forcetorque.experiment.input_files import Inputs, stated_in
-from forcetorque.experiment.processing_section import PoseTable, TransformTable
+from forcetorque.experiment.sections import PoseTable, TransformTable
+from forcetorque.recording.frames import orientation_at, pose_at, wrench_in_frame
 from forcetorque.recording.recording import Finding, Recording
-from forcetorque.recording.wrench_frame import orientation_at, pose_at, wrench_in_frame
-from forcetorque.results.result import Result
-from forcetorque.results.unusable_samples import UnusableSamples
+from forcetorque.results.result import Result, UnusableSamples
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import fix_joints
 from forcetorque.robot.urdf import read_urdf
@@ -192,7 +191,7 @@ def _untold(arguments: Iterable[Any], told: Iterable[str]) -> Iterator[str]:
 def _left_out(arguments: Iterable[Any], uses: Collection[str]) -> Iterator[UnusableSamples]:
     """What is left out of the sensors that were read."""
     from forcetorque.experiment.experiment import Experiment
-    from forcetorque.experiment.unusable_samples import unusable_samples
+    from forcetorque.experiment.sample_quality import unusable_samples
 
     for experiment, sensor in dict.fromkeys(_experiments(arguments)):
         if isinstance(experiment, Experiment):

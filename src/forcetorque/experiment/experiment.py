@@ -12,8 +12,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.experiment.calibration.assumptions import REPEATABILITY
 from forcetorque.experiment.calibration.estimation_type import EstimationType, OffsetStrategy
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
-from forcetorque.experiment.recording_names import path_endings, recording_name
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
+from forcetorque.experiment.input_files import path_endings, recording_name
 from forcetorque.experiment.section import Section
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use

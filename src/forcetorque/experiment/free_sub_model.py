@@ -1,24 +1,172 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sub-model without contact that validates a sensor, and links that might be in contact."""
+"""The sub-model without contact that validates a sensor, how it is chosen, and links that might be in contact."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import TypeVar
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ExperimentError
+from forcetorque.base.errors import EstimationError, ExperimentError, RobotError, known_names
+from forcetorque.base.pose import invert_pose
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sub_model_choice import ContactForceValidation, OtherSensors
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.recording import Interval, Use
-from forcetorque.robot.contacts import Contact
-from forcetorque.robot.tree import build_tree
+from forcetorque.robot.contacts import Contact, ContactType
+from forcetorque.robot.dynamics import body_pose
+from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.tree import BodyTree, SubModel, build_tree, cut_of, sub_models
+
+
+class OtherSensors(StrEnum):
+    """What the other sensors at the cuts of the sub-model are taken to read."""
+
+    MODEL = "model"
+    """What the model expects: only the judged sensor errs. Right only while the support is the one contact of the
+    whole robot."""
+    MEASURED = "measured"
+    """What they measured: contacts elsewhere do no harm, and the errors of these sensors are in the result."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ContactForceValidation:
+    """Which sensor is judged, by which of the two sub-models that it bounds; nothing may touch that one."""
+
+    tree: BodyTree
+    """Robot rooted at the link whose motion is known: that of an IMU, or the fixed one."""
+    sensor: str
+    """Sensor that is judged."""
+    sub_model: str | None = None
+    """Sub-model that is free of contact, by the sensor at its base or the root link; None for the one outboard of the
+    judged sensor."""
+    contact: Contact | None = None
+    """Contact of type `wrench` on the sub-model at which the wrench is estimated; None for the origin of the link that
+    is mounted on the judged sensor on the sub-model's side, or of one that is fixed to it."""
+    other_sensors: OtherSensors = OtherSensors.MODEL
+    """What the other sensors of the sub-model are taken to read."""
+    support: str | None = None
+    """Link of the one contact that expected readings assume; the root link if None. It may not be on the sub-model."""
+    cut_at: tuple[str, ...] | None = None
+    """Sensors at which the robot is cut; all in fixed joints if None. One that does not work is left out."""
+    part: SubModel = field(init=False)
+    """The sub-model."""
+    point: Contact = field(init=False)
+    """The contact, chosen or given."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "other_sensors", OtherSensors(self.other_sensors))
+        cuts = self.tree.cuts if self.cut_at is None else self.cut_at
+        object.__setattr__(self, "cut_at", tuple(cuts))
+        object.__setattr__(self, "part", self._bounded_part(tuple(cuts)))
+        object.__setattr__(self, "point", self._point_on_part())
+        self._refuse_support()
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        """The other sensors at the cuts of the sub-model."""
+        cuts = () if self.part.sensor is None else (self.part.sensor,)
+        return tuple(name for name in (*cuts, *self.part.outboard_sensors) if name != self.sensor)
+
+    @property
+    def sign(self) -> float:
+        """Factor from reading less `free_reading` to the wrench at the sensor: 1 at the base, -1 at an outboard cut."""
+        return 1.0 if self.part.sensor == self.sensor else -1.0
+
+    @property
+    def direction(self) -> float:
+        """Factor from what the environment does to the robot to the direction in which the sensor measures; 1 or -1."""
+        return -self.tree.cuts[self.sensor].sign
+
+    @property
+    def required_joints(self) -> tuple[str, ...]:
+        """Joints whose motion the result depends on, each once."""
+        questions = (self.contact_question, self.expected_question)
+        return tuple(dict.fromkeys(joint for asked in questions if asked for joint in required_joints_of(asked)))
+
+    @property
+    def contact_question(self) -> Question:
+        """What the sensors of the sub-model are asked about the contact."""
+        return Question(tree=self.tree, measured=(self.sensor, *self.others), contacts=(self.point,), equations=())
+
+    @property
+    def expected_question(self) -> Question | None:
+        """What the model is asked about the other sensors; None if nothing."""
+        if self.other_sensors is OtherSensors.MEASURED or not self.others:
+            return None
+        return Question(tree=self.tree, expected=self.others, expected_contact=self.support, equations=())
+
+    def sensor_H_contact(self, joints: JointMotion) -> FloatArray:
+        """Find where the contact is, seen from the judged sensor.
+
+        Args:
+            joints: Motion of at least the required joints; n samples.
+
+        Returns:
+            Pose of the contact frame in the frame of the reading; shape (n, 4, 4), or (1, 4, 4) where both are on one
+            rigid body; m.
+        """
+        cut = self.tree.cuts[self.sensor]
+        body, body_H_link = self.tree.frames[self.point.link]
+        sensor_H_cut, body_H_contact = invert_pose(cut.body_H_sensor), body_H_link @ self.point.link_H_contact
+        if body in (cut.body, self.tree.bodies[cut.body].parent):  # both sides of a cut share their frame
+            return (sensor_H_cut @ body_H_contact)[None]
+        root_H_cut, root_H_body = (body_pose(self.tree, joints, index) for index in (cut.body, body))
+        return sensor_H_cut @ invert_pose(root_H_cut) @ root_H_body @ body_H_contact
+
+    def _bounded_part(self, cuts: tuple[str, ...]) -> SubModel:
+        cut_of(self.tree, self.sensor)  # its error lists the sensors
+        if self.sensor not in cuts:
+            raise EstimationError(f"cut_at: expected the judged sensor {self.sensor!r} among the cuts, got {cuts}")
+        parts = sub_models(self.tree, cuts)
+        sides = {part.name: part for part in parts if self.sensor in (part.sensor, *part.outboard_sensors)}
+        wanted = self.sensor if self.sub_model is None else self.sub_model
+        if wanted not in sides:
+            raise EstimationError(
+                f"sub_model: expected one of the two that sensor {self.sensor!r} bounds, "
+                f"{' or '.join(map(repr, sides))}, got {wanted!r}"
+            )
+        return sides[wanted]
+
+    def _point_on_part(self) -> Contact:
+        frames, cut = self.tree.frames, self.tree.cuts[self.sensor]
+        if self.contact is None:
+            body = cut.body if self.part.sensor == self.sensor else self.tree.bodies[cut.body].parent
+            return Contact(link=self.tree.bodies[body].links[0], name="contact")
+        if self.contact.link not in frames:
+            raise RobotError(f"contact: no link {self.contact.link!r}; {known_names(self.contact.link, frames)}")
+        if frames[self.contact.link][0] not in self.part.bodies:
+            links = [link for body in self.part.bodies for link in self.tree.bodies[body].links]
+            raise EstimationError(
+                f"contact: expected a link of sub-model {self.part.name!r}, got {self.contact.link!r}; "
+                f"{known_names(self.contact.link, links)}"
+            )
+        if self.contact.type is not ContactType.WRENCH:
+            raise EstimationError(
+                f"contact on {self.contact.link!r}: expected the type wrench, which takes up whatever its sub-model "
+                f"leaves unexplained, got {self.contact.type}"
+            )
+        return self.contact
+
+    def _refuse_support(self) -> None:
+        modelled = self.other_sensors is OtherSensors.MODEL
+        support = self.tree.root_link if self.support is None and modelled else self.support
+        if support is None:
+            return
+        if support not in self.tree.frames:
+            raise RobotError(f"support: no link {support!r}; {known_names(support, self.tree.frames)}")
+        if self.tree.frames[support][0] in self.part.bodies:
+            raise EstimationError(
+                f"sub_model: {self.part.name!r} bears the support {support!r}, so that it is not free of contact; "
+                f"judge {self.sensor!r} by the sub-model on its other side, or name the link that does bear the robot"
+            )
+
 
 Answer = TypeVar("Answer")
 

@@ -14,7 +14,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.quality import stream_findings
 from forcetorque.recording.recording import Interval
 from forcetorque.recording.stream import Stream
-from forcetorque.results.row import Row
+from forcetorque.results.table import Row
 from forcetorque.robot.mechanics.samples import pick_samples
 
 

@@ -16,8 +16,8 @@ from forcetorque.experiment.experiment import Experiment, Role
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
 from forcetorque.experiment.input_files import Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
-from forcetorque.experiment.processing_section import processing_of
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
+from forcetorque.experiment.sections import processing_of
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
 from forcetorque.experiment.streams import read_streams
 from forcetorque.recording.recording import Support, Use

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which samples of a sensor belong into fits and evaluations: decided here, for all of them and for `inspect`."""
+"""Which samples of a sensor belong into fits and evaluations, and what results state of those left out."""
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.errors import ForceTorqueError, RecordingError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.experiment.calibration.sensor_model import recover_raw
+from forcetorque.experiment.experiment import Experiment
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.recording.sample_quality import (
     Run,
@@ -25,10 +27,11 @@ from forcetorque.recording.sample_quality import (
     smallest_steps,
 )
 from forcetorque.recording.stream import Stream
+from forcetorque.results.result import UnusableSamples
 from forcetorque.robot.mechanics.samples import expected_wrench, pick_samples
 
 if TYPE_CHECKING:
-    from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+    from forcetorque.experiment.experiment import ExperimentSensor
 
 
 _MOVED = 0.02
@@ -220,3 +223,38 @@ def _expected_over(
     finite = np.isfinite(expected).all(axis=1)
     within = {run: expected[finite & np.isin(rows, some)] for run, some in chosen.items()}
     return expected[finite], {run: part for run, part in within.items() if len(part) > 1}
+
+
+def unusable_samples(experiment: Experiment, *, sensor: str | None, uses: Collection[str]) -> Iterator[UnusableSamples]:
+    """Count what is left out of the sensors of an experiment that were read so far.
+
+    Args:
+        experiment: The experiment.
+        sensor: Name of the only sensor that counts; all if None.
+        uses: Uses of the intervals that count; all but ignored ones if empty.
+
+    Yields:
+        A row for every sensor and interval of which something is left out.
+    """
+    for name, quality in experiment.qualities.items():
+        if sensor not in (None, name):
+            continue
+        stream = experiment.recording.stream(experiment.sensor(name).stream)
+        for interval in experiment.recording.intervals:
+            if interval.use is Use.IGNORE or (uses and interval.use not in uses):
+                continue
+            try:
+                _, among = pick_samples(experiment.recording, stream, interval)
+            except RecordingError:  # nothing of the sensor lies in it, so nothing is left out
+                continue
+            if counts := quality.counted(among):
+                yield UnusableSamples(
+                    sensor=name,
+                    recording=experiment.name,
+                    interval=interval.label,
+                    use=interval.use.value,
+                    samples=int(np.count_nonzero(among)),
+                    frozen=counts.frozen,
+                    saturated=counts.saturated,
+                    repeated=counts.repeated,
+                )

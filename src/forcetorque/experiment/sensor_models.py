@@ -8,10 +8,10 @@ from collections.abc import Mapping
 from forcetorque.experiment.applicability import one_per_sensor
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.offset_policy import Offset, OffsetPolicy
 from forcetorque.experiment.offsets import offset_policies, with_policy
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
 
 FITTED = OffsetPolicy(Offset.FITTED)
 

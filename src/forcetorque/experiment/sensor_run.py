@@ -13,7 +13,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.applicability import require_fit
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.provenance import SensorIdentity
-from forcetorque.experiment.candidates import (
+from forcetorque.experiment.calibrations_under_test import (
     JudgedCandidate,
     JudgedWrenches,
     judged_candidates,
@@ -22,15 +22,14 @@ from forcetorque.experiment.candidates import (
 )
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact, ExperimentSensor
-from forcetorque.experiment.first_second import JudgedInstants
 from forcetorque.experiment.sensor_reading import Correction, Readings, wrench_at
 from forcetorque.experiment.sensor_samples import IntervalSamples, readings_over, samples_over
+from forcetorque.experiment.validation_offset import JudgedInstants
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.sub_model import path_to_root
-from forcetorque.robot.tree import build_tree
+from forcetorque.robot.tree import build_tree, path_to_root
 
 _Answer = TypeVar("_Answer")
 

@@ -13,18 +13,16 @@ from pydantic import Field, create_model
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.toml_file import Table, Text, read_toml, toml_content
 from forcetorque.experiment.additions import read_robot
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.calibration_section import CalibrationTable, fit_options
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor, SensorVariable
 from forcetorque.experiment.file import Robot, section_fields
 from forcetorque.experiment.file import Support as SupportTable
 from forcetorque.experiment.input_files import Inputs
 from forcetorque.experiment.intervals import read_supports
-from forcetorque.experiment.prior import full_scale_of, read_prior
-from forcetorque.experiment.processing_section import ProcessingTable, processing_of
 from forcetorque.experiment.section import Loading, sections
-from forcetorque.experiment.sensor_section import Sensor
-from forcetorque.experiment.sensors import declare_sensors
+from forcetorque.experiment.sections import ProcessingTable, Sensor, processing_of
+from forcetorque.experiment.sensors import declare_sensors, full_scale_of, read_prior
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.recording import Recording, Support
 from forcetorque.robot.model import RobotModel

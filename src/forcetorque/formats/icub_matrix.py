@@ -16,7 +16,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
 from forcetorque.base.errors import FormatError, MissingFileError, ShapeError, quoted
-from forcetorque.base.files import write_bytes_atomically
+from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 

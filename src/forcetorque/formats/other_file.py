@@ -7,7 +7,7 @@ from codecs import BOM_UTF8
 from pathlib import Path
 
 from forcetorque.base.errors import FormatError
-from forcetorque.base.xml_file import read_xml
+from forcetorque.base.input_file import read_xml
 from forcetorque.formats.prior.registry import holds_prior
 
 _LOOKED_AT = 4096

@@ -23,7 +23,7 @@ from forcetorque.formats.other_file import other_file
 from forcetorque.formats.parquet import ParquetFormat
 from forcetorque.formats.robometry.log_format import RobometryFormat
 from forcetorque.formats.ros.log_format import RosFormat
-from forcetorque.formats.tabular.form import hindrance
+from forcetorque.formats.tabular.dialect import hindrance
 from forcetorque.formats.tabular.log_format import TabularFormat
 from forcetorque.formats.yarp.log_format import YarpFormat
 from forcetorque.recording.alignment import joined_stream

@@ -16,7 +16,7 @@ import pyarrow.parquet as pq
 
 from forcetorque.base.arrays import IntArray
 from forcetorque.base.errors import FormatError
-from forcetorque.base.files import write_bytes_atomically
+from forcetorque.base.output_file import write_bytes_atomically
 
 SUFFIXES = (".parquet", ".csv")
 """Endings of the files that can be written."""

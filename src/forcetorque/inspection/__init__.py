@@ -19,7 +19,6 @@ CAPABILITY = Capability(
 )
 
 __all__ = [
-    "CAPABILITY",
     "draft_experiment",
     "inspect_log",
     "inspected",

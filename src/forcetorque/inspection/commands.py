@@ -8,8 +8,7 @@ from typing import Annotated
 
 import typer
 
-from forcetorque.base.files import STANDARD_OUTPUT
-from forcetorque.base.output_file import declare_outputs
+from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.results.terminal.options import ForceOption, FormatOption
 from forcetorque.results.terminal.output import Format, refuse_two_on_standard_output, show, start_logging
 

@@ -22,14 +22,22 @@ from forcetorque.formats.prior.prior_file import PriorFile, StatedUnits
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.formats.registry import format_named, not_recognised, recognised_format
 from forcetorque.inspection.draft.log import looks
-from forcetorque.inspection.findings import inspect_experiment, inspect_recording
-from forcetorque.inspection.other_files import ColumnRow, SeenCalibration, calibration_row, column_rows, sketch_words
-from forcetorque.inspection.skin_findings import inspect_patches, taxel_findings
-from forcetorque.inspection.streams import ClockRow, StreamRow, clock_rows, stream_rows, stream_table
+from forcetorque.inspection.file_contents import (
+    ClockRow,
+    ColumnRow,
+    SeenCalibration,
+    StreamRow,
+    calibration_row,
+    clock_rows,
+    column_rows,
+    sketch_words,
+    stream_rows,
+    stream_table,
+)
+from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
 from forcetorque.recording.recording import Finding, Recording
 from forcetorque.results.result import Result
-from forcetorque.results.row import Row
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import Row, Table, table_of
 from forcetorque.skin.experiment import PATCHES, PatchExperiment, load_patches
 
 _MOST_ALIKE = 8

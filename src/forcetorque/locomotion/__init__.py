@@ -7,10 +7,10 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.locomotion.foot_forces import load_foot_forces
-    from forcetorque.locomotion.movement.movement import motion
-    from forcetorque.locomotion.movement.signals import motion_signals, motion_signals_of_arrays
+    from forcetorque.locomotion.logged_signals import motion_signals, motion_signals_of_arrays
+    from forcetorque.locomotion.movement import motion
     from forcetorque.locomotion.net_force.net_force import coherence
+    from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces
     from forcetorque.locomotion.standing.standing import balance
     from forcetorque.locomotion.torque_control.file import read_torque_loop
     from forcetorque.locomotion.torque_control.study import torque_loop
@@ -32,7 +32,6 @@ CAPABILITY = Capability(
 )
 
 __all__ = [
-    "CAPABILITY",
     "balance",
     "coherence",
     "load_foot_forces",
@@ -48,10 +47,10 @@ __getattr__, __dir__ = lazy_names(
     {
         "balance": "forcetorque.locomotion.standing.standing",
         "coherence": "forcetorque.locomotion.net_force.net_force",
-        "load_foot_forces": "forcetorque.locomotion.foot_forces",
-        "motion": "forcetorque.locomotion.movement.movement",
-        "motion_signals": "forcetorque.locomotion.movement.signals",
-        "motion_signals_of_arrays": "forcetorque.locomotion.movement.signals",
+        "load_foot_forces": "forcetorque.locomotion.standing.foot_wrenches",
+        "motion": "forcetorque.locomotion.movement",
+        "motion_signals": "forcetorque.locomotion.logged_signals",
+        "motion_signals_of_arrays": "forcetorque.locomotion.logged_signals",
         "read_torque_loop": "forcetorque.locomotion.torque_control.file",
         "torque_loop": "forcetorque.locomotion.torque_control.study",
     },

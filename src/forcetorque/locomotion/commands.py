@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.experiment.sensor_reading import Correction
-    from forcetorque.locomotion.foot_forces import FootForces
     from forcetorque.locomotion.net_force.result import Coherence
+    from forcetorque.locomotion.standing.foot_wrenches import FootForces
     from forcetorque.locomotion.standing.interval import BalanceOptions
     from forcetorque.locomotion.standing.standing import Balance
 
@@ -61,7 +61,7 @@ def balance(
 
     Example: forcetorque balance standing.toml --touch 50N --release 20N
     """
-    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.locomotion.standing.interval import BalanceOptions
     from forcetorque.locomotion.standing.support_phases import ForceLimit
@@ -83,7 +83,7 @@ def balance(
         log.info("%s: %d rows", output, result.write(output))
     if figure is not None:
         from forcetorque.locomotion.figures import balance_figure
-        from forcetorque.results.figures.canvas import png_bytes
+        from forcetorque.results.figures import png_bytes
 
         standing = next(one for one in result.intervals if one.phases.down.any())
         write_bytes_atomically(figure, png_bytes(balance_figure(standing)))
@@ -95,7 +95,7 @@ def _answer(
 ) -> Balance:
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.sensor_models import corrections_of
-    from forcetorque.locomotion.foot_forces import has_foot_forces, load_foot_forces
+    from forcetorque.locomotion.standing.foot_wrenches import has_foot_forces, load_foot_forces
     from forcetorque.locomotion.standing.standing import balance
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment
 
@@ -157,7 +157,7 @@ def coherence(
 
     Example: forcetorque coherence switching.toml -c calibrations
     """
-    from forcetorque.calibration.joint.data import read_candidates
+    from forcetorque.calibration.joint.calibrate import read_candidates
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.offsets import offset_policies
     from forcetorque.locomotion.net_force.net_force import coherence
@@ -175,9 +175,9 @@ def coherence(
 
 
 def _drawn(result: Coherence, figure: Path) -> Coherence:
-    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.locomotion.figures import coherence_figure
-    from forcetorque.results.figures.canvas import png_bytes
+    from forcetorque.results.figures import png_bytes
 
     write_bytes_atomically(figure, png_bytes(coherence_figure(result)))
     return result.model_copy(update={"figure": str(figure)})
@@ -212,10 +212,10 @@ def motion(
 
     Example: forcetorque motion walk.toml --column com.y --column zmp.y
     """
-    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.input_files import stated_in
-    from forcetorque.locomotion.movement.movement import motion
-    from forcetorque.locomotion.movement.signals import motion_signals
+    from forcetorque.locomotion.logged_signals import motion_signals
+    from forcetorque.locomotion.movement import motion
     from forcetorque.results.terminal.output import refuse_figure
     from forcetorque.results.terminal.reading import read_calibrations
 
@@ -229,7 +229,7 @@ def motion(
         result = motion(signals, steps_s=step_at or (), band_share=band / 100.0)
     if figure is not None:
         from forcetorque.locomotion.figures import motion_figure
-        from forcetorque.results.figures.canvas import png_bytes
+        from forcetorque.results.figures import png_bytes
 
         write_bytes_atomically(figure, png_bytes(motion_figure(result)))
         result = result.model_copy(update={"figure": str(figure)})
@@ -252,7 +252,7 @@ def torque_loop(
 
     Example: forcetorque torque-loop loop.toml --figure loop.png
     """
-    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.locomotion.torque_control.file import read_torque_loop
     from forcetorque.locomotion.torque_control.study import torque_loop
     from forcetorque.results.terminal.output import refuse_figure
@@ -263,7 +263,7 @@ def torque_loop(
     result = torque_loop(file, progress=log.info)
     if figure is not None:
         from forcetorque.locomotion.figures import torque_loop_figure
-        from forcetorque.results.figures.canvas import png_bytes
+        from forcetorque.results.figures import png_bytes
 
         write_bytes_atomically(figure, png_bytes(torque_loop_figure(result)))
     show(result, output_format)

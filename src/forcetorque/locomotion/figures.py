@@ -10,24 +10,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.locomotion.movement.movement import Motion
-from forcetorque.locomotion.movement.result import MotionCurve
+from forcetorque.locomotion.movement import Motion, MotionCurve
 from forcetorque.locomotion.net_force.result import Coherence, PhaseForce, policy_words
 from forcetorque.locomotion.standing.interval import IntervalBalance
-from forcetorque.locomotion.torque_control.result import TorqueLoopRow
-from forcetorque.locomotion.torque_control.study import TorqueLoopStudy
-from forcetorque.results.figures.canvas import (
+from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy
+from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,
     SMALL_POINTS,
     TITLE_POINTS,
     Look,
+    draw_over_time,
     legend_below,
     look,
     new_figure,
     shown_name,
+    thinned_line,
 )
-from forcetorque.results.figures.curves import draw_over_time, thinned_line
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.section import Loading, Section
-from forcetorque.locomotion.standing.pressure import Sole
+from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
 from forcetorque.recording.recording import Recording
 from forcetorque.robot.model import RobotModel
 

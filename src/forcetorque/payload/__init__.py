@@ -21,7 +21,6 @@ CAPABILITY = Capability(
 )
 
 __all__ = [
-    "CAPABILITY",
     "export_load",
     "robot_load",
     "tare",

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.base.files import STANDARD_OUTPUT
-from forcetorque.base.output_file import declare_outputs
+from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.results.terminal.options import (
     ExperimentArgument,

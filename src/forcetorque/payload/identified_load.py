@@ -16,12 +16,12 @@ from forcetorque.base.pose import skew
 from forcetorque.base.stored_model import read_json
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.full_scale import full_scale_of
+from forcetorque.experiment.raw_counts import full_scale_of
 from forcetorque.payload.identification.fit import fit
+from forcetorque.payload.identification.load_estimates import LoadEstimate
+from forcetorque.payload.identification.load_problem import INERTIAL, Load, LoadProblem
 from forcetorque.payload.identification.parameters import six_of
 from forcetorque.payload.identification.partly_known_matrix import MatrixSpread, settled
-from forcetorque.payload.identification.problem import INERTIAL, Load, LoadProblem
-from forcetorque.payload.identification.solution import LoadEstimate
 from forcetorque.payload.identification.solve import load_estimates
 
 SCHEMA = "forcetorque/payload/2"

@@ -13,23 +13,16 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.section import Loading
-from forcetorque.payload.identification.problem import Load, LoadProblem
-from forcetorque.payload.identification.several_recordings import together
-from forcetorque.payload.identification.solution import LoadSolution
+from forcetorque.payload.identification.load_estimates import LoadSolution
+from forcetorque.payload.identification.load_problem import Load, LoadProblem, together
 from forcetorque.payload.identification.solve import solve
-from forcetorque.payload.identified_load import (
-    WeighedLoad,
-    read_weighed,
-    spread_of,
-    with_matrix_in_part,
-)
-from forcetorque.payload.link_samples import HungInterval, link_load_problem
+from forcetorque.payload.identified_load import WeighedLoad, read_weighed, spread_of, with_matrix_in_part
+from forcetorque.payload.load_samples import HungInterval, link_load_problem
 from forcetorque.payload.load_tables import LinkLoad
 from forcetorque.payload.wrist_load import inertia_of_estimated, inertia_of_stated
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.robot.model import RobotModel
-from forcetorque.robot.sub_model import path_to_root
-from forcetorque.robot.tree import build_tree
+from forcetorque.robot.tree import build_tree, path_to_root
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

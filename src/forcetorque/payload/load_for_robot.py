@@ -1,27 +1,64 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a robot has to know of the load of a wrist sensor, taken from its experiment."""
+"""The load of a wrist sensor for a robot, taken from its experiment and written in any form of file."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.output_file import refuse_output
+from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.diagnostics import overweight_loads
-from forcetorque.payload.identification.solution import Hypothesis
+from forcetorque.payload.identification.load_estimates import Hypothesis
 from forcetorque.payload.payload import WeighedLoad
 from forcetorque.payload.result import HypothesisRow
 from forcetorque.payload.robot_files.formats import LoadFormat
+from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
 from forcetorque.payload.robot_files.robot_load import RobotLoad
-from forcetorque.payload.robot_files.writing import write_load_file
+from forcetorque.payload.robot_files.ros import (
+    broadcaster_text,
+    force_torque_tools_text,
+    ft_tools_text,
+    gravity_filter_text,
+)
 from forcetorque.payload.wrist_load import LOAD_LINK, WristLoads, wrist_loads
 from forcetorque.recording.recording import Use
+
+_WITHOUT_COMMENTS = (LoadFormat.MC_RTC, LoadFormat.HRPSYS)
+
+
+def write_load_file(
+    path: Path | str,
+    load: RobotLoad,
+    form: LoadFormat,
+    *,
+    world_frame: str | None = None,
+    body_H_sensor: FloatArray | None = None,
+) -> None:
+    """Write a load for a robot; on any error the file keeps what it held before.
+
+    Args:
+        path: File to write or to replace, in an existing folder; `-` is standard output.
+        load: The load.
+        form: Form of the file.
+        world_frame: For `gravity-filter`, the frame of tf whose z axis points up.
+        body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body; shape (4, 4); m.
+    """
+    texts: dict[LoadFormat, Callable[[], str]] = {
+        LoadFormat.ROS2_BROADCASTER: lambda: broadcaster_text(load),
+        LoadFormat.GRAVITY_FILTER: lambda: gravity_filter_text(load, world_frame=world_frame),
+        LoadFormat.FT_TOOLS: lambda: ft_tools_text(load),
+        LoadFormat.FORCE_TORQUE_TOOLS: lambda: force_torque_tools_text(load),
+        LoadFormat.MC_RTC: lambda: mc_rtc_text(load, body_H_sensor=body_H_sensor),
+        LoadFormat.HRPSYS: lambda: hrpsys_text(load),
+    }
+    mark = "" if form in _WITHOUT_COMMENTS else f"# forcetorque {form}\n"
+    write_bytes_atomically(Path(path), (mark + texts[form]()).encode())
 
 
 def robot_load(

@@ -14,11 +14,20 @@ from forcetorque.base.noise.means import means_over
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.diagnostics import load_doubts, overweight_loads, reversed_sense
+from forcetorque.payload.diagnostics import (
+    bias_words,
+    disagreements,
+    drift_words,
+    inertia_words,
+    load_doubts,
+    load_words,
+    overweight_loads,
+    payload_doubts,
+    reversed_sense,
+)
+from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution
+from forcetorque.payload.identification.load_problem import LoadProblem, together
 from forcetorque.payload.identification.prediction import instants, load_wrench
-from forcetorque.payload.identification.problem import LoadProblem
-from forcetorque.payload.identification.several_recordings import together
-from forcetorque.payload.identification.solution import LoadEstimate, LoadSolution
 from forcetorque.payload.identification.solve import solve
 from forcetorque.payload.link_loads import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import (
@@ -33,19 +42,10 @@ from forcetorque.payload.result import (
     VariableRow,
     six,
 )
-from forcetorque.payload.summary import (
-    bias_words,
-    disagreements,
-    drift_words,
-    inertia_words,
-    load_words,
-    payload_doubts,
-)
 from forcetorque.payload.wrist_load import WristLoads, wrist_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import Result
-from forcetorque.results.row import WrenchValues
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import Table, WrenchValues, table_of
 
 
 def hanging_on(run: SensorRun) -> WristLoads | LinkLoads:

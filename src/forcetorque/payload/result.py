@@ -8,8 +8,7 @@ from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 
-from forcetorque.payload.identification.parameters import six_of
-from forcetorque.payload.identification.solution import (
+from forcetorque.payload.identification.load_estimates import (
     BiasTest,
     DisagreeingRow,
     DriftChoice,
@@ -17,8 +16,9 @@ from forcetorque.payload.identification.solution import (
     LoadEstimate,
     SessionEstimate,
 )
+from forcetorque.payload.identification.parameters import six_of
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.row import Row, Shown, ShownWrench, WrenchValues
+from forcetorque.results.table import Row, Shown, ShownWrench, WrenchValues
 
 Three = tuple[float | None, float | None, float | None]
 """x, y, z; none where it is open."""

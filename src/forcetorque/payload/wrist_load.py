@@ -14,11 +14,11 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.payload.identification.problem import Load, LoadProblem
-from forcetorque.payload.identification.solution import LoadEstimate, LoadSolution
+from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution
+from forcetorque.payload.identification.load_problem import Load, LoadProblem
 from forcetorque.payload.identification.solve import solve
+from forcetorque.payload.load_samples import load_problem, samples_left_out
 from forcetorque.payload.load_tables import Load as LoadTable
-from forcetorque.payload.wrist_samples import load_problem, samples_left_out
 from forcetorque.recording.recording import MovingSupport, Support, Use
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
 

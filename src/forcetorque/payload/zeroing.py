@@ -15,12 +15,11 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.offset_policy import Offset, OffsetPolicy
 from forcetorque.experiment.offsets import sensor_offset
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
 from forcetorque.results.result import Result
-from forcetorque.results.row import COMPONENTS, Row, Shown, WrenchValues
-from forcetorque.results.table import Table
+from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues
 
 STILL = 0.05
 """Share of its weight by which a load at rest may move: 3 degrees."""

@@ -7,9 +7,9 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.planning.files import write_plan
-    from forcetorque.planning.joint import plan_jointly
+    from forcetorque.planning.joint_calibration_plan import plan_jointly
     from forcetorque.planning.planning import plan
+    from forcetorque.planning.trajectory_files import write_plan
 
 CAPABILITY = Capability(
     needs=(
@@ -22,7 +22,6 @@ CAPABILITY = Capability(
 )
 
 __all__ = [
-    "CAPABILITY",
     "plan",
     "plan_jointly",
     "write_plan",
@@ -32,7 +31,7 @@ __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "plan": "forcetorque.planning.planning",
-        "plan_jointly": "forcetorque.planning.joint",
-        "write_plan": "forcetorque.planning.files",
+        "plan_jointly": "forcetorque.planning.joint_calibration_plan",
+        "write_plan": "forcetorque.planning.trajectory_files",
     },
 )

@@ -57,9 +57,9 @@ def plan(
     from forcetorque.calibration.calibrate_jointly_command import refuse_beside_jointly
     from forcetorque.experiment.calibration.artefact import read_calibration
     from forcetorque.experiment.sensor_run import SensorRun
-    from forcetorque.planning.files import refuse_full_folder, write_plan
-    from forcetorque.planning.joint import plan_jointly
+    from forcetorque.planning.joint_calibration_plan import plan_jointly
     from forcetorque.planning.planning import plan
+    from forcetorque.planning.trajectory_files import refuse_full_folder, write_plan
     from forcetorque.results.terminal.reading import planned_experiments, planned_sensor, read_experiments
 
     log = start_logging()

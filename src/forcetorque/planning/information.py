@@ -14,9 +14,9 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import SlowNoise, Timeline
 from forcetorque.experiment.calibration import assumptions as expected
 from forcetorque.experiment.calibration.assumptions import LOADS, QUADRATIC, Assumptions, rows_of
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
 from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS, quadratic_terms
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 
 ASSUMED_NOISE: Final = 1e-4
 """White noise of a mean over a second that is assumed where none was measured, as a share of full scale."""

@@ -21,7 +21,7 @@ from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, Assum
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.information import Knowledge, Nuisance, unfitted_posterior
-from forcetorque.planning.proposal import TEMPERATURE, Demand, Effort, Proposal, proposals
+from forcetorque.planning.proposal import TEMPERATURE, Demand, Effort, Proposal, proposals, supports_of, workplaces
 from forcetorque.planning.result import (
     PlannedPosture,
     PlannedRecording,
@@ -34,7 +34,6 @@ from forcetorque.planning.result import (
 )
 from forcetorque.planning.search import Criterion
 from forcetorque.planning.section import PLAN, PlanTable
-from forcetorque.planning.workplace import supports_of, workplaces
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
 

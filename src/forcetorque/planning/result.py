@@ -13,12 +13,10 @@ from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.prediction import PredictedError
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.planning.information import ASSUMED_NOISE
-from forcetorque.planning.proposal import Proposal
+from forcetorque.planning.proposal import NOTHING, Proposal, Workplace
 from forcetorque.planning.search import HELPS, Criterion
-from forcetorque.planning.workplace import NOTHING, Workplace
 from forcetorque.results.number_text import number
-from forcetorque.results.row import FloatOrNull, Row, Shown
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 from forcetorque.robot.model import JointType
 from forcetorque.robot.motion import JointMotion
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import RecordingError
-from forcetorque.base.noise.regression import half_width
+from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.recording.alignment import GAP_PERIODS
 from forcetorque.recording.delay_equation import DelayEquation, Stretch, even_means, smoothed
 

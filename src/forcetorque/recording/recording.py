@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_mapping
 from forcetorque.base.errors import RecordingError, known_names
-from forcetorque.recording.clock import ClockShift
+from forcetorque.recording.alignment import ClockShift
 from forcetorque.recording.stream import Signal, Stream
 
 _UNIT = 4.0 * float(np.finfo(np.float64).eps)

@@ -19,7 +19,7 @@ import pyarrow.parquet as pq
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.arrow import arrow_numbers, require_small_parquet
 from forcetorque.base.errors import FormatError, MissingFileError, RecordingError, ShapeError
-from forcetorque.base.files import real_path, temporary_beside
+from forcetorque.base.output_file import real_path, temporary_beside
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.stream import QUANTITIES, Labels, Signal, Stream
 

@@ -9,14 +9,13 @@ from forcetorque.calibration.report_blocks import origin_words
 from forcetorque.evaluation.load_cases.prediction import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import UseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.report.assessment.assessment import Assessment
-from forcetorque.report.assessment.experiment_assessment import ExperimentAssessment
-from forcetorque.report.assessment.verdict import VerdictLine
-from forcetorque.report.load_cases import Undecided
-from forcetorque.report.next_steps import NextSteps, gathered, said_once
+from forcetorque.report.assessment import Assessment
+from forcetorque.report.decision import NextSteps, Undecided, gathered, said_once
+from forcetorque.report.experiment_assessment import ExperimentAssessment
+from forcetorque.report.verdict import VerdictLine
 from forcetorque.results.document.content import Block, Figure, List, Place, Section, Tone, Verdict
 from forcetorque.results.document.picture import Picture
-from forcetorque.results.figures.canvas import two_digits
+from forcetorque.results.figures import two_digits
 from forcetorque.results.table import Table, short_names, table_of, with_first_column
 
 _WORDS = (

@@ -12,8 +12,7 @@ from forcetorque.evaluation.acceptance.static_checks import StaticChecks
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.results.number_text import with_error
-from forcetorque.results.row import COMPONENTS
-from forcetorque.results.table import Table, short_names
+from forcetorque.results.table import COMPONENTS, Table, short_names
 
 _MOST_ROWS = 200
 """Rows of a table that are shown; the JSON has them all."""

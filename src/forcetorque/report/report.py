@@ -10,27 +10,24 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.base.files import refuse_unwritable, write_bytes_atomically
-from forcetorque.base.output_file import refuse_output
+from forcetorque.base.output_file import refuse_output, refuse_unwritable, write_bytes_atomically
 from forcetorque.evaluation.load_cases.verdict import Tone, UseVerdict
 from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.report.assessment.assessment import Demands
-from forcetorque.report.assessment.experiment_assessment import ExperimentAssessment, assess_experiment
+from forcetorque.report.assessment import Demands
+from forcetorque.report.decision import NextSteps, Undecided, decide_uses, next_steps, sensor_key, sensor_keys
 from forcetorque.report.decision_page import decision_page
-from forcetorque.report.load_cases import Undecided, decide_uses, sensor_key, sensor_keys
-from forcetorque.report.next_steps import NextSteps, next_steps
+from forcetorque.report.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.report.sections import report_document
 from forcetorque.results.document.content import Document, Section
 from forcetorque.results.document.html import html_bytes
 from forcetorque.results.document.pdf import pdf_bytes
-from forcetorque.results.figures.canvas import new_figure
+from forcetorque.results.figures import new_figure
 from forcetorque.results.result import Result
-from forcetorque.results.row import Row, Shown
-from forcetorque.results.table import Table, short_names, table_of
+from forcetorque.results.table import Row, Shown, Table, short_names, table_of
 
 _WRITERS: dict[str, Callable[[Document], bytes]] = {".html": html_bytes, ".pdf": pdf_bytes}
 

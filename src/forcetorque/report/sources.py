@@ -13,11 +13,11 @@ import forcetorque
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.toml_file import toml_content
-from forcetorque.evaluation.acceptance.file import AcceptanceFile, read_acceptance
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.experiment.applicability import calibrations_of
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.results.registry import result_classes
+from forcetorque.results.result import result_classes
 
 _KINDS = "an experiment file, a calibration, an acceptance file or the JSON result of a command"
 

@@ -1,21 +1,44 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The one form of an answer: a frozen model from which JSON, CSV, text, page, schema and `repr` come."""
+"""The base of all results, its date and samples left out, and which results there are by the names of schemas."""
 
 from __future__ import annotations
 
 import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, ClassVar, Self
+from datetime import UTC, datetime
+from importlib import import_module
+from pkgutil import walk_packages
+from types import ModuleType
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.results.html import html_table, html_text, html_warnings
-from forcetorque.results.row import Row
-from forcetorque.results.table import Table, table_of
-from forcetorque.results.text import table_text, wrapped
-from forcetorque.results.unusable_samples import UnusableSamples
+from forcetorque.results.table import Row, Shown, Table, table_of
+from forcetorque.results.table_rendering import html_table, html_text, html_warnings, table_text, wrapped
+
+
+class UnusableSamples(Row):
+    """What is left out of one interval of one sensor."""
+
+    sensor: Annotated[str, Shown("sensor")]
+    """Sensor."""
+    recording: Annotated[str, Shown("recording")]
+    """Name of the experiment."""
+    interval: Annotated[str, Shown("interval")]
+    """Label of the interval."""
+    use: Annotated[str, Shown("use")]
+    """Use of the interval."""
+    samples: Annotated[int, Shown("of samples")]
+    """Number of its samples."""
+    frozen: Annotated[int, Shown("frozen")]
+    """Samples in which all channels repeat one reading although the log is noisy, or the expected wrench moves."""
+    saturated: Annotated[int, Shown("saturated")]
+    """Samples at the limit of the converter, or held by a board that says so."""
+    repeated: Annotated[int, Shown("stamp repeated")]
+    """Messages whose stamp does not step forward."""
+
 
 _UNUSABLE = "unusable_samples"
 NOTEBOOK_WIDTH = 100
@@ -163,3 +186,47 @@ class Result(Row):
 
 def _are_words(entries: Sequence[Any]) -> bool:
     return all(isinstance(entry, str) for entry in entries)
+
+
+def created_now() -> str:
+    """Say when it is.
+
+    Returns:
+        Date and time in UTC as ISO 8601 writes them, to the second.
+    """
+    return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+_FAMILY = "forcetorque"
+"""What names of schemas begin with: `forcetorque/NAME/VERSION`."""
+
+
+def result_classes(*packages: ModuleType) -> dict[str, type[Result]]:
+    """Find every result that packages give, so that a new one is known wherever results are.
+
+    Args:
+        packages: Packages; all modules below them are imported.
+
+    Returns:
+        Class by name of its schema, which is that of the command that shows it; sorted.
+    """
+    modules = {
+        import_module(module.name).__name__
+        for package in packages
+        for module in walk_packages(package.__path__, f"{package.__name__}.")
+    }
+    classes = {_name(kind): kind for kind in _below(Result) if kind.__module__ in modules}
+    return {name: classes[name] for name in sorted(classes) if name}
+
+
+def _below(kind: type[Result]) -> Iterator[type[Result]]:
+    for child in kind.__subclasses__():
+        yield child
+        yield from _below(child)
+
+
+def _name(kind: type[Result]) -> str:
+    """The name within the schema; empty for what is only a part of other results."""
+    field = kind.model_fields.get("schema_name")
+    words = [] if field is None else str(field.default).split("/")
+    return words[1] if words[:1] == [_FAMILY] else ""

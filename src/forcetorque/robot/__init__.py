@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 from forcetorque.base.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from forcetorque.robot.dynamics import expected_wrenches
     from forcetorque.robot.model import RobotModel
-    from forcetorque.robot.newton_euler import expected_wrenches
     from forcetorque.robot.urdf import read_urdf
 
 __all__ = [
@@ -20,7 +20,7 @@ __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "RobotModel": "forcetorque.robot.model",
-        "expected_wrenches": "forcetorque.robot.newton_euler",
+        "expected_wrenches": "forcetorque.robot.dynamics",
         "read_urdf": "forcetorque.robot.urdf",
     },
 )

@@ -20,7 +20,6 @@ CAPABILITY = Capability(
 )
 
 __all__ = [
-    "CAPABILITY",
     "response",
     "select_gains",
     "sensor_gains",

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_last_axis, require_shape
 from forcetorque.base.errors import SensorError, ShapeError
-from forcetorque.sensor.gauge.resistive import ResistiveGauge
+from forcetorque.sensor.gauge import ResistiveGauge
 from forcetorque.sensor.require import require_positive
 
 

@@ -23,9 +23,9 @@ def simulate(
 
     Example: forcetorque simulate wrist -o simulated
     """
-    from forcetorque.simulation.recordings.recordings import write_scenario
+    from forcetorque.simulation.recordings import write_scenario
     from forcetorque.simulation.scenario.file import bundled_scenario
-    from forcetorque.simulation.scenario.run import load_scenario
+    from forcetorque.simulation.scenario.scenario import load_scenario
 
     log = start_logging()
     file = Path(scenario) if scenario.endswith(".toml") else bundled_scenario(scenario)

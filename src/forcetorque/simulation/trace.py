@@ -17,10 +17,10 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.simulation.imu import SimulatedImu
+from forcetorque.simulation.imu_and_motor import SimulatedImu
+from forcetorque.simulation.motions.held_robot import Stand
+from forcetorque.simulation.motions.joint_motions import random_smooth_motion
 from forcetorque.simulation.motions.movement import Movement, MovementKind
-from forcetorque.simulation.motions.random_smooth import random_smooth_motion
-from forcetorque.simulation.motions.stand import Stand
 from forcetorque.simulation.sensor import SimulatedSensor
 
 EPOCH_NS = 1_700_000_000_000_000_000

@@ -18,7 +18,6 @@ CAPABILITY = Capability(
 )
 
 __all__ = [
-    "CAPABILITY",
     "calibrate_skin",
     "check_skin",
     "read_patches",

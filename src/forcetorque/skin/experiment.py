@@ -226,9 +226,7 @@ def _patch(where: str, entry: Patch, recording: Recording, inputs: Inputs) -> Ex
             require_overlap(stream, chamber)
         taxels = np.arange(columns)
         if entry.layout is not None:
-            from forcetorque.skin.layout.formats.registry import (
-                describe_patch,  # here because most experiments have no skin
-            )
+            from forcetorque.skin.layout.formats.registry import describe_patch
 
             layout = describe_patch(inputs.file(entry.layout))
             if layout.columns != columns:

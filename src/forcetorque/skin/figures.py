@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import ShapeError
-from forcetorque.results.figures.canvas import (
+from forcetorque.results.figures import (
     COLOURS,
     PLANES,
     REFERENCE_COLOUR,
@@ -18,13 +18,17 @@ from forcetorque.results.figures.canvas import (
     SMALL_PANEL_POINTS,
     SMALL_POINTS,
     TITLE_POINTS,
+    draw_over_time,
+    drawable,
+    instants,
     legend_below,
     look,
     new_figure,
     shown_name,
+    thinned_cloud,
+    thinned_line,
 )
-from forcetorque.results.figures.curves import draw_over_time, drawable, instants, thinned_cloud, thinned_line
-from forcetorque.skin.taxels.figure_data import TaxelPicture
+from forcetorque.skin.taxels.result import TaxelPicture
 from forcetorque.skin.wrench.result import SkinEventPicture, SkinWrenchPicture
 
 if TYPE_CHECKING:

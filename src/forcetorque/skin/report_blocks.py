@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from forcetorque.report.assessment.experiment_assessment import ExperimentAssessment
+from forcetorque.report.experiment_assessment import ExperimentAssessment
 from forcetorque.results.document.content import Block, Figure, List, Section, Text
 from forcetorque.results.document.picture import Picture
 from forcetorque.results.table import Table, table_of

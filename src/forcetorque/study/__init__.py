@@ -7,9 +7,9 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.study.data import read_study_data
     from forcetorque.study.result import Studies
     from forcetorque.study.study import study_sensor
+    from forcetorque.study.study_data import read_study_data
 
 CAPABILITY = Capability(
     needs=(
@@ -22,7 +22,6 @@ CAPABILITY = Capability(
 )
 
 __all__ = [
-    "CAPABILITY",
     "Studies",
     "read_study_data",
     "study_sensor",
@@ -32,7 +31,7 @@ __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "Studies": "forcetorque.study.result",
-        "read_study_data": "forcetorque.study.data",
+        "read_study_data": "forcetorque.study.study_data",
         "study_sensor": "forcetorque.study.study",
     },
 )

@@ -59,11 +59,11 @@ def study(
 
     from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, estimation_type
     from forcetorque.experiment.input_files import stated_in
-    from forcetorque.results.created import created_now
+    from forcetorque.results.result import created_now
     from forcetorque.study.candidate import SWEEP_LAMBDAS
-    from forcetorque.study.data import read_study_data
     from forcetorque.study.folder import write_study_folder
     from forcetorque.study.study import study_sensor
+    from forcetorque.study.study_data import read_study_data
 
     log = start_logging()
     refuse_output_folder(output)

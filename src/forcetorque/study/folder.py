@@ -10,11 +10,11 @@ from pathlib import Path
 from urllib.parse import quote
 
 from forcetorque.base.errors import MissingExtraError
-from forcetorque.base.files import new_folder, write_bytes_atomically
+from forcetorque.base.output_file import new_folder, write_bytes_atomically
 from forcetorque.experiment.calibration.artefact import write_calibration
-from forcetorque.experiment.offset_policy import Offset
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.study import thesis_tables as tables
-from forcetorque.study.figure_files import write_figures
+from forcetorque.study.figures import write_figures
 from forcetorque.study.one_sensor import Study
 from forcetorque.study.result import StudiedSensor, Studies, studied_sensor, study_warnings
 from forcetorque.study.study import SensorStudy

@@ -1,27 +1,220 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What studies of sensors come to: the choice, and what it is worth on other sessions."""
+"""Result of studies: records of the choice, its worth on other sessions, and warnings on loads not fitted."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, Literal
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import Field
 
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.evaluation.push_error import LEVER_M, PUSH_N
-from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
+from forcetorque.evaluation.candidate_errors import LEVER_M, PUSH_N, PushError, push_error
+from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.results.number_text import number, with_error
 from forcetorque.results.result import Result
-from forcetorque.results.row import COMPONENTS, Row
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues, table_of
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate import CONVENTION
-from forcetorque.study.choice_warnings import unfitted_load, unfitted_warnings
-from forcetorque.study.loads_not_fitted import FAR_SD
 from forcetorque.study.one_sensor import WORKBENCH, Study
-from forcetorque.study.records import AxisChoice, ChosenCandidate, FittedCombination, ModeChoice, SessionChoice
+from forcetorque.study.selection import FAR_SD
 from forcetorque.study.study import SensorStudy
+
+
+class FittedCombination(Row):
+    """Calibration intervals that were fitted together."""
+
+    name: str
+    """Name."""
+    intervals: tuple[str, ...]
+    """Labels of the intervals."""
+    samples: int
+    """Number of samples."""
+    excited: int
+    """Directions of the raw readings that the loads move."""
+    channels: int
+    """Number of raw channels."""
+
+
+class UnfittedLoad(Row):
+    """What a matrix makes of pushes of 50 N in random directions, with levers up to 0.3 m."""
+
+    push_force_N: float | None
+    """Mean norm of the force error; None where the true matrix is not known."""
+    push_moment_Nm: float | None
+    """Mean norm of the moment error; None where the true matrix is not known."""
+    deviation_sd: float | None
+    """How far it reads them from the generative fit of the same data, in standard deviations that this predicts: the
+    largest component; None where there is no such fit."""
+
+
+class ChosenCandidate(Row):
+    """A candidate, or the workbench matrix, with its mean contact force over all validation data."""
+
+    name: str
+    """Data set, type and lambda of (5.4); `workbench` for the prior."""
+    lambda_counts2: float | None
+    """Lambda of (5.4), as `calibrate` counts it; counts2; None, as the next two, for a generative fit and the prior."""
+    table_lambda_counts2: float | None
+    """The same as the tables of the thesis count it, a sixth; counts2."""
+    relative_lambda: float | None
+    """The same over the mean variance of the raw channels."""
+    force_mean_N: float
+    """Mean norm of the contact force."""
+    force_mean_error_N: float
+    """Standard error of that mean, from blocks of time."""
+    moment_mean_Nm: float
+    """Mean norm of the contact moment."""
+    mean_absolute: WrenchValues
+    """Mean absolute value per component; N, N m."""
+    unfitted: UnfittedLoad
+    """What it makes of loads that were not fitted."""
+
+
+class AxisChoice(Row):
+    """The best candidate of one axis."""
+
+    axis: str
+    """Component."""
+    name: str
+    """Data set, type and lambda."""
+    mean_absolute: float
+    """Its mean absolute value; N, N m."""
+    workbench: float | None
+    """That of the workbench matrix, offset from the first second."""
+
+
+class SessionChoice(Row):
+    """A choice made on all other sessions, scored on one."""
+
+    session: Annotated[str, Shown("scored on")]
+    """Session."""
+    samples: Annotated[int, Shown("samples")]
+    """Number of its samples."""
+    chosen: Annotated[str, Shown("chosen on the other sessions")]
+    """Candidate that is best by magnitude on the other sessions."""
+    force_mean_N: Annotated[float, Shown("force", "N", digits=3)]
+    """Its mean norm of the contact force on this session."""
+    workbench_force_mean_N: Annotated[float | None, Shown("workbench", "N", digits=3)]
+    """That of the workbench matrix, offset from the first second."""
+    by_axis: tuple[str, ...]
+    """Candidates that are best on the other sessions, per component."""
+    mean_absolute: WrenchValues
+    """Their mean absolute value on this session; N, N m."""
+
+
+class ModeChoice(Row):
+    """What is best in one offset mode."""
+
+    offset: Offset
+    """Offset from the first second of the judged interval, or that of the fitted data."""
+    best: ChosenCandidate
+    """Smallest mean contact force."""
+    by_axis: tuple[AxisChoice, ...]
+    """Smallest mean absolute value of every component."""
+    by_axis_unfitted: UnfittedLoad
+    """What the matrix of these rows makes of loads that were not fitted."""
+    across_sessions: tuple[SessionChoice, ...]
+    """The same choice, made and scored on different sessions; empty if there is only one."""
+
+
+_WORSE = 1.05
+"""Error of a push over that of the workbench matrix, from which on a matrix made the sensor worse."""
+
+
+def unfitted_load(study: Study, rows: Sequence[int]) -> UnfittedLoad:
+    """Judge a model that takes its six rows from models of a study.
+
+    Args:
+        study: The study.
+        rows: Index of the model that gives each row.
+
+    Returns:
+        What it makes of loads that were not fitted.
+    """
+    push = _push(study, rows)
+    deviation = max(_deviations(study, rows), default=None)
+    return UnfittedLoad(
+        push_force_N=None if push is None else push.force_N,
+        push_moment_Nm=None if push is None else push.moment_Nm,
+        deviation_sd=deviation,
+    )
+
+
+def unfitted_warnings(sensor: SensorStudy) -> Iterator[str]:
+    """Say which choices make the sensor worse, or may, at loads that were not fitted.
+
+    Args:
+        sensor: The study of one sensor.
+
+    Yields:
+        A sentence per choice and reason.
+    """
+    study = sensor.study
+    for offset in KNOWN_BEFORE:
+        choice = study.choices[offset]
+        for name, rows in (
+            (f"best, offset {offset}", (choice.by_magnitude,) * 6),
+            (f"best by axis, offset {offset}", choice.by_axis),
+        ):
+            for sentence in (*_harmful(study, rows), *_far(study, rows)):
+                yield f"{sensor.data.identity.name}: {name}: {sentence}"
+
+
+def _harmful(study: Study, rows: Sequence[int]) -> Iterator[str]:
+    push = _push(study, rows)
+    before = None if study.workbench is None else study.push_error(len(study.models) - 1)
+    if push is None or before is None or push.over(before) <= _WORSE:
+        return
+    yield (
+        f"a push of {PUSH_N:g} N with a lever up to {LEVER_M:g} m errs by {_words(push)}, with the workbench matrix by "
+        f"{_words(before)}: it is worse than no calibration where loads were not fitted; {_instead(study, rows)}"
+    )
+
+
+def _far(study: Study, rows: Sequence[int]) -> Iterator[str]:
+    deviations = dict(zip(WRENCH_COMPONENTS, _deviations(study, rows), strict=False))
+    beyond = [name for name, value in deviations.items() if value > FAR_SD]
+    if beyond:
+        yield (
+            f"a push of {PUSH_N:g} N reads {max(deviations.values()):.1f} standard deviations away from what prior and "
+            f"data tell together ({', '.join(beyond)}): a load that was not fitted may be read wrong; "
+            f"{_instead(study, rows)}"
+        )
+
+
+def _instead(study: Study, rows: Sequence[int]) -> str:
+    """Name the generative fit of the same data, which keeps the prior where no load speaks."""
+    used = {study.candidates[index].data_set for index in rows}
+    fits = {fit.data_set: k for k, fit in enumerate(study.generative, start=len(study.fits.candidates))}
+    # of the data sets of several rows the largest tells the most
+    samples = {c.moments.count: c.name for c in study.fits.combinations if c.name in used and c.name in fits}
+    if not samples:
+        return "keep the workbench matrix, or record loads along the directions that lack them"
+    index = fits[samples[max(samples)]]
+    push = study.push_error(index)
+    errs = "" if push is None else f" and errs by {_words(push)}"
+    return f"the default, {study.name(index)!r}, keeps the prior there{errs}"
+
+
+def _push(study: Study, rows: Sequence[int]) -> PushError | None:
+    if study.truth is None:
+        return None
+    matrix = np.stack([study.models[index].matrix[axis] for axis, index in enumerate(rows)])
+    return push_error(matrix, study.truth)
+
+
+def _deviations(study: Study, rows: Sequence[int]) -> list[float]:
+    """Deviation of every row from the generative fit of its data set; nothing where one has none."""
+    if max(rows) >= len(study.candidates):
+        return []
+    values = [float(study.push_deviations[index, axis]) for axis, index in enumerate(rows)]
+    return values if np.isfinite(values).all() else []
+
+
+def _words(push: PushError) -> str:
+    return f"{push.force_N:.3g} N and {push.moment_Nm:.3g} N m"
 
 
 class StudiedSensor(Row):

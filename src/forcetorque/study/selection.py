@@ -1,17 +1,160 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Choose a candidate by magnitude or axis by axis, and score the choice on sessions that it was not made on."""
+"""Candidates evaluated by contact force and at loads that were not fitted, and the selection among them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, read_only
-from forcetorque.evaluation.candidate_errors import PooledErrors
+from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors, pushes
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
-from forcetorque.study.validation import Judgement
+from forcetorque.experiment.validation_offset import Offset, ValidationSet, mean_offset
+from forcetorque.robot.mechanics.estimate import Evaluator
+from forcetorque.study.candidate import Candidate, GenerativeCandidate
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Judgement:
+    """Errors of k models on every validation set, in one offset mode."""
+
+    errors: CandidateErrors
+    """Errors in blocks of time, set after set."""
+    sessions: tuple[str, ...]
+    """Session of every block."""
+
+    def over(self, sessions: Collection[str] | None = None) -> PooledErrors:
+        """Pool the errors of some sessions.
+
+        Args:
+            sessions: The sessions; all if None.
+
+        Returns:
+            Mean errors of every model over all their samples.
+        """
+        return self.part(sessions).pooled()
+
+    def part(self, sessions: Collection[str] | None = None) -> CandidateErrors:
+        """Give the blocks of some sessions.
+
+        Args:
+            sessions: The sessions; all if None.
+
+        Returns:
+            Errors of every model in these blocks.
+        """
+        mask = np.array([sessions is None or session in sessions for session in self.sessions])
+        return CandidateErrors(
+            count=self.errors.count[mask],
+            mean_absolute=self.errors.mean_absolute[:, mask],
+            force_mean=self.errors.force_mean[:, mask],
+            moment_mean=self.errors.moment_mean[:, mask],
+        )
+
+
+def judge(
+    models: Sequence[WrenchModel],
+    sources: Sequence[Offset],
+    sets: Sequence[ValidationSet],
+    *,
+    session_offsets: Mapping[int, Mapping[str, FloatArray]] | None = None,
+    evaluator: Evaluator | None = None,
+    progress: Callable[[str], None] | None = None,
+) -> Judgement:
+    """Judge models on validation sets; samples that can give an offset are judged in neither mode.
+
+    Args:
+        models: The models; each has no variable, or all those of the sets.
+        sources: Which offset each of them is judged with.
+        sets: What they are judged on, at least one.
+        session_offsets: Offsets by session of those models that have several, by their index; a set of another session
+            is judged with that of the model.
+        evaluator: Who computes; by the amount of work of every set if None.
+        progress: Called with the label of every set when its turn comes.
+
+    Returns:
+        The errors.
+    """
+    errors, sessions = [], []
+    stack = _Stack.of(models, sets[0].variables.shape[1])
+    from_fit = np.array([source is Offset.FITTED for _, source in zip(models, sources, strict=True)])
+    for one in sets:
+        if progress is not None:
+            progress(one.label)
+        first = one.for_offset()
+        offsets = stack.offsets.copy()
+        for index, by_session in (session_offsets or {}).items():
+            if one.session in by_session:
+                offsets[index] += by_session[one.session] - models[index].offset
+        offsets = np.where(from_fit[:, None], offsets, stack.offsets_from(one, first))
+        part = candidate_errors(
+            one.raw[~first],
+            one.reference[~first],
+            stack.matrices,
+            offsets,
+            variables=one.variables[~first],
+            coefficients=stack.coefficients,
+            evaluator=evaluator,
+        )
+        errors.append(part)
+        sessions += [one.session] * len(part.count)
+    return Judgement(
+        errors=CandidateErrors(
+            count=np.concatenate([part.count for part in errors]),
+            mean_absolute=np.concatenate([part.mean_absolute for part in errors], axis=1),
+            force_mean=np.concatenate([part.force_mean for part in errors], axis=1),
+            moment_mean=np.concatenate([part.moment_mean for part in errors], axis=1),
+        ),
+        sessions=tuple(sessions),
+    )
+
+
+def with_offset(model: WrenchModel, one: ValidationSet, source: Offset) -> FloatArray:
+    """Give the wrenches of a model on a validation set.
+
+    Args:
+        model: The model.
+        one: The set.
+        source: Which offset it gets.
+
+    Returns:
+        Wrenches of all its samples, the first ones too; shape (n, 6); N, N m.
+    """
+    wrench = model.wrench(one.raw, one.variables)
+    if source is not Offset.FITTED:
+        wrench += mean_offset((one.reference - wrench)[one.for_offset()])
+    return wrench
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Stack:
+    """Matrices, coefficients and offsets of k models that count every variable from zero."""
+
+    matrices: FloatArray
+    """Shape (k, 6, c)."""
+    coefficients: FloatArray
+    """Shape (k, 6, v)."""
+    offsets: FloatArray
+    """Shape (k, 6)."""
+
+    @staticmethod
+    def of(models: Sequence[WrenchModel], variables: int) -> _Stack:
+        """Stack models for so many variables."""
+        counted = [model.counted_from_zero(variables) for model in models]
+        return _Stack(
+            matrices=np.stack([model.matrix for model in counted]),
+            coefficients=np.stack([model.coefficients for model in counted]),
+            offsets=np.stack([model.offset for model in counted]),
+        )
+
+    def offsets_from(self, one: ValidationSet, first: BoolArray) -> FloatArray:
+        """The offsets with which the mean error of some samples, that of the mean reading, is zero; shape (k, 6)."""
+        raw, variables, reference = (values[first].mean(axis=0) for values in (one.raw, one.variables, one.reference))
+        return reference - (self.matrices @ raw + self.coefficients @ variables)
+
 
 _SAME = 1e-7
 """Share by which errors of one fit differ that was reached in two ways, as by types C and O; some 1e-9 is seen."""
@@ -145,3 +288,45 @@ def choosable(errors: PooledErrors, determined: BoolArray) -> PooledErrors:
         force_mean=np.where(determined, errors.force_mean[:k], np.inf),
         moment_mean=np.where(determined, errors.moment_mean[:k], np.inf),
     )
+
+
+FAR_SD: Final = 3.0
+"""Standard deviations beyond which a candidate has left what prior and data tell together."""
+
+
+def push_deviations(
+    candidates: Sequence[Candidate | GenerativeCandidate], generative: Sequence[GenerativeCandidate]
+) -> FloatArray:
+    """Tell how far the candidates read pushes from what the generative fit of the same data reads.
+
+    Args:
+        candidates: The k candidates.
+        generative: Generative fits.
+
+    Returns:
+        Per component, the root mean square difference over pushes, over that of the predicted error; shape (k, 6); 1;
+        not a number where the data set has no generative fit.
+    """
+    fits = {fit.data_set: fit for fit in generative}
+    sizes = {name: _predicted(fit) for name, fit in fits.items()}
+    responses = {name: _response(fit) for name, fit in fits.items()}
+    deviations: FloatArray = np.full((len(candidates), 6), np.nan)
+    for k, candidate in enumerate(candidates):
+        name = candidate.data_set
+        if name in fits:
+            change = pushes() @ (candidate.model.matrix @ responses[name] - np.eye(6)).T
+            deviations[k] = np.sqrt((change**2).mean(axis=0)) / sizes[name]
+    return deviations
+
+
+def _predicted(fit: GenerativeCandidate) -> FloatArray:
+    """Root mean square of the predicted error of pushes; shape (6,); N, N m."""
+    variance = np.einsum("nii->i", fit.posterior.error_covariance(pushes())) / len(pushes())
+    return np.asarray(np.sqrt(variance), dtype=np.float64)
+
+
+def _response(fit: GenerativeCandidate) -> FloatArray:
+    """Readings per load of the sensor that the fit believes in; shape (c, 6); counts/N, counts/(N m)."""
+    if fit.posterior.space == "channel":
+        return fit.posterior.mean[:, :6]
+    return np.asarray(np.linalg.inv(fit.model.matrix), dtype=np.float64)

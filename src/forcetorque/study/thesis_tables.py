@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.experiment.offset_policy import KNOWN_BEFORE, Offset
+from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.study.candidate import Candidate, GenerativeCandidate, lambda_text
 from forcetorque.study.one_sensor import WORKBENCH, Study
 

@@ -13,11 +13,11 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.base.files import write_bytes_atomically
+from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.recording.recording import Use
 from forcetorque.viewer.arrays import read_array
-from forcetorque.viewer.build import BuiltScene
 from forcetorque.viewer.scene import SceneInterval
+from forcetorque.viewer.scene_builder import BuiltScene
 
 _NANOSECOND = 1e-9
 """Instants are whole nanoseconds; s."""

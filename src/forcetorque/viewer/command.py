@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.base.files import STANDARD_OUTPUT
-from forcetorque.base.output_file import declare_outputs
+from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.results.terminal.options import CalibrationsOption, ForceOption, FormatOption, SensorOption
 from forcetorque.results.terminal.output import (
     Format,
@@ -22,7 +21,7 @@ from forcetorque.results.terminal.output import (
 )
 
 if TYPE_CHECKING:
-    from forcetorque.viewer.build import BuiltScene
+    from forcetorque.viewer.scene_builder import BuiltScene
 
 
 def view(
@@ -68,10 +67,9 @@ def view(
     """
     from forcetorque.experiment.loading import Purpose
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment
-    from forcetorque.viewer.build import scene_of
     from forcetorque.viewer.page import write_page
+    from forcetorque.viewer.scene_builder import View, scene_of, view_source
     from forcetorque.viewer.video import Film, film_between, find_browser, frame_count, require_playwright, write_video
-    from forcetorque.viewer.view import View, view_source
 
     log = start_logging()
     _refuse_contradictions(output, port, video, force=force)
@@ -110,9 +108,8 @@ def _refuse_contradictions(output: Path | None, port: int | None, video: Path | 
 
 
 def _serve(path: Path, built: BuiltScene, port: int, open_browser: bool, output_format: Format) -> None:
-    from forcetorque.viewer.page import page_of
-    from forcetorque.viewer.serve import ANNOTATIONS_URL, DATA_URL, Session, ViewerServer
-    from forcetorque.viewer.view import View
+    from forcetorque.viewer.page import ANNOTATIONS_URL, DATA_URL, Session, ViewerServer, page_of
+    from forcetorque.viewer.scene_builder import View
 
     log = start_logging()
     page = page_of(built, data_url=DATA_URL, annotations_url=ANNOTATIONS_URL)

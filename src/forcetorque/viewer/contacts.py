@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.calibration.joint.interval import part_residuals
-from forcetorque.calibration.joint.residuals import PartResidual
+from forcetorque.calibration.joint.robust_fit import PartResidual
 from forcetorque.calibration.joint.windows import WINDOW_S
 from forcetorque.estimation.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -25,7 +25,7 @@ from forcetorque.robot.contacts import Contact
 from forcetorque.robot.tree import build_tree
 from forcetorque.viewer.arrays import Block, Priors, SceneDraft
 from forcetorque.viewer.geometry import flat
-from forcetorque.viewer.instants import Posture
+from forcetorque.viewer.posture import Posture
 from forcetorque.viewer.scene import ContactSeries, Sensor, WrenchSeries
 
 

@@ -13,10 +13,10 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, MissingExtraError
+from forcetorque.base.input_file import read_xml
 from forcetorque.base.pose import make_pose, rotation_with_z_along
-from forcetorque.base.xml_file import read_xml
 from forcetorque.robot.model import RobotModel
-from forcetorque.robot.urdf_attributes import UrdfPlace, number, numbers, origin, required
+from forcetorque.robot.urdf import UrdfPlace, number, numbers, origin, required
 from forcetorque.viewer.arrays import Block
 from forcetorque.viewer.meshes import Triangles, find_mesh, package_folders, read_mesh, simplified
 from forcetorque.viewer.scene import Mesh, Shape

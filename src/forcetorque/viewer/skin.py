@@ -13,7 +13,7 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.recording.alignment import gap_limit_ns, seconds_since, usable_samples
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.skin.contact.identities import followed_places
+from forcetorque.skin.contact.tracking import followed_places
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.wrench.frames import AVERAGED
 from forcetorque.skin.wrench.wrench import PatchFrames, WrenchChoice, patch_frames

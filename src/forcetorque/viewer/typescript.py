@@ -11,7 +11,7 @@ import types
 from pathlib import Path
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
-from forcetorque.base.files import write_bytes_atomically
+from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.viewer import scene
 
 _HEAD = (

@@ -14,11 +14,10 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.base.errors import ForceTorqueError, MissingExtraError, MissingFileError
-from forcetorque.base.files import write_bytes_atomically
+from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.viewer.arrays import read_array
-from forcetorque.viewer.build import BuiltScene
-from forcetorque.viewer.page import page_of
-from forcetorque.viewer.serve import DATA_URL, ViewerServer
+from forcetorque.viewer.page import DATA_URL, ViewerServer, page_of
+from forcetorque.viewer.scene_builder import BuiltScene
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 """Programs that are looked for, in this order."""

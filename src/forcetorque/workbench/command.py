@@ -50,8 +50,8 @@ def workbench(
     from importlib.metadata import version
 
     from forcetorque.base.output_file import declare_outputs
-    from forcetorque.evaluation.acceptance.file import read_acceptance
-    from forcetorque.results.created import created_now
+    from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
+    from forcetorque.results.result import created_now
     from forcetorque.results.terminal.output import refuse_figure
     from forcetorque.workbench.calibrate import workbench
     from forcetorque.workbench.recording import read_bench
@@ -88,8 +88,8 @@ def _require_one(files: list[Path], *, next_only: bool) -> None:
 
 
 def _drawn(answer: Workbench, figure: Path) -> Workbench:
-    from forcetorque.base.files import write_bytes_atomically
-    from forcetorque.results.figures.canvas import png_bytes
+    from forcetorque.base.output_file import write_bytes_atomically
+    from forcetorque.results.figures import png_bytes
     from forcetorque.workbench.figure import bench_figure
 
     if answer.picture is None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from forcetorque.results.figures.canvas import REFERENCE_COLOUR, ROW_INCHES, legend_below, look, new_figure, shown_name
+from forcetorque.results.figures import REFERENCE_COLOUR, ROW_INCHES, legend_below, look, new_figure, shown_name
 from forcetorque.workbench.result import BenchPicture
 
 if TYPE_CHECKING:

@@ -16,13 +16,14 @@ from forcetorque.base.toml_file import read_toml
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.input_files import Inputs, stated_in
-from forcetorque.experiment.prior import IDENTITY
+from forcetorque.experiment.sensors import IDENTITY
 from forcetorque.formats.icub_matrix import read_matrix_file
-from forcetorque.formats.tabular.row_blocks import StampColumn, TableLayout, TableSignal
 from forcetorque.formats.tabular.table import read_table
+from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 from forcetorque.recording.stream import Stream
 from forcetorque.workbench.bench import BIAS, Bench, Block, Placement
-from forcetorque.workbench.file import (
+from forcetorque.workbench.loads import THESIS_TABLE, BenchLoads, read_loads
+from forcetorque.workbench.workbench_file import (
     BenchFile,
     BenchSensorTable,
     BlockReadings,
@@ -30,7 +31,6 @@ from forcetorque.workbench.file import (
     PlacementTable,
     RowReadings,
 )
-from forcetorque.workbench.loads import THESIS_TABLE, BenchLoads, read_loads
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -20,10 +20,9 @@ from forcetorque.evaluation.acceptance.criteria import Criterion
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.results.number_text import number
 from forcetorque.results.result import Result
-from forcetorque.results.row import COMPONENTS, FloatOrNull, Row, Shown, ShownWrench, WrenchValues
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import COMPONENTS, FloatOrNull, Row, Shown, ShownWrench, Table, WrenchValues, table_of
 from forcetorque.workbench.bench import block_findings
-from forcetorque.workbench.fault_report import Examined, FaultRow
+from forcetorque.workbench.faults import Examined, FaultRow
 from forcetorque.workbench.recording import BenchRecording
 
 

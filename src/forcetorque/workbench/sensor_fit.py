@@ -1,24 +1,141 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One sensor of a workbench: its fit, errors where it was not fitted, and what its loads leave open."""
+"""One sensor of a workbench: its fit, errors at positions that were not fitted, and its calibration file."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.calibration.generative.agreement import unmoved_directions
+from forcetorque.calibration.thesis.calibrate import validity_of
+from forcetorque.experiment.calibration.artefact import GENERATIVE, Calibration, Prior, SessionOffset
 from forcetorque.experiment.calibration.excitation import excitation_of
 from forcetorque.experiment.calibration.moments import DataSet, Moments
+from forcetorque.experiment.calibration.provenance import FittedInterval, Provenance, Selection, SensorIdentity
 from forcetorque.workbench.bench import Bench
-from forcetorque.workbench.fit import BenchFit, fit_bench
-from forcetorque.workbench.held_out import in_folds, one_by_one, rms, whole_series
+from forcetorque.workbench.fit import SESSION, BenchFit, fit_bench, fit_means
 from forcetorque.workbench.recording import BenchRecording
 from forcetorque.workbench.result import BenchSensorRow, SeriesRow
+
+FOLDS = 5
+"""Parts that positions are dealt into."""
+SHUFFLES = 20
+"""Times that they are dealt: a single deal may err by twice the mean."""
+
+
+def held_out_errors(fitted: BenchFit, parts: Sequence[IntArray]) -> FloatArray:
+    """Predict the errors of positions from all others.
+
+    Exact for sizes of deviations and noise as the whole bench tells them, without fitting again: what a position adds
+    to its own prediction is known, `e = (1 - H)^-1 residual`.
+
+    Args:
+        fitted: The fit of all positions.
+        parts: Positions that are left out together, by number; every one once.
+
+    Returns:
+        Measured less known wrench, of a fit to all other parts; shape (n, 6); N, N m.
+    """
+    posterior, means = fitted.fit.posterior, fitted.means
+    loads = means.reference
+    design = np.hstack([loads, np.ones((len(loads), 1))])
+    response = _response(fitted)
+    left = np.zeros_like(response)
+    for row, noise in enumerate(posterior.noise):
+        variance = noise.white**2 * (1.0 + noise.ratio) * np.median(means.count) / means.count
+        information = design.T @ (design / variance[:, None])
+        if posterior.prior_covariance is not None:
+            information[:6, :6] += np.linalg.inv(posterior.prior_covariance[row])
+        covariance = np.linalg.pinv(information, hermitian=True)
+        residual = response[:, row] - design @ (covariance @ (design.T @ (response[:, row] / variance)))
+        for part in parts:
+            itself = design[part] @ covariance @ (design[part] / variance[part, None]).T
+            left[part, row] = np.linalg.solve(np.eye(len(part)) - itself, residual[part])
+    return left @ posterior.to_wrench.T
+
+
+def _response(fitted: BenchFit) -> FloatArray:
+    """What the rows of the posterior are regressed on, less what they are expected to be; shape (n, rows)."""
+    prior, means = fitted.bench.prior, fitted.means
+    if fitted.fit.posterior.space == "wrench":
+        return means.raw @ np.asarray(prior).T - means.reference
+    if prior is None:
+        return means.raw
+    scale = fitted.bench.full_scale
+    expected: FloatArray = means.reference @ (scale[:, None] * np.linalg.pinv(prior * scale)).T
+    return np.asarray(means.raw - expected, dtype=np.float64)
+
+
+def one_by_one(fitted: BenchFit) -> FloatArray:
+    """Leave out every position by itself.
+
+    Args:
+        fitted: The fit of all positions.
+
+    Returns:
+        Root mean square errors; shape (6,); N, N m.
+    """
+    return rms(held_out_errors(fitted, [np.array([k]) for k in range(len(fitted.bench))]))
+
+
+def in_folds(fitted: BenchFit, rng: np.random.Generator) -> FloatArray:
+    """Deal the positions into folds, again and again.
+
+    Args:
+        fitted: The fit of all positions.
+        rng: Source of the deals.
+
+    Returns:
+        Root mean square errors of every deal; shape (`SHUFFLES`, 6); N, N m.
+    """
+    deals = (np.array_split(rng.permutation(len(fitted.bench)), FOLDS) for _ in range(SHUFFLES))
+    return np.stack([rms(held_out_errors(fitted, deal)) for deal in deals])
+
+
+def whole_series(fitted: BenchFit) -> dict[str, FloatArray | str]:
+    """Leave out every series by itself, and fit the others again.
+
+    Args:
+        fitted: The fit of all positions.
+
+    Returns:
+        By name of the series, its errors, shape (k, 6), N, N m; or why the others cannot foretell it. None where there
+        is one series.
+    """
+    series = np.array(fitted.bench.loads.series)
+    names = list(dict.fromkeys(fitted.bench.loads.series))
+    return {name: _of_series(fitted, series == name) for name in names} if len(names) > 1 else {}
+
+
+def _of_series(fitted: BenchFit, left_out: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> FloatArray | str:
+    means = fitted.means
+    kept = {field: getattr(means, field)[~left_out] for field in _BY_POSITION}
+    try:
+        model = fit_means(fitted.bench, replace(means, **kept)).model
+    except FitError as error:
+        return str(error)
+    return model.wrench(means.raw[left_out]) - means.reference[left_out]
+
+
+_BY_POSITION = ("time_s", "count", "raw", "reference", "flattening", "variables")
+
+
+def rms(errors: FloatArray) -> FloatArray:
+    """Give the root mean square.
+
+    Args:
+        errors: Errors; shape (n, 6); N, N m.
+
+    Returns:
+        Of every component; shape (6,); N, N m.
+    """
+    return np.sqrt((errors**2).mean(axis=0))
+
 
 _SWAPPED = 0.5
 """Error with forces and moments exchanged, over that as stated, below which they were exchanged."""
@@ -131,7 +248,7 @@ def _series_rows(fitted: BenchFit, held_out: FloatArray) -> tuple[SeriesRow, ...
 def _implausible(bench: Bench) -> tuple[str, ...]:
     """What makes it doubtful that the readings are those of a sensor under the known loads, each position a block."""
     from forcetorque.calibration.plausibility.checks import examine
-    from forcetorque.calibration.plausibility.setup import WORKBENCH
+    from forcetorque.calibration.plausibility.compared_wrenches import WORKBENCH
 
     blocks = DataSet(
         label=bench.serial,
@@ -153,3 +270,90 @@ def _require_halves(bench: Bench, file: str) -> None:
             f"{file}: expected known wrenches as force, then moment, got what the prior reads as moment, then force; "
             "exchange the columns of readings.known, or of readings.channels"
         )
+
+
+_RULE = "readings of known loads regressed on them; sizes of prior deviations by evidence"
+
+
+def bench_calibration(
+    recording: BenchRecording, fitted: BenchFit, *, code_version: str, created: str, doubts: tuple[str, ...] = ()
+) -> Calibration:
+    """Make the artefact of a bench.
+
+    Args:
+        recording: What the fit is of.
+        fitted: The fit.
+        code_version: Version of this library, for the record.
+        created: Date and time, ISO 8601, for the record.
+        doubts: What makes it doubtful.
+
+    Returns:
+        The calibration; its offset holds for readings as they come, after the last bias.
+    """
+    bench, fit, sensor = fitted.bench, fitted.fit, recording.sensor
+    posterior, matrix = fit.posterior, fit.model.matrix
+    error = posterior.offset_error(fit.model.offset, SESSION)
+    readings = bench.raw + bench.bias
+    prior = _prior(recording, bench)
+    session = SessionOffset(
+        name=SESSION,
+        offset=fitted.offset,
+        standard_error=error,
+        prior_offset=None if prior is None else prior.offset,
+    )
+    return Calibration(
+        sensor=SensorIdentity(
+            name=sensor.name,
+            serial=sensor.serial,
+            robot="workbench",
+            frame=sensor.frame,
+            measure_direction=sensor.measure_direction,
+        ),
+        matrix=matrix,
+        offset=fitted.offset,
+        sessions=(session,),
+        estimation_type=GENERATIVE,
+        posterior=posterior,
+        matrix_standard_error=posterior.matrix_error(matrix),
+        offset_standard_error=error,
+        residual_rms=fit.residual,
+        lambda_counts2=None,
+        prior=prior,
+        validity=validity_of(
+            readings.min(axis=0),
+            readings.max(axis=0),
+            excitation_of(Moments.of(bench.raw, bench.loads.wrench)),
+            [fit.model.wrench(bench.raw)],
+        ),
+        selection=Selection(rule=_RULE),
+        doubts=doubts,
+        provenance=_provenance(recording, bench, code_version=code_version, created=created),
+    )
+
+
+def _prior(recording: BenchRecording, bench: Bench) -> Prior | None:
+    """The matrix so far, with the offset at which it reads the loads of the bench in the mean; None where none is."""
+    if bench.prior is None:
+        return None
+    offset = (bench.loads.wrench - bench.read_by(bench.prior)).mean(axis=0) - bench.prior @ bench.bias
+    return Prior(matrix=bench.prior, offset=offset, source=str(recording.sensor.prior or "given"))
+
+
+def _provenance(recording: BenchRecording, bench: Bench, *, code_version: str, created: str) -> Provenance:
+    return Provenance(
+        code_version=code_version,
+        created=created,
+        experiment=recording.file,
+        intervals=(
+            FittedInterval(
+                label=SESSION,
+                start_ns=round(1e9 * bench.instants_s.min()),
+                end_ns=round(1e9 * bench.instants_s.max()),
+                session=SESSION,
+                experiment=recording.file,
+            ),
+        ),
+        samples=len(bench),
+        dropped=len(recording.loads) - len(bench),
+        inputs_sha256=recording.inputs_sha256,
+    )

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SensorError
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.simulation.family import FAMILIES
+from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.workbench.bench import Bench, Placement
 from forcetorque.workbench.loads import BenchLoads, Weights
 

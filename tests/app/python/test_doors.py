@@ -18,16 +18,16 @@ from forcetorque.app.python.experiment import Experiment, calibrate_jointly, loa
 from forcetorque.app.python.functions import calibrate_skin, motion, simulate, study, workbench
 from forcetorque.app.python.run import Run
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, OutputError
-from forcetorque.calibration.joint.robot import calibrate_jointly as calibrate_jointly_of_experiments
-from forcetorque.calibration.sensor_calibration import calibrate_for_file
+from forcetorque.calibration.calibrate import calibrate_for_file
+from forcetorque.calibration.joint.calibrate import calibrate_jointly as calibrate_jointly_of_experiments
 from forcetorque.evaluation.acceptance.acceptance import accept
-from forcetorque.evaluation.acceptance.file import read_acceptance
+from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
 from forcetorque.evaluation.evaluation import evaluate
 from forcetorque.evaluation.validation.validation import validate
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.inspect import inspect_log
-from forcetorque.locomotion.movement.signals import motion_signals
+from forcetorque.locomotion.logged_signals import motion_signals
 from forcetorque.planning.planning import plan
 from forcetorque.report.report import report
 from forcetorque.sensor.bandwidth.bandwidth import response

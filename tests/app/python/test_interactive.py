@@ -18,10 +18,10 @@ from forcetorque.app.python.arrays import experiment_of_arrays
 from forcetorque.app.python.experiment import Experiment, load_experiment
 from forcetorque.app.python.run import Run
 from forcetorque.base.errors import ExperimentError, FitError, RecordingError, ShapeError
-from forcetorque.calibration.sensor_calibration import data_doubts
+from forcetorque.calibration.calibrate import data_doubts
 from forcetorque.calibration.summary import learnt_directions
 from forcetorque.evaluation.evaluation import evaluate
-from forcetorque.evaluation.load_cases.judgement import use_verdicts
+from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.validation.validation import validate
 from forcetorque.experiment.calibration.artefact import read_calibration

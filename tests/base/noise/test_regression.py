@@ -12,11 +12,10 @@ from scipy.signal import lfilter
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import mean_error, means_in_windows
-from forcetorque.base.noise.regression import regress
-from forcetorque.base.noise.slow_noise import SlowNoise, Timeline
+from forcetorque.base.noise.slow_noise import SlowNoise, Timeline, regress
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.identification.fit import fit
-from forcetorque.payload.identification.problem import Load, LoadProblem, LoadRows
+from forcetorque.payload.identification.load_problem import Load, LoadProblem, LoadRows
 
 STEP_S = 0.01
 

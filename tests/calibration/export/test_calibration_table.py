@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError
-from forcetorque.calibration.export.csv import write_calibration_table
+from forcetorque.calibration.export.export import write_calibration_table
 from tests.scenes.calibrations import MOUNTED, OFFSET, make_calibration, make_variable
 
 

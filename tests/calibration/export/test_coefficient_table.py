@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.calibration.export.csv import write_coefficient_table
+from forcetorque.calibration.export.export import write_coefficient_table
 from tests.scenes.calibrations import COEFFICIENTS, make_calibration, make_variable
 
 

@@ -10,9 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.calibration.figures.held_out import held_out_figure
-from forcetorque.calibration.figures.lambda_axis import infinite_place
-from forcetorque.results.figures.canvas import look
+from forcetorque.calibration.figures.lambda_curves import held_out_figure, infinite_place
+from forcetorque.results.figures import look
 from tests.report.drawing import LAMBDAS, legend_of, panels
 
 DECADES = 10.0 ** np.arange(-2.0, 9.0)

@@ -9,8 +9,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.calibration.figures.excitation import space_figure
-from forcetorque.results.figures.canvas import look, png_bytes
-from forcetorque.results.figures.curves import DRAWN_POINTS
+from forcetorque.results.figures import DRAWN_POINTS, look, png_bytes
 from tests.report.drawing import count_of, legend_of, panels, pixels
 
 PLANES = ((0, 1), (1, 2), (0, 2))

@@ -11,8 +11,8 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.calibration.plausibility.checks import examine
-from forcetorque.calibration.plausibility.direction import require_same_sign
-from forcetorque.calibration.plausibility.movement import Movement
+from forcetorque.calibration.plausibility.compared_wrenches import Movement
+from forcetorque.calibration.plausibility.sense_and_gain import require_same_sign
 from forcetorque.experiment.calibration.moments import DataSet
 
 RNG = np.random.default_rng(5)

@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.plausibility.checks import examine
-from forcetorque.calibration.plausibility.movement import Doubt
+from forcetorque.calibration.plausibility.compared_wrenches import Doubt
 from forcetorque.experiment.calibration.moments import DataSet
 from tests.calibration.push_error import Case, cases
 

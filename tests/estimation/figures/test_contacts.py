@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError, UnitError
 from forcetorque.estimation.figures import contact_figure
-from forcetorque.results.figures.canvas import png_bytes
+from forcetorque.results.figures import png_bytes
 from tests.report.drawing import legend_of, panels
 
 COUNT = 600

@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import make_pose
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.estimation.skin.known_wrenches import SkinSource, skin_sources
+from forcetorque.estimation.skin_contacts import SkinSource, skin_sources
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.robot.contacts import Contact, Wrenches
 from forcetorque.robot.mechanics.question import Question, TorqueSum
@@ -22,10 +22,10 @@ from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotMo
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
-from forcetorque.skin.contact.reading import PatchReader
+from forcetorque.skin.contact.pressure_frame import PatchReader
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.chamber import TaxelResponses
 from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
+from forcetorque.skin.simulation.recordings import TaxelResponses
 from forcetorque.skin.wrench.patch import SkinPatch
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.patches import cylinder_patch

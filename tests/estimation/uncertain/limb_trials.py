@@ -17,9 +17,8 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import wrench_matrix
-from forcetorque.estimation.skin.known_wrenches import skin_sources
-from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
-from forcetorque.estimation.uncertain.estimates import UncertainEstimates
+from forcetorque.estimation.skin_contacts import skin_sources
+from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
 from forcetorque.estimation.uncertain.uncertainty import tangent_maps
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.mechanics.estimate import estimate

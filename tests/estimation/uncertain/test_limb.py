@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import EstimationError
-from forcetorque.estimation.skin.known_wrenches import SkinSource, frames_before, skin_sources
-from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
-from forcetorque.estimation.uncertain.estimates import UncertainEstimates
+from forcetorque.estimation.skin_contacts import SkinSource, frames_before, skin_sources
+from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
 from forcetorque.estimation.uncertain.uncertainty import Tangents, tangent_maps
 from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.mechanics.estimate import estimate

@@ -10,9 +10,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.evaluation.figures.compare import index_figure
-from forcetorque.evaluation.figures.sphere import sphere_figure
-from forcetorque.results.figures.canvas import look, png_bytes
+from forcetorque.evaluation.figures.sphere import index_figure, sphere_figure
+from forcetorque.results.figures import look, png_bytes
 from tests.report.drawing import legend_of, panels, recorded_figures, size_of, trial_groups, words
 
 

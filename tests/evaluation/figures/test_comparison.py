@@ -8,8 +8,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.evaluation.figures.errors import comparison_figure
-from forcetorque.results.figures.canvas import REFERENCE_COLOUR, look, png_bytes
+from forcetorque.evaluation.figures.errors_and_matrices import comparison_figure
+from forcetorque.results.figures import REFERENCE_COLOUR, look, png_bytes
 from tests.report.drawing import count_of, legend_of, panels, pixels
 
 COUNT = 500

@@ -9,8 +9,8 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.evaluation.figures.matrix_differences import difference_figure
-from forcetorque.results.figures.canvas import png_bytes
+from forcetorque.evaluation.figures.errors_and_matrices import difference_figure
+from forcetorque.results.figures import png_bytes
 from tests.report.drawing import panels, size_of, words
 
 NAMES = ("Workbench", "SnTdTO", "SwTdTO", "SwTrTO")

@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.sphere import force_space_figure
-from forcetorque.results.figures.canvas import look, png_bytes
-from forcetorque.results.figures.curves import DRAWN_POINTS
+from forcetorque.results.figures import DRAWN_POINTS, look, png_bytes
 from tests.report.drawing import legend_of, panels, words
 
 

@@ -11,8 +11,8 @@ from matplotlib.patches import StepPatch
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.noise.autocorrelation import autocorrelation
-from forcetorque.evaluation.figures.errors import bin_edges, residual_figure, thinned_lags
-from forcetorque.results.figures.canvas import look
+from forcetorque.evaluation.figures.errors_and_matrices import bin_edges, residual_figure, thinned_lags
+from forcetorque.results.figures import look
 from tests.report.drawing import legend_of, panels, words
 
 COUNT = 2000

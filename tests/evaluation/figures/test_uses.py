@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.load_cases import use_figure
-from forcetorque.results.figures.canvas import look
+from forcetorque.results.figures import look
 from tests.report.drawing import legend_of, panels, use_of
 
 NAMES = {"leg.json": "leg.json", "new.json": "new.json"}

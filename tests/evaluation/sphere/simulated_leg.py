@@ -12,15 +12,21 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.thesis.calibrate import calibrate
-from forcetorque.evaluation.sphere.analysis import SphereAnalysis, analyse_sphere
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis, analyse_sphere
 from forcetorque.experiment.calibration.moments import DataSet
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
 from forcetorque.robot.mechanics.samples import Processing, sensor_samples
 from forcetorque.simulation.scenario.file import bundled_scenario
-from forcetorque.simulation.scenario.plan import INTERVAL_MARGIN_S
-from forcetorque.simulation.scenario.run import Scenario, SimulatedRecording, load_scenario, simulate, trace_recordings
+from forcetorque.simulation.scenario.scenario import (
+    INTERVAL_MARGIN_S,
+    Scenario,
+    SimulatedRecording,
+    load_scenario,
+    simulate,
+    trace_recordings,
+)
 from forcetorque.simulation.trace import Trace
 
 LEG = "l_leg_ft"

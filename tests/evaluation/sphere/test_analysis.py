@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import FitError, ForceTorqueError, ShapeError, UnitError
-from forcetorque.evaluation.sphere.analysis import SphereAnalysis, analyse_sphere
 from forcetorque.evaluation.sphere.cloud import share_of_directions
-from forcetorque.evaluation.sphere.ellipsoid import ellipsoid_of_map
+from forcetorque.evaluation.sphere.fit_results import ellipsoid_of_map
+from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis, analyse_sphere
 from tests.evaluation.sphere.clouds import grid, slow_noise, whole_sphere
 
 GRAVITY, MASS = 9.81, 4.733288

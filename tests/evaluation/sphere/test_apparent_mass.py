@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.evaluation.sphere.analysis import apparent_masses, axis_errors
-from forcetorque.evaluation.sphere.findings import spread_index
+from forcetorque.evaluation.sphere.fit_results import spread_index
+from forcetorque.evaluation.sphere.sensor_sphere import apparent_masses, axis_errors
 
 GRAVITY = 9.81
 """What the thesis used; m/s2."""

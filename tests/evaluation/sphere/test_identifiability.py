@@ -6,10 +6,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.evaluation.sphere.affine import fit_mapped
-from forcetorque.evaluation.sphere.analysis import analyse_sphere
-from forcetorque.evaluation.sphere.findings import RULE, TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, lowest_index
-from forcetorque.evaluation.sphere.free import fit_ellipsoid, fit_radius, may_be_flat
+from forcetorque.evaluation.sphere.affine_fit import fit_mapped
+from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, lowest_index
+from forcetorque.evaluation.sphere.model_free_fit import fit_ellipsoid, fit_radius, may_be_flat
+from forcetorque.evaluation.sphere.sensor_sphere import analyse_sphere
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of, on, slow_noise, whole_sphere
 
 COUNT = 1500

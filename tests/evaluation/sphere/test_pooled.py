@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FitError, ForceTorqueError, ShapeError
-from forcetorque.evaluation.sphere.affine import fit_mapped
-from forcetorque.evaluation.sphere.analysis import SphereAnalysis, analyse_sphere
-from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, ellipsoid_of_map
-from forcetorque.evaluation.sphere.findings import TOLERANCE
-from forcetorque.evaluation.sphere.pooled import PooledSphere, pool_trials
+from forcetorque.evaluation.sphere.affine_fit import fit_mapped
+from forcetorque.evaluation.sphere.fit_results import TOLERANCE, Ellipsoid, ellipsoid_of_map
+from forcetorque.evaluation.sphere.pooled_fit import PooledSphere, pool_trials
+from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis, analyse_sphere
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of, whole_sphere
 
 OFFSETS = np.array([[12.0, -30.0, 55.0], [4.0, -22.0, 60.0], [-6.0, -35.0, 48.0]])

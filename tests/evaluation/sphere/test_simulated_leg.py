@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from forcetorque.evaluation.sphere.analysis import SphereAnalysis
+from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis
 from tests.evaluation.sphere.simulated_leg import GRAVITY, JUDGED, SCREWS, Leg, leg, screwed
 
 SEEDS = range(1, 11)

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.evaluation.sphere.affine import MappedFit, fit_mapped
-from forcetorque.evaluation.sphere.analysis import SphereAnalysis, analyse_sphere
-from forcetorque.evaluation.sphere.findings import TOLERANCE, EllipsoidFit
-from forcetorque.evaluation.sphere.trials import drift_between, mean_of_trials
+from forcetorque.evaluation.sphere.affine_fit import MappedFit, fit_mapped
+from forcetorque.evaluation.sphere.fit_results import TOLERANCE, EllipsoidFit
+from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis, analyse_sphere
+from forcetorque.evaluation.trials.trials import drift_between, mean_of_trials
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of
 
 TABLES = {

@@ -12,11 +12,10 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.generative.artefact import generative_calibration
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.assumptions import Assumptions
-from forcetorque.experiment.calibration.moments import DataSet
+from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.experiment.calibration.provenance import FittedInterval, SensorIdentity
 from forcetorque.experiment.calibration.quadratic_correction import QuadraticCorrection, steepness
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments
-from forcetorque.experiment.calibration.window_means import WindowMeans
 from forcetorque.simulation.sensor import distorted_by_mounting
 from tests.scenes.calibrations import FACTORY
 

@@ -17,9 +17,8 @@ from forcetorque.experiment.calibration.estimation_type import (
     OffsetStrategy,
     estimation_type,
 )
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
 from forcetorque.experiment.calibration.moments import DataSet, Moments
-from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
 
 EXACT = 1e-9
 """Relative: rounding of double precision times the condition of the raw readings, some 1e3, and of the variables."""

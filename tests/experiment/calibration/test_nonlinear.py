@@ -8,8 +8,8 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
+from forcetorque.calibration.generative.artefact import corrected_fit, try_correction
 from forcetorque.calibration.generative.fit import fit_generative
-from forcetorque.calibration.generative.nonlinear import corrected_fit, try_correction
 from forcetorque.calibration.summary import calibration_blocks
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moments import DataSet

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FitError, ShapeError
-from forcetorque.experiment.calibration.secondary import secondary_matrix, secondary_model
-from forcetorque.experiment.calibration.sensor_model import WrenchModel, recover_raw
+from forcetorque.experiment.calibration.sensor_model import WrenchModel, recover_raw, secondary_matrix, secondary_model
 
 PRIOR = 0.02 * (np.diag([1, 1, 1, 0.02, 0.02, 0.02]) @ (np.eye(6) + 0.2 * np.random.default_rng(1).normal(size=(6, 6))))
 

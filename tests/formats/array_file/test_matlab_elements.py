@@ -17,8 +17,7 @@ from scipy.io import loadmat, savemat
 from scipy.sparse import csc_array
 
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.array_file.matlab import matlab_contents, read_matlab
-from forcetorque.formats.array_file.matlab_elements import DEEPEST
+from forcetorque.formats.array_file.matlab import DEEPEST, matlab_contents, read_matlab
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.inspect import inspect_log
 

@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.formats.array_file.log_format import MatlabFormat
-from forcetorque.formats.array_file.statement import MatlabLog
+from forcetorque.formats.array_file.streams import MatlabLog
 from forcetorque.formats.registry import recognised_format
 from forcetorque.robot.urdf import read_urdf
 

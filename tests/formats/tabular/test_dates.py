@@ -15,9 +15,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.tabular.row_blocks import StampColumn, TableLayout, TableSignal
 from forcetorque.formats.tabular.sketch import is_table, sketch_table
 from forcetorque.formats.tabular.table import read_table
+from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 
 NS_0 = 1795428303_000_000_000
 """2026-11-23 10:05:03 UTC."""

@@ -10,8 +10,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from forcetorque.formats.tabular import text
-from forcetorque.formats.tabular.form import LOOKED_AT
+from forcetorque.formats.tabular import row_readers as text
+from forcetorque.formats.tabular.dialect import LOOKED_AT
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.inspect import inspect_log
 
@@ -44,7 +44,7 @@ def table(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
 def test_ranges_are_those_of_all_rows(table: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In the answer of `inspect`, and in the question of `init`; blocks are smaller than the file."""
     monkeypatch.setattr(text, "BLOCK_SIZE", 1 << 19)
-    monkeypatch.setattr("forcetorque.formats.tabular.columnar.BATCH_ROWS", 1 << 12)
+    monkeypatch.setattr("forcetorque.formats.tabular.row_readers.BATCH_ROWS", 1 << 12)
     inspection = inspect_log(table)
     assert inspection.ranges_of is None
     for row in inspection.unread:

@@ -18,9 +18,9 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.formats.tabular import text
-from forcetorque.formats.tabular.row_blocks import StampColumn, TableLayout, TableSignal
+from forcetorque.formats.tabular import row_readers as text
 from forcetorque.formats.tabular.table import read_frame, read_table
+from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 from forcetorque.recording.stream import Stream
 
 WRENCH = TableSignal(
@@ -189,7 +189,7 @@ def test_parquet_is_refused_where_it_says_something_else(tmp_path: Path) -> None
 _MEASURE = """
 import re, sys
 from pathlib import Path
-from forcetorque.formats.tabular.row_blocks import StampColumn, TableLayout, TableSignal
+from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 from forcetorque.formats.tabular.table import read_table
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 signal = TableSignal(quantity="wrench", columns=WRENCH_COMPONENTS, units=WRENCH_UNITS, frame="tool")

@@ -13,8 +13,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError, UnitError
-from forcetorque.formats.tabular.row_blocks import StampColumn, TableLayout, TableSignal
 from forcetorque.formats.tabular.table import read_table
+from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 from forcetorque.recording.stream import Stream
 from tests.fuzzing import examples
 

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.yarp.plain_ports import read_analog
-from forcetorque.formats.yarp.port_reading import PortReading
+from forcetorque.formats.yarp.plain_ports import PortReading, read_analog
 from tests.formats.yarp.port_logs import INFO, write_port
 
 _GOOD = "7 1457614036.921366 1.5 -2 3e-3 4.0 5.25 -6.125"

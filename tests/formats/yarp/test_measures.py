@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from forcetorque.base.errors import FormatError, RecordingError
 from forcetorque.formats.yarp.measures import READ_LISTS, MeasuresList, MeasuresSensor, read_measures
-from forcetorque.formats.yarp.port_reading import PortReading
+from forcetorque.formats.yarp.plain_ports import PortReading
 from forcetorque.recording.stream import QUANTITIES
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, parse_nested, write_port
 from tests.fuzzing import examples

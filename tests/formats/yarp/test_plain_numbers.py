@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
-from forcetorque.formats.yarp.plain_ports import read_inertial, read_state
-from forcetorque.formats.yarp.port_reading import PortReading
+from forcetorque.formats.yarp.plain_ports import PortReading, read_inertial, read_state
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, parse_slowly, write_port
 
 _JOINTS = ("hip", "knee", "slide")

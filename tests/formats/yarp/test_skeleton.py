@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from forcetorque.formats.yarp import conversion as skeleton
-from forcetorque.formats.yarp.conversion import group_lines
+from forcetorque.formats.yarp import message as skeleton
+from forcetorque.formats.yarp.message import group_lines
 
 _LINE = "1 1.5 (2.5 -3) [ok]"
 _LINES = st.lists(st.text(alphabet="01.-e() [ok]", max_size=12), min_size=1, max_size=12)

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.yarp.plain_ports import read_analog
-from forcetorque.formats.yarp.port_reading import PortReading
+from forcetorque.formats.yarp.plain_ports import PortReading, read_analog
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
 
 _INFO_WITHOUT = INFO.replace("Stamp: tx;\n", "")

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
-from forcetorque.formats.yarp import conversion as skeleton
-from forcetorque.formats.yarp import port_folder
-from forcetorque.formats.yarp.port_reading import PortReading
+from forcetorque.formats.yarp import message as skeleton
+from forcetorque.formats.yarp import port_log as port_folder
+from forcetorque.formats.yarp.plain_ports import PortReading
 from forcetorque.formats.yarp.state_ext import read_state_ext
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
 

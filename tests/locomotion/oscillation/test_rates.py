@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from forcetorque.locomotion.oscillation.resampled import evened
-from forcetorque.locomotion.oscillation.search import OscillationSearch, find_oscillations
+from forcetorque.locomotion.oscillation.oscillation import OscillationSearch, find_oscillations
 from forcetorque.locomotion.oscillation.settling import settlings, tracking_error
+from forcetorque.locomotion.oscillation.spectrum import evened
 from tests.locomotion.oscillation.noises import COLOURS, noise, swing
 from tests.locomotion.oscillation.test_settling_and_tracking import settled_after, step_response
 

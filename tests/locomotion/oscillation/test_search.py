@@ -8,8 +8,8 @@ import pytest
 from scipy.optimize import curve_fit
 
 from forcetorque.base.errors import RecordingError
-from forcetorque.locomotion.oscillation.resampled import evened
-from forcetorque.locomotion.oscillation.search import OscillationSearch, find_oscillations
+from forcetorque.locomotion.oscillation.oscillation import OscillationSearch, find_oscillations
+from forcetorque.locomotion.oscillation.spectrum import evened
 from tests.locomotion.oscillation.noises import COLOURS, noise, swing
 
 RATE_HZ = 100.0

@@ -8,8 +8,8 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RecordingError
-from forcetorque.locomotion.oscillation.resampled import evened
 from forcetorque.locomotion.oscillation.settling import command_steps, settlings, tracking_error
+from forcetorque.locomotion.oscillation.spectrum import evened
 from tests.locomotion.oscillation.noises import noise
 
 TIME_S = np.arange(2000) / 100.0

@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.base.errors import EstimationError, ShapeError
 from forcetorque.base.pose import make_pose
-from forcetorque.locomotion.standing.pressure import (
+from forcetorque.locomotion.standing.centre_of_mass_and_pressure import (
     PlaneTolerance,
     Sole,
     centre_of_pressure,

@@ -10,7 +10,7 @@ from scipy import signal
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.locomotion.torque_control.controller import TorqueController, TorqueGains
-from forcetorque.locomotion.torque_control.plant import LinearPlant
+from forcetorque.locomotion.torque_control.stability import LinearPlant
 
 PERIOD_S = 0.001
 LAG_S = 0.01

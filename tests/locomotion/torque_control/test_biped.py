@@ -10,13 +10,18 @@ import pytest
 
 from forcetorque.base.errors import RobotError
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.locomotion.standing.centre_of_mass import centre_of_mass
+from forcetorque.locomotion.standing.centre_of_mass_and_pressure import centre_of_mass
+from forcetorque.locomotion.torque_control.closed_loop import (
+    estimated_torques,
+    pelvis_motion,
+    rotations,
+    torque_question,
+)
 from forcetorque.locomotion.torque_control.controller import JointDrive
-from forcetorque.locomotion.torque_control.sensors import estimated_torques, pelvis_motion, rotations, torque_question
 from forcetorque.locomotion.torque_control.world import JOINTS, LEGS, SENSORS, SOLES, Biped
+from forcetorque.robot.dynamics import expected_wrenches
+from forcetorque.robot.model_text import write_urdf
 from forcetorque.robot.motion import JointMotion
-from forcetorque.robot.newton_euler import expected_wrenches
-from forcetorque.robot.urdf_text import write_urdf
 
 mujoco = pytest.importorskip("mujoco")
 from forcetorque.locomotion.torque_control.world import World  # noqa: E402

@@ -11,10 +11,16 @@ import pytest
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ControlError
 from forcetorque.locomotion.torque_control.balancing import Phase, Timing, standing, switching
-from forcetorque.locomotion.torque_control.closed_loop import LoopRun, LoopSetting, run_loop
+from forcetorque.locomotion.torque_control.closed_loop import (
+    PRINTED,
+    LoopRun,
+    LoopSetting,
+    SensorErrors,
+    drawn_matrices,
+    run_loop,
+)
 from forcetorque.locomotion.torque_control.file import PERIOD_S, DriveTable, SensorTable, TorqueLoopFile
 from forcetorque.locomotion.torque_control.linear_robot import LinearRobot, linear_robot, require_stable
-from forcetorque.locomotion.torque_control.sensors import PRINTED, SensorErrors, drawn_matrices
 from forcetorque.locomotion.torque_control.world import SENSORS, Biped
 
 pytest.importorskip("mujoco")

@@ -13,8 +13,15 @@ from scipy.optimize import brentq
 
 from forcetorque.base.errors import ControlError, ShapeError
 from forcetorque.locomotion.torque_control.controller import TorqueGains
-from forcetorque.locomotion.torque_control.plant import held_joints, moving_joints
-from forcetorque.locomotion.torque_control.stability import TorqueLoop, delay_margin, error_in_torques, onset, stability
+from forcetorque.locomotion.torque_control.stability import (
+    TorqueLoop,
+    delay_margin,
+    error_in_torques,
+    held_joints,
+    moving_joints,
+    onset,
+    stability,
+)
 from tests.locomotion.torque_control.single_joint import DUTY_TORQUE, GAINS, LAG_S, PERIOD_S, closed_loop
 
 DELAY = 5

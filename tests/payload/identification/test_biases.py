@@ -10,8 +10,7 @@ import pytest
 
 from forcetorque.payload.identification.bias_checks import bias_tests, choose_drift
 from forcetorque.payload.identification.fit import fit
-from forcetorque.payload.identification.problem import LoadProblem
-from forcetorque.payload.identification.several_recordings import together
+from forcetorque.payload.identification.load_problem import LoadProblem, together
 from forcetorque.payload.identification.solve import load_estimates, session_estimates, solve
 from tests.payload.identification.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, weight
 

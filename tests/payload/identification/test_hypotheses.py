@@ -12,10 +12,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.payload.identification.fit import fit, plain_fit
+from forcetorque.payload.identification.fit import fit, plain_fit, scales
 from forcetorque.payload.identification.hypotheses import hypotheses
-from forcetorque.payload.identification.problem import Load, LoadProblem
-from forcetorque.payload.identification.robust_weights import scales
+from forcetorque.payload.identification.load_problem import Load, LoadProblem
 from forcetorque.payload.identification.solve import solve
 from tests.payload.identification.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, slow, weight
 

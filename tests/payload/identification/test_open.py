@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.payload.identification.problem import Load
+from forcetorque.payload.identification.load_problem import Load
 from forcetorque.payload.identification.solve import solve
 from forcetorque.payload.identification.unobservable import spanned_directions
 from tests.payload.identification.payloads import CENTRE, GRAVITY, MASS, SIZES, poses, problem_of, weight

@@ -13,15 +13,15 @@ from scipy.spatial.transform import Rotation
 from forcetorque.base.errors import FitError
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.formats.tabular.row_blocks import TableLayout, TableSignal
 from forcetorque.formats.tabular.table import read_table
+from forcetorque.formats.tabular.table_layout import TableLayout, TableSignal
 from forcetorque.payload.identification.fit import plain_fit
+from forcetorque.payload.identification.load_problem import Load, LoadProblem, LoadRows
 from forcetorque.payload.identification.parameters import Kind
-from forcetorque.payload.identification.problem import Load, LoadProblem, LoadRows
 from forcetorque.payload.identification.solve import solve
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from tests.payload.identification.payloads import CENTRE, MASS, SIZES, poses, problem_of, weight
 

@@ -8,10 +8,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.formats.tabular.row_blocks import StampColumn, TableLayout, TableSignal
 from forcetorque.formats.tabular.table import read_table
+from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 from forcetorque.formats.yarp.plain_ports import read_state
-from forcetorque.planning.trajectory import PORT, TIME_COLUMN, ros_trajectory, trajectory_table, write_yarp_positions
+from forcetorque.planning.trajectory_files import (
+    PORT,
+    TIME_COLUMN,
+    ros_trajectory,
+    trajectory_table,
+    write_yarp_positions,
+)
 from forcetorque.robot.motion import JointMotion
 
 NAMES = ("hip", "knee")

@@ -22,9 +22,9 @@ from forcetorque.base.errors import FormatError, ShapeError
 from forcetorque.results.document.content import NO_ROWS, Document, Figure, List, Page, Section, Text, Tone, Verdict
 from forcetorque.results.document.html import html_bytes
 from forcetorque.results.document.pdf import MISSING_LETTERS, pdf_bytes
-from forcetorque.results.document.pdf_text import lines_of, spelled
+from forcetorque.results.document.pdf_layout import lines_of, spelled
 from forcetorque.results.document.picture import Picture, small_png
-from forcetorque.results.figures.canvas import DOTS_PER_INCH, new_figure, png_bytes
+from forcetorque.results.figures import DOTS_PER_INCH, new_figure, png_bytes
 from forcetorque.results.number_text import with_joined_units
 from forcetorque.results.table import Table
 

@@ -14,7 +14,7 @@ from forcetorque.results.document.content import Document, Figure, List, Place, 
 from forcetorque.results.document.html import html_bytes
 from forcetorque.results.document.pdf import pdf_bytes
 from forcetorque.results.document.picture import Picture
-from forcetorque.results.figures.canvas import DOTS_PER_INCH
+from forcetorque.results.figures import DOTS_PER_INCH
 from forcetorque.results.table import Table
 
 

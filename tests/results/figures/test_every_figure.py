@@ -17,7 +17,7 @@ from matplotlib.transforms import Bbox
 
 import forcetorque
 from forcetorque.base.errors import MissingExtraError
-from forcetorque.results.figures.canvas import png_bytes
+from forcetorque.results.figures import png_bytes
 from tests.report.drawing import FIGURES, panels, shown_texts, size_of
 
 every_figure = pytest.mark.parametrize("name", list(FIGURES))
@@ -152,11 +152,11 @@ def test_figures_leave_the_program_as_it_is() -> None:
 import sys
 import numpy as np
 from forcetorque.calibration.figures.excitation import space_figure
-from forcetorque.calibration.figures.lambda_axis import lambda_difference_figure
+from forcetorque.calibration.figures.lambda_curves import lambda_difference_figure
 from forcetorque.estimation.figures import contact_figure
-from forcetorque.evaluation.figures.matrix_differences import difference_figure
-from forcetorque.results.figures.canvas import png_bytes
-from forcetorque.study.figures.contact_force import lambda_force_figure
+from forcetorque.evaluation.figures.errors_and_matrices import difference_figure
+from forcetorque.results.figures import png_bytes
+from forcetorque.study.figures import lambda_force_figure
 assert "matplotlib" not in sys.modules
 curves = {"a": np.ones(3)}
 lambda_difference_figure(np.arange(3.0), curves, unit="N/count")

@@ -16,13 +16,13 @@ from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, Recording, Support, Use
 from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.stream import Stream
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.mechanics.samples import Processing, SensorSamples, sensor_samples
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.motions.random_smooth import random_smooth_motion
+from forcetorque.simulation.motions.joint_motions import random_smooth_motion
 from forcetorque.simulation.robots import ARM_URDF
 from forcetorque.simulation.sensor import SimulatedSensor, y_shaped_matrix
 from forcetorque.simulation.trace import simulate_recording

@@ -15,8 +15,7 @@ from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.question import Question, moving_joints
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.sub_model import sub_models
-from forcetorque.robot.tree import build_tree
+from forcetorque.robot.tree import build_tree, sub_models
 from forcetorque.robot.urdf import read_urdf
 from tests.robot.kinematics import link_poses
 from tests.robot.mechanics.simulated import Simulation, random_pose

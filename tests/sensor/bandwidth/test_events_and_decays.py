@@ -9,9 +9,8 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, RecordingError
 from forcetorque.sensor.bandwidth.decays import pool
-from forcetorque.sensor.bandwidth.even_record import EvenRecord, even_record, flat_tops, refuse_clipped
-from forcetorque.sensor.bandwidth.events import find_events
-from forcetorque.sensor.bandwidth.ring_down import RingDown, gains, ring_downs, step_direction
+from forcetorque.sensor.bandwidth.excited_records import EvenRecord, even_record, flat_tops, refuse_clipped
+from forcetorque.sensor.bandwidth.ring_down import RingDown, find_events, gains, ring_downs, step_direction
 from tests.scenes.excited_sensors import GRAVITY, MASS_KG, RELEASES, Spring, released, tapped
 
 SPRING = Spring(rate_hz=500.0)

@@ -12,15 +12,17 @@ import pytest
 from forcetorque.base.errors import SensorError
 from forcetorque.base.pose import make_pose, rotation_about_z
 from forcetorque.base.wrench import wrench_matrix
-from forcetorque.sensor.elastic.beam import Beam, Material, RectangularSection
-from forcetorque.sensor.elastic.element import (
+from forcetorque.sensor.elastic import (
+    Beam,
     Bending,
     ElasticElement,
     GaugePlace,
+    Material,
+    RectangularSection,
+    bending_strain,
     cross_shaped_element,
     y_shaped_element,
 )
-from forcetorque.sensor.elastic.strain import bending_strain
 
 MATERIAL = Material.from_poisson_ratio(200e9, 0.3)
 SECTION = RectangularSection(width=0.004, height=0.005)

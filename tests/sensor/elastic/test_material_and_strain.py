@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.sensor.elastic.beam import Material, RectangularSection
-from forcetorque.sensor.elastic.strain import (
+from forcetorque.sensor.elastic import (
+    Material,
+    RectangularSection,
     bending_strain,
     diagonal_strain,
     direct_strain,

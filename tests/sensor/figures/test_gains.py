@@ -14,7 +14,7 @@ import pytest
 from forcetorque.base.errors import MissingExtraError
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.results.figures.canvas import COLOURS, png_bytes
+from forcetorque.results.figures import COLOURS, png_bytes
 from forcetorque.sensor.gains.figure import gain_figure
 from forcetorque.sensor.gains.gains import SensorGains, sensor_gains
 from tests.report.drawing import count_of, pixels, size_of

@@ -11,8 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import SensorError
-from forcetorque.sensor.gauge.capacitive import ParallelPlates
-from forcetorque.sensor.gauge.crystal import QuartzResonator
+from forcetorque.sensor.gauge import ParallelPlates, QuartzResonator
 
 PLATES = ParallelPlates(area=1e-4, relative_permittivity=3.0)
 RESONATOR = QuartzResonator(fundamental_hz=1e7, constant=2.4e-14, size=0.01)

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import SensorError
-from forcetorque.sensor.gauge.optical import FibreBraggGrating, ReflectedIntensity
+from forcetorque.sensor.gauge import FibreBraggGrating, ReflectedIntensity
 
 FIBRE = ReflectedIntensity(core_radius=1e-4, cone_angle=np.arctan(0.5), contact_intensity=8.0)
 GRATING = FibreBraggGrating(

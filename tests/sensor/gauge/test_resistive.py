@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import SensorError
-from forcetorque.sensor.gauge.resistive import GAUGE_MATERIALS, ResistiveGauge
+from forcetorque.sensor.gauge import GAUGE_MATERIALS, ResistiveGauge
 
 FOIL = ResistiveGauge(gauge_factor=2.0, resistance=120.0, temperature_coefficient=10.8e-6)
 

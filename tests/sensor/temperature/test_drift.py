@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FitError
-from forcetorque.base.noise.regression import SHAPES, regress
+from forcetorque.base.noise.slow_noise import SHAPES, regress
 from forcetorque.sensor.temperature.cycles import Cycles, cycles_of, find_branches
 from forcetorque.sensor.temperature.drift import LAG_UNTOLD_S, MIXED_WITH_TIME, DriftFit, find_load_step, fit_drift
 from forcetorque.simulation.effects import ThermalDrift

@@ -13,8 +13,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import FitError, SensorError
-from forcetorque.sensor.transfer.polynomial import Linear, Logarithmic, fit_linear, fit_logarithmic
-from forcetorque.sensor.transfer.power import Exponential, Power, fit_exponential, fit_power
+from forcetorque.sensor.transfer.parametric import (
+    Exponential,
+    Linear,
+    Logarithmic,
+    Power,
+    fit_exponential,
+    fit_linear,
+    fit_logarithmic,
+    fit_power,
+)
 from forcetorque.sensor.transfer.transfer_function import TransferFunction
 
 FITTED = 1e-7

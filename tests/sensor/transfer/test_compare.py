@@ -10,8 +10,17 @@ import pytest
 
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.sensor.transfer.compare import FITTERS, compare
-from forcetorque.sensor.transfer.polynomial import Linear, Logarithmic, fit_linear, fit_logarithmic, fit_polynomial
-from forcetorque.sensor.transfer.power import Exponential, Power, fit_exponential, fit_power
+from forcetorque.sensor.transfer.parametric import (
+    Exponential,
+    Linear,
+    Logarithmic,
+    Power,
+    fit_exponential,
+    fit_linear,
+    fit_logarithmic,
+    fit_polynomial,
+    fit_power,
+)
 from forcetorque.sensor.transfer.transfer_function import TransferFunction
 
 CLOSED = {

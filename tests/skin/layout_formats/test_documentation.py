@@ -11,9 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.skin.layout.findings.finding import Defect
-from forcetorque.skin.layout.findings.modules import NEAREST_CENTRES_M
-from forcetorque.skin.layout.findings.normals import FACETED_DEG, OBLIQUE_DEG
+from forcetorque.skin.layout.defects import FACETED_DEG, NEAREST_CENTRES_M, OBLIQUE_DEG
+from forcetorque.skin.layout.finding import Defect
 from forcetorque.skin.layout.formats.registry import describe_patch, read_layout
 from forcetorque.skin.layout.formats.urdf_frames import ModuleFrames
 from tests.page_scripts import unmarked

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, SkinError
-from forcetorque.skin.layout.findings import layout_findings
+from forcetorque.skin.layout.check import layout_findings
 from forcetorque.skin.layout.formats.registry import describe_patch, read_layout
 from tests.scenes.patches import collapsed, cylinder_patch, position_text, without_modules
 

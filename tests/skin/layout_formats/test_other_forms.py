@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError, UnitError
-from forcetorque.skin.layout.findings import layout_findings
+from forcetorque.skin.layout.check import layout_findings
+from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.formats.registry import describe_patch, read_layout
-from forcetorque.skin.layout.formats.skin_gui import read_plan
 from forcetorque.skin.layout.modules import MODULE_PADS, MODULE_TAXELS
 from tests.scenes.patches import cylinder_patch
 

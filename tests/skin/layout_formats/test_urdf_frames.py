@@ -11,11 +11,10 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, RobotError, SkinError
 from forcetorque.base.pose import rotation_from_rpy
-from forcetorque.skin.layout.findings import layout_findings
+from forcetorque.skin.layout.check import layout_findings
+from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.registry import describe_patch
-from forcetorque.skin.layout.formats.skin_gui import read_plan
-from forcetorque.skin.layout.modules import MODULE_TAXELS, placed_pads
-from forcetorque.skin.layout.plan import module_poses
+from forcetorque.skin.layout.modules import MODULE_TAXELS, module_poses, placed_pads
 from tests.scenes.patches import cylinder_modules
 from tests.scenes.robots import robot_xml
 

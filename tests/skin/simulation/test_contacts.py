@@ -10,11 +10,17 @@ import pytest
 
 from forcetorque.base.errors import ShapeError, SkinError
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.chamber import REFERENCE_PA, REST_COUNTS, TaxelResponses
-from forcetorque.skin.simulation.contact import SkinBody, SkinContact, contacts
+from forcetorque.skin.simulation.contact import (
+    ClothStrip,
+    FlatWeight,
+    SkinBody,
+    SkinContact,
+    SkinObject,
+    Sphere,
+    contacts,
+)
 from forcetorque.skin.simulation.heat import HeatResponses, MotorHeat
-from forcetorque.skin.simulation.objects import ClothStrip, FlatWeight, SkinObject, Sphere
-from forcetorque.skin.simulation.recording import Loading, contact_recording
+from forcetorque.skin.simulation.recordings import REFERENCE_PA, REST_COUNTS, Loading, TaxelResponses, contact_recording
 from forcetorque.skin.simulation.surface import TrueSurface
 from tests.scenes.patches import cylinder_patch
 

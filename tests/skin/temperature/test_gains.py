@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SkinError
-from forcetorque.skin.temperature.gains import HeatGains
-from forcetorque.skin.temperature.pads import TaxelHeat, ThermalGain, stuck_pads
+from forcetorque.skin.temperature.gains import HeatGains, TaxelHeat, ThermalGain, stuck_pads
 from tests.scenes.patches import cylinder_patch
 from tests.skin.skins import plane_layout
 

@@ -10,13 +10,12 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SkinError
-from forcetorque.skin.contact.following import PatchFollower
-from forcetorque.skin.contact.reading import PatchReader
+from forcetorque.skin.contact.pressure_frame import PatchReader
+from forcetorque.skin.contact.tracking import PatchFollower
 from forcetorque.skin.simulation.heat import Warmth
-from forcetorque.skin.taxels.pressure_table import PressureTable
-from forcetorque.skin.temperature.gains import HeatGains
-from forcetorque.skin.temperature.pad_filter import PadFilter
-from forcetorque.skin.temperature.pads import WarmUp
+from forcetorque.skin.taxels.patch_calibration import PressureTable
+from forcetorque.skin.temperature.gains import HeatGains, WarmUp
+from forcetorque.skin.temperature.pad_lags import PadFilter
 from forcetorque.skin.temperature.warm_up import fit_warm_up
 from forcetorque.skin.wrench.patch import SkinPatch
 from tests.scenes.warmed import WARM_UP, WarmShank, counts_of, late_pads

@@ -11,8 +11,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SkinError
-from forcetorque.skin.temperature.gains import HeatGains
-from forcetorque.skin.temperature.pads import WarmUp
+from forcetorque.skin.temperature.gains import HeatGains, WarmUp
 from forcetorque.skin.temperature.warm_up import fit_warm_up
 from tests.scenes.warmed import WARM_UP, WarmShank, counts_of
 

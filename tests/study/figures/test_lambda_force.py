@@ -9,8 +9,8 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.results.figures.canvas import look
-from forcetorque.study.figures.contact_force import MOST_HUES, lambda_force_figure
+from forcetorque.results.figures import look
+from forcetorque.study.figures import MOST_HUES, lambda_force_figure
 from tests.report.drawing import LAMBDAS, TYPES, legend_of, panels
 
 WORKBENCH = 16.6642

@@ -9,15 +9,14 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.viewer.arrays import Block
-from forcetorque.viewer.build import BuiltScene
 from forcetorque.viewer.geometry import flat, robot_geometry
-from forcetorque.viewer.root_pose import scene_joints
+from forcetorque.viewer.posture import scene_joints
 from forcetorque.viewer.scene import (
     ContactSeries,
     Ellipsoid,
@@ -29,6 +28,7 @@ from forcetorque.viewer.scene import (
     Sphere,
     WrenchSeries,
 )
+from forcetorque.viewer.scene_builder import BuiltScene
 
 SAMPLES = 600
 RATE_HZ = 50.0

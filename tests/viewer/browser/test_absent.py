@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.viewer.build import BuiltScene
 from forcetorque.viewer.page import page_of
+from forcetorque.viewer.scene_builder import BuiltScene
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 

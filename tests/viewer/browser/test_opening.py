@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.viewer.arrays import read_array
-from forcetorque.viewer.build import BuiltScene
+from forcetorque.viewer.scene_builder import BuiltScene
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 

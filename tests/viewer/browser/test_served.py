@@ -9,8 +9,7 @@ import pytest
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.viewer.annotations import Annotations
-from forcetorque.viewer.page import page_of
-from forcetorque.viewer.serve import ViewerServer
+from forcetorque.viewer.page import ViewerServer, page_of
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 

@@ -13,8 +13,8 @@ import pytest
 
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.viewer.arrays import Block, read_array
-from forcetorque.viewer.build import BuiltScene, scene_of
 from forcetorque.viewer.scene import SkinEventSeries, SkinPatch
+from forcetorque.viewer.scene_builder import BuiltScene, scene_of
 from forcetorque.viewer.skin import contact_frames
 from tests.browser import Visit
 from tests.scenes.skin_alone import TOUCHED, write_events

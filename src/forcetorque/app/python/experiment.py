@@ -11,27 +11,27 @@ from typing import TYPE_CHECKING, Self
 
 from forcetorque.app.python.run import Run
 from forcetorque.base.output_file import refuse_output
+from forcetorque.calibration.calibrate import SensorCalibrations
 from forcetorque.calibration.joint.model_error import ModelTolerance
-from forcetorque.calibration.sensor_calibration import SensorCalibrations
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.candidates import NEW, Calibrations, named
+from forcetorque.experiment.calibrations_under_test import NEW, Calibrations, named
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.experiment.experiment import Experiment as ExperimentContent
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.loading import load_experiment as load_content
-from forcetorque.experiment.offset_policy import OffsetPolicy
-from forcetorque.locomotion.standing.pressure import PlaneTolerance
+from forcetorque.experiment.validation_offset import OffsetPolicy
+from forcetorque.locomotion.standing.centre_of_mass_and_pressure import PlaneTolerance
 from forcetorque.locomotion.standing.support_phases import ForceLimit
-from forcetorque.results.created import created_now
-from forcetorque.results.html import html_table, html_warnings
+from forcetorque.results.result import created_now
 from forcetorque.results.table import Table
+from forcetorque.results.table_rendering import html_table, html_warnings
 
 if TYPE_CHECKING:
     from forcetorque.estimation.result import EstimateSummary
     from forcetorque.inspection.inspect import Inspection
     from forcetorque.locomotion.net_force.result import Coherence
     from forcetorque.locomotion.standing.standing import Balance
-    from forcetorque.viewer.view import View
+    from forcetorque.viewer.scene_builder import View
 
 
 class Experiment(ExperimentContent):
@@ -180,8 +180,8 @@ class Experiment(ExperimentContent):
         """
         from forcetorque.estimation.estimate import estimate_experiment
         from forcetorque.estimation.result import summarise_estimates
-        from forcetorque.estimation.skin.known_wrenches import frames_of_patches
-        from forcetorque.estimation.torque.fusion import fuse_experiment
+        from forcetorque.estimation.skin_contacts import frames_of_patches
+        from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
         from forcetorque.experiment.sensor_models import corrections_of
 
         if output is not None:
@@ -218,9 +218,8 @@ class Experiment(ExperimentContent):
             ForceTorqueError: If there are too many samples for one file; `forcetorque view` serves them.
             OutputError: As of `estimate`.
         """
-        from forcetorque.viewer.build import build_scene
         from forcetorque.viewer.page import write_page
-        from forcetorque.viewer.view import View
+        from forcetorque.viewer.scene_builder import View, build_scene
 
         refuse_output(output, inputs_sha256=self.inputs_sha256.values(), force=force)
         robot = parse_experiment(self.file).robot if self.file.is_file() else None
@@ -287,7 +286,7 @@ def calibrate_jointly(
         A calibration per sensor in `calibrations`, and in `joint` what they share: errors of the model, what is left of
         the equations, spans that were touched.
     """
-    from forcetorque.calibration.joint.robot import calibrate_jointly
+    from forcetorque.calibration.joint.calibrate import calibrate_jointly
 
     created = created_now()
     return calibrate_jointly(

@@ -8,11 +8,11 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from forcetorque.base.files import refuse_existing
+from forcetorque.base.output_file import refuse_existing
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, estimation_type
-from forcetorque.locomotion.movement.movement import BAND_SHARE, Motion
-from forcetorque.results.created import created_now
+from forcetorque.locomotion.movement import BAND_SHARE, Motion
+from forcetorque.results.result import created_now
 from forcetorque.skin.taxels.calibrate import SkinCalibration
 from forcetorque.skin.taxels.curve import CurveKind
 from forcetorque.skin.taxels.patch_calibration import PatchCalibration
@@ -23,10 +23,10 @@ from forcetorque.workbench.recording import BenchRecording
 if TYPE_CHECKING:
     from forcetorque.contests.entries import Entries
     from forcetorque.contests.ranking import Contest
-    from forcetorque.device.device import DeviceDesign
-    from forcetorque.device.file import DeviceFile
-    from forcetorque.evaluation.acceptance.file import AcceptanceFile
-    from forcetorque.simulation.recordings.recordings import WrittenScenario
+    from forcetorque.device.design import DeviceDesign
+    from forcetorque.device.device_file import DeviceFile
+    from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
+    from forcetorque.simulation.recordings import WrittenScenario
     from forcetorque.study.result import Studies
     from forcetorque.workbench.result import Workbench
 
@@ -92,8 +92,8 @@ def design_device(device: DeviceFile | Path | str | None = None) -> DeviceDesign
     Returns:
         What the command line shows; its `picture` has the motion, `forcetorque.device.write_device` writes it.
     """
-    from forcetorque.device.device import design_device
-    from forcetorque.device.file import DEFAULT_DEVICE, DeviceFile, read_device
+    from forcetorque.device.design import design_device
+    from forcetorque.device.device_file import DEFAULT_DEVICE, DeviceFile, read_device
 
     if not isinstance(device, DeviceFile):
         device = read_device(DEFAULT_DEVICE if device is None else device)
@@ -124,8 +124,8 @@ def motion(
     Returns:
         Oscillations, settling times and tracking errors.
     """
-    from forcetorque.locomotion.movement.movement import motion
-    from forcetorque.locomotion.movement.signals import motion_signals
+    from forcetorque.locomotion.logged_signals import motion_signals
+    from forcetorque.locomotion.movement import motion
 
     signals = motion_signals(log, columns, desired=desired, intervals=intervals, calibrations=calibrations)
     return motion(signals, steps_s=steps_s, band_share=band_share)
@@ -153,8 +153,8 @@ def motion_of_arrays(
     Returns:
         Oscillations, settling times and tracking errors.
     """
-    from forcetorque.locomotion.movement.movement import motion
-    from forcetorque.locomotion.movement.signals import motion_signals_of_arrays
+    from forcetorque.locomotion.logged_signals import motion_signals_of_arrays
+    from forcetorque.locomotion.movement import motion
 
     signals = motion_signals_of_arrays(time_s, columns, units, desired=desired)
     return motion(signals, steps_s=steps_s, band_share=band_share)
@@ -176,9 +176,9 @@ def simulate(
     Raises:
         ForceTorqueError: If there is no such scenario, or the folder is there already.
     """
-    from forcetorque.simulation.recordings.recordings import write_scenario
+    from forcetorque.simulation.recordings import write_scenario
     from forcetorque.simulation.scenario.file import bundled_scenario
-    from forcetorque.simulation.scenario.run import load_scenario
+    from forcetorque.simulation.scenario.scenario import load_scenario
 
     file = scenario if str(scenario).endswith(".toml") else bundled_scenario(str(scenario))
     return write_scenario(load_scenario(Path(file)), folder, progress=progress)
@@ -266,9 +266,9 @@ def study(
     Raises:
         ForceTorqueError: If there is nothing to study, or the folder is there already.
     """
-    from forcetorque.study.data import read_study_data
     from forcetorque.study.result import Studies, studied_sensor, study_warnings
     from forcetorque.study.study import study_sensor
+    from forcetorque.study.study_data import read_study_data
 
     if folder is not None:
         refuse_existing(Path(folder))

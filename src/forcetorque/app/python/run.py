@@ -15,30 +15,28 @@ from forcetorque.evaluation.load_cases.verdict import UseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.estimation_type import EstimationType
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
-from forcetorque.experiment.candidates import Calibrations, named, one_named
+from forcetorque.experiment.calibrations_under_test import Calibrations, named, one_named
+from forcetorque.experiment.free_sub_model import OtherSensors
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sub_model_choice import OtherSensors
 from forcetorque.planning.planning import RECORDINGS
 from forcetorque.planning.proposal import Effort
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.results.created import created_now
-from forcetorque.results.html import html_table
-from forcetorque.results.result import NOTEBOOK_WIDTH
+from forcetorque.results.result import NOTEBOOK_WIDTH, created_now
 from forcetorque.results.table import Table, short_names
-from forcetorque.results.text import table_text
+from forcetorque.results.table_rendering import html_table, table_text
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from forcetorque.evaluation.acceptance.acceptance import Acceptance
-    from forcetorque.evaluation.acceptance.file import AcceptanceFile
+    from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
     from forcetorque.evaluation.evaluation import Evaluation
     from forcetorque.evaluation.sphere.sphere import Spheres
     from forcetorque.evaluation.validation.validation import Validation
     from forcetorque.payload.payload import WeighedLoad
     from forcetorque.payload.zeroing import Tare
     from forcetorque.planning.planning import Plan
-    from forcetorque.report.assessment.assessment import Demands
+    from forcetorque.report.assessment import Demands
     from forcetorque.report.report import Report
     from forcetorque.sensor.bandwidth.bandwidth import Response
     from forcetorque.sensor.gains.gains import Gains
@@ -108,7 +106,7 @@ class Run(SensorRun):
         Returns:
             The calibration; its `doubts` say why what was fitted may be wrong.
         """
-        from forcetorque.calibration.sensor_calibration import calibrate_for_file
+        from forcetorque.calibration.calibrate import calibrate_for_file
 
         answer = calibrate_for_file(
             [self, *more],
@@ -288,7 +286,7 @@ class Run(SensorRun):
         Returns:
             A verdict for every calibration and load case; a tuple that shows itself as a table.
         """
-        from forcetorque.evaluation.load_cases.judgement import use_verdicts
+        from forcetorque.evaluation.load_cases.verdict import use_verdicts
 
         return Verdicts(use_verdicts(self, named(calibrations)))
 
@@ -312,7 +310,7 @@ class Run(SensorRun):
             Criteria, each with what was measured.
         """
         from forcetorque.evaluation.acceptance.acceptance import accept
-        from forcetorque.evaluation.acceptance.file import AcceptanceFile, read_acceptance
+        from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile, read_acceptance
 
         stated = spec if isinstance(spec, AcceptanceFile) else read_acceptance(spec)
         name, judged = one_named(calibration)
@@ -431,7 +429,7 @@ class Run(SensorRun):
         Returns:
             A figure of matplotlib.
         """
-        from forcetorque.evaluation.figures.errors import comparison_figure
+        from forcetorque.evaluation.figures.errors_and_matrices import comparison_figure
 
         judged = self.judged(named(calibrations))
         return comparison_figure(judged.time_s, judged.reference, dict(judged.measured))

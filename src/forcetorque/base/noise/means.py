@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Means over short windows, and the standard error of a mean under slow noise."""
+"""Means over short windows, their standard error under slow noise, and whether a signal is stationary."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from itertools import product
+from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, require_shape
 from forcetorque.base.errors import FitError
-from forcetorque.base.noise.regression import half_width, regress
-from forcetorque.base.noise.slow_noise import Timeline
+from forcetorque.base.noise.slow_noise import Timeline, half_width, regress
 
 WINDOW_S = 1.0
 """Length of a window; s. Slow noise that lasts shorter averages out in it."""
@@ -163,3 +163,143 @@ def window_for(time_s: FloatArray) -> float:
     """
     recorded = float(np.median(np.diff(time_s))) * len(time_s) if len(time_s) > 1 else 0.0  # without pauses
     return min(WINDOW_S, recorded / _WINDOWS) if recorded > 0.0 else WINDOW_S
+
+
+FEWEST_INDEPENDENT: Final = 20.0
+"""Independent values that a recording of stationary noise is worth at least. A trend, a step and noise that remembers a
+twentieth of the recording look alike, and the mean of none of them is one of a recording without end."""
+
+FALSE_REFUSAL: Final = 1e-3
+"""Rate at which each test of the spectrum refuses white noise."""
+
+_SAMPLE_ROUNDING: Final = 1e-9
+"""Range of a signal, over its largest value, below which it is constant: it has no noise."""
+
+_MEMORY: Final = (0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 0.998)
+"""Correlations of the slow part from one window to the next that are tried."""
+
+_SHARES: Final = (0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0, 1e4)
+"""Variances of the slow part over that of the white part that are tried."""
+
+_CLEARLY_LIKELIER: Final = 1.0
+"""Difference of log likelihoods from which noise that is too slow is taken for the truth."""
+
+_KOLMOGOROV: Final = 1.949
+"""What the largest distance of a Brownian bridge from zero exceeds at the rate `FALSE_REFUSAL` (Kolmogorov)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SampleStatistics:
+    """Statistics of the samples of k signals, and the intervals of their means where these have one."""
+
+    mean: FloatArray
+    """Means; shape (k,)."""
+    deviation: FloatArray
+    """Standard deviations of a sample; shape (k,); NaN for a single sample."""
+    smallest: FloatArray
+    """Smallest samples; shape (k,)."""
+    largest: FloatArray
+    """Largest samples; shape (k,)."""
+    standard_error: FloatArray
+    """Standard errors of the means; shape (k,); NaN where the signal is no stationary noise."""
+    half_width: FloatArray
+    """Half-widths of the 95 % intervals of the means; shape (k,); NaN where the signal is no stationary noise."""
+
+    def __post_init__(self) -> None:
+        for name in ("mean", "deviation", "smallest", "largest", "standard_error", "half_width"):
+            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(len(self.mean),)))
+
+
+def sample_statistics(values: Any, time_s: Any) -> SampleStatistics:
+    """Describe the samples of signals; only of stationary noise (`is_stationary`) a mean has an interval.
+
+    The mean of a signal that moves, steps or drifts depends on which part of it was recorded. No interval around it
+    holds anything.
+
+    Args:
+        values: Signals, all finite; shape (n, k), n at least 1.
+        time_s: Instants of the samples, not falling; shape (n,); s.
+
+    Returns:
+        The statistics, in the unit of the signals.
+
+    Raises:
+        ShapeError: If the shapes differ.
+        FitError: If time falls, or anything is no finite number.
+    """
+    signals = np.asarray(values, dtype=np.float64)
+    noise = is_stationary(signals, time_s)
+    standard_error, half_width = np.full((2, signals.shape[1]), np.nan)
+    if noise.any():
+        error = mean_error(signals[:, noise], time_s)
+        standard_error[noise] = error.standard_error
+        half_width[noise] = np.where(np.isfinite(error.half_width), error.half_width, np.nan)
+    return SampleStatistics(
+        mean=signals.mean(axis=0),
+        deviation=signals.std(axis=0, ddof=1) if len(signals) > 1 else np.full(signals.shape[1], np.nan),
+        smallest=signals.min(axis=0),
+        largest=signals.max(axis=0),
+        standard_error=standard_error,
+        half_width=half_width,
+    )
+
+
+def is_stationary(values: Any, time_s: Any) -> BoolArray:
+    """Test whether signals are white noise plus slow noise that forgets itself within the recording.
+
+    This is what `mean_error` presumes. Means over windows, of a hundred and twentieth of the recording or 1 s, are held
+    against spectra of white noise plus a first-order autoregressive part; the likeliest is taken (Whittle). A signal is
+    refused if
+
+    - noise that is worth less than `FEWEST_INDEPENDENT` independent values is likelier: trends, steps, drifts;
+    - one frequency has more power than noise: oscillations, gaits;
+    - power is spread over frequencies otherwise than in the fit (Bartlett's test of the cumulative periodogram);
+    - it never changes: logs without noise.
+
+    Args:
+        values: Signals, all finite; shape (n, k).
+        time_s: Instants of the samples, not falling; shape (n,); s.
+
+    Returns:
+        Whether each passes; shape (k,), bool.
+
+    Raises:
+        ShapeError: If the shapes differ.
+        FitError: If time falls, or anything is no finite number.
+    """
+    signals = np.asarray(values, dtype=np.float64)
+    require_shape(signals, name="values", shape=(None, None))
+    time = np.asarray(time_s, dtype=np.float64)
+    _, means, _ = means_over(time, signals, window_for(time))
+    changes = np.ptp(signals, axis=0) > _SAMPLE_ROUNDING * np.abs(signals).max(axis=0, initial=0.0)
+    if len(means) < FEWEST_INDEPENDENT:
+        return np.zeros(signals.shape[1], dtype=bool)
+    return np.array(
+        [bool(changing) and _is_noise(column) for changing, column in zip(changes, means.T, strict=True)], dtype=bool
+    )
+
+
+def _is_noise(means: FloatArray) -> bool:
+    count = len(means)
+    power = np.abs(np.fft.rfft(means - means.mean()))[1 : (count + 1) // 2] ** 2 / count
+    angle = 2.0 * np.pi * np.arange(1, len(power) + 1) / count
+    spectrum, slower = _fitted_spectrum(power, angle, count)
+    ordinates = power / spectrum
+    ordinates /= ordinates.mean()
+    # of m ordinates that are distributed exponentially, the largest
+    line = ordinates.max() > -np.log(-np.expm1(np.log1p(-FALSE_REFUSAL) / len(ordinates)))
+    cumulative = np.cumsum(ordinates)[:-1] / ordinates.sum()
+    even = np.arange(1, len(ordinates)) / len(ordinates)
+    uneven = np.abs(cumulative - even).max() * np.sqrt(len(ordinates) - 1) > _KOLMOGOROV
+    return not (slower or line or uneven)
+
+
+def _fitted_spectrum(power: FloatArray, angle: FloatArray, count: int) -> tuple[FloatArray, bool]:
+    """Fit noise that is worth enough independent values: its spectrum, and whether other noise is clearly likelier."""
+    memory, share = (column[:, None] for column in np.array(list(product(_MEMORY, _SHARES))).T)
+    shapes = 1.0 + share * (1.0 - memory**2) / (1.0 - 2.0 * memory * np.cos(angle) + memory**2)
+    cost = np.log(shapes).sum(axis=1) + len(power) * np.log((power / shapes).mean(axis=1))
+    independent = count * (1.0 + share) / (1.0 + share * (1.0 + memory) / (1.0 - memory))
+    enough = independent[:, 0] >= FEWEST_INDEPENDENT
+    best = int(np.where(enough, cost, np.inf).argmin())
+    return shapes[best], bool(cost[best] - cost.min() > _CLEARLY_LIKELIER)

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.base.files import STANDARD_OUTPUT
-from forcetorque.base.output_file import declare_outputs
+from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.calibration.export.formats import ExportFormat
 from forcetorque.results.terminal.options import ForceOption, FormatOption
 from forcetorque.results.terminal.output import (
@@ -23,7 +22,7 @@ from forcetorque.results.terminal.output import (
 )
 
 if TYPE_CHECKING:
-    from forcetorque.calibration.export.result import Export
+    from forcetorque.calibration.export.export import Export
 
 
 def export(

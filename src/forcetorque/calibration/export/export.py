@@ -1,24 +1,220 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Write calibrations to the files that robots and other programs read, and say what these do not hold."""
+"""Write calibrations to files of robots and other programs, and state what these files do not hold."""
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Annotated, Literal
 
 import numpy as np
+from pydantic import Field
 
-from forcetorque.base.arrays import FloatArray, require_shape
+from forcetorque.base.arrays import ArrayField, FloatArray, require_shape
 from forcetorque.base.errors import ExperimentError, FormatError
-from forcetorque.base.output_file import refuse_output
-from forcetorque.calibration.export.csv import write_calibration_table, write_coefficient_table
+from forcetorque.base.output_file import refuse_output, write_bytes_atomically
+from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.calibration.export.formats import ExportFormat
-from forcetorque.calibration.export.result import Export, ExportedCalibration
-from forcetorque.calibration.export.wholebodydynamics.correction import from_calibration
-from forcetorque.calibration.export.wholebodydynamics.file import write_groups
+from forcetorque.calibration.export.wholebodydynamics import from_calibration, write_groups
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.formats.icub_matrix import encode_matrix, serial_number_in_name, write_matrix_file
+from forcetorque.results.result import Result
+from forcetorque.results.table import COMPONENTS, Row, Table, WrenchValues
+
+
+class ExportedCalibration(Row):
+    """What a file holds of one calibration; per component in the order fx fy fz (N) tx ty tz (N m)."""
+
+    calibration: str
+    """Path of the calibration file."""
+    sensor: str
+    """Name that the sensor has in the written file, or in the calibration where the file holds no name."""
+    serial: str
+    """Its serial number."""
+    matrix: Annotated[FloatArray, ArrayField((6, None))]
+    """Matrix as the file's reader gets it: N/count and N m/count, for wholebodydynamics the secondary matrix."""
+    offset: WrenchValues
+    """Offset that goes with the matrix, to be added; N, N m."""
+    offset_stored: bool
+    """Whether the file holds the offset."""
+    session: str | None = None
+    """Session whose offset it is, the last one; None for a calibration of one session."""
+    variables: dict[str, WrenchValues]
+    """Coefficients of each linear variable that go with the matrix; N, N m per unit."""
+    variables_stored: bool
+    """Whether the file holds them."""
+    fitted_minimum: WrenchValues | None = None
+    """Smallest fitted load per component; N, N m; None where the calibration file is older and does not hold it."""
+    fitted_maximum: WrenchValues | None = None
+    """Largest fitted load per component; N, N m."""
+    full_scale: tuple[int, ...] | None = None
+    """icub-matrix: full scale; N, N m."""
+    largest_rounding_error: WrenchValues | None = None
+    """icub-matrix: largest error that rounding the matrix makes anywhere in the fitted raw range; N, N m."""
+
+    @property
+    def offset_text(self) -> str:
+        """The offset with its units."""
+        force, moment = (", ".join(f"{value:.4g}" for value in half) for half in (self.offset[:3], self.offset[3:]))
+        return f"({force}) N, ({moment}) N m"
+
+    @property
+    def fitted_text(self) -> str:
+        """The fitted loads with their units; beyond them nothing was seen of the sensor."""
+        if self.fitted_minimum is None or self.fitted_maximum is None:
+            return f"{self.sensor}: the file does not hold which loads were fitted; fit again to know where it holds"
+        ranges = [
+            f"{component} {low:.3g} to {high:.3g} {unit}"
+            for component, low, high, unit in zip(
+                WRENCH_COMPONENTS, self.fitted_minimum, self.fitted_maximum, WRENCH_UNITS, strict=True
+            )
+        ]
+        return f"{self.sensor}: fitted loads, outside which it extrapolates: {', '.join(ranges)}"
+
+    def components(self) -> Iterator[dict[str, object]]:
+        """Give a flat line per component.
+
+        Yields:
+            The lines.
+        """
+        for k, (component, unit) in enumerate(zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)):
+            line: dict[str, object] = {
+                "calibration": self.calibration,
+                "sensor": self.sensor,
+                "serial": self.serial,
+                "component": component,
+                "unit": unit,
+            }
+            line |= {f"m{j}": float(value) for j, value in enumerate(self.matrix[k])}
+            line |= {"offset": float(self.offset[k]), "offset_stored": self.offset_stored}
+            line |= {f"{name}_coefficient": float(values[k]) for name, values in self.variables.items()}
+            if self.fitted_minimum is not None and self.fitted_maximum is not None:
+                line |= {"fitted_minimum": float(self.fitted_minimum[k])}
+                line |= {"fitted_maximum": float(self.fitted_maximum[k])}
+            if self.full_scale is not None and self.largest_rounding_error is not None:
+                error = float(self.largest_rounding_error[k])
+                line |= {"full_scale": self.full_scale[k], "largest_rounding_error": error}
+            yield line
+
+
+class Export(Result):
+    """What was written for a robot or another program."""
+
+    schema_name: Literal["forcetorque/export/1"] = Field(default="forcetorque/export/1", alias="schema")
+    """Form of the result."""
+    format: ExportFormat
+    """Form of the file."""
+    file: str
+    """The file."""
+    offset_handling: str
+    """What becomes of the offset, in words."""
+    calibrations: tuple[ExportedCalibration, ...]
+    """One per calibration file."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give the matrices, and what becomes of the offset.
+
+        Yields:
+            Tables and sentences.
+        """
+        for entry in self.calibrations:
+            yield _matrix_table(entry, is_secondary=self.format is ExportFormat.WHOLEBODYDYNAMICS)
+            yield entry.fitted_text
+        yield f"offset: {self.offset_handling}"
+        yield f"written to {self.file}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give the matrices as flat lines.
+
+        Returns:
+            One line per calibration and component.
+        """
+        return [line for entry in self.calibrations for line in entry.components()]
+
+
+def _matrix_table(entry: ExportedCalibration, *, is_secondary: bool) -> Table:
+    columns = WRENCH_COMPONENTS if is_secondary else [f"ch{j}" for j in range(entry.matrix.shape[1])]
+    shown = entry.matrix if is_secondary else 1000.0 * entry.matrix
+    rounding = [] if entry.full_scale is None else ["full scale", "rounding at most"]
+    lines = []
+    for k, component in enumerate(COMPONENTS):
+        line = [component, *(f"{value:.3f}" for value in shown[k]), f"{entry.offset[k]:.3f}"]
+        if entry.full_scale is not None and entry.largest_rounding_error is not None:
+            line += [str(entry.full_scale[k]), f"{entry.largest_rounding_error[k]:.1e}"]
+        lines.append(tuple(line))
+    return Table(
+        caption=f"{entry.sensor} ({entry.serial})",
+        headings=("secondary matrix" if is_secondary else "per 1000 counts", *columns, "offset", *rounding),
+        rows=tuple(lines),
+    )
+
+
+def write_calibration_table(path: Path | str, calibrations: Iterable[Calibration]) -> None:
+    """Write one row per component of every sensor; on any error the file keeps what it held before.
+
+    A row holds sensor, serial, component, unit (N or N m), the coefficient of every raw channel in that
+    unit per count (`c0_per_count`, ...) and the offset in that unit: component = coefficients raw + offset. For a
+    linear variable such as temperature it also holds the coefficient (`temperature_per_degC`) and the value at
+    which it contributes nothing (`temperature_reference_degC`): component += coefficient (temperature - reference).
+    Every number reads back exactly; what a sensor does not have leaves cells empty.
+
+    Args:
+        path: File to write or to replace, in an existing folder.
+        calibrations: Calibrations.
+
+    Raises:
+        FormatError: If there is no calibration.
+    """
+    chosen = list(calibrations)
+    if not chosen:
+        raise FormatError(f"{path}: expected at least one calibration to write, got none")
+    channels = [f"c{j}_per_count" for j in range(max(calibration.matrix.shape[1] for calibration in chosen))]
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    variables = list(dict.fromkeys((v.name, v.unit) for calibration in chosen for v in calibration.variables))
+    named = [text for name, unit in variables for text in (f"{name}_per_{unit}", f"{name}_reference_{unit}")]
+    writer.writerow(["sensor", "serial", "component", "unit", *channels, "offset", *named])
+    for calibration in chosen:
+        sensor, matrix, offset = calibration.sensor, calibration.matrix.tolist(), calibration.offset.tolist()
+        empty = [""] * (len(channels) - len(matrix[0]))
+        own = {(v.name, v.unit): v for v in calibration.variables}
+        for k, (component, unit) in enumerate(zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)):
+            cells = [sensor.name, sensor.serial, component, unit, *matrix[k], *empty, offset[k]]
+            for key in variables:
+                cells += [float(own[key].coefficients[k]), own[key].reference_value] if key in own else ["", ""]
+            writer.writerow(cells)
+    write_bytes_atomically(Path(path), text.getvalue().encode())
+
+
+def write_coefficient_table(path: Path | str, calibrations: Iterable[Calibration]) -> None:
+    """Write one row per variable of every sensor; on any error the file keeps what it held before.
+
+    A row holds sensor, serial, variable, unit, reference_value and what one unit above that value adds to
+    fx fy fz (N) and tx ty tz (N m). Every number reads back exactly. A sensor without variables has no row:
+    its coefficients are zero.
+
+    Args:
+        path: File to write or to replace, in an existing folder.
+        calibrations: Calibrations.
+
+    Raises:
+        FormatError: If no calibration has a variable.
+    """
+    rows = [
+        [c.sensor.name, c.sensor.serial, v.name, v.unit, v.reference_value, *v.coefficients.tolist()]
+        for c in calibrations
+        for v in c.variables
+    ]
+    if not rows:
+        raise FormatError(f"{path}: expected a calibration with a linear variable such as temperature, got none")
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["sensor", "serial", "variable", "unit", "reference_value", *WRENCH_COMPONENTS])
+    writer.writerows(rows)
+    write_bytes_atomically(Path(path), text.getvalue().encode())
 
 
 def export_icub_matrix(

@@ -14,19 +14,21 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE, MOMENT, WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.excitation import EXPLAINED_SHARE
-from forcetorque.results.figures.canvas import (
+from forcetorque.results.figures import (
     PLANES,
     ROW_INCHES,
     SMALL_PANEL_POINTS,
     SMALL_POINTS,
     THIN_REFERENCE_LINE,
     TITLE_POINTS,
+    drawable,
+    drawable_each,
     legend_below,
     look,
     new_figure,
     shown_name,
+    thinned_cloud,
 )
-from forcetorque.results.figures.curves import drawable, drawable_each, thinned_cloud
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

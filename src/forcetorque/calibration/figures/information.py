@@ -12,7 +12,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.calibration.summary import LITTLE_LEARNT, LearntDirection
-from forcetorque.results.figures.canvas import (
+from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     SMALL_POINTS,
     THIN_REFERENCE_LINE,

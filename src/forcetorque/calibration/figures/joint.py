@@ -11,8 +11,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE, MOMENT
-from forcetorque.calibration.joint.residuals import PartResidual
-from forcetorque.results.figures.canvas import (
+from forcetorque.calibration.joint.robust_fit import PartResidual
+from forcetorque.results.figures import (
     COLOURS,
     REFERENCE_COLOUR,
     SMALL_POINTS,

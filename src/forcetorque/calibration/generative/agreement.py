@@ -12,8 +12,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.assumptions import FLATTENED
+from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
-from forcetorque.experiment.calibration.window_means import WindowMeans
 
 DISAGREEMENT = 5.0
 """Residual of one matrix for all over that of a line through the recording's own data, from which it is said."""

@@ -1,127 +1,299 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From stretches of recordings to all sensors: fit, leave out what was touched, make linear anew, fit again."""
+"""Calibrate all sensors of a robot jointly, from any number of recordings that are read once."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from pathlib import Path
+from typing import Self
+from urllib.parse import quote
 
-import numpy as np
+from forcetorque.base.errors import EstimationError, FitError, MissingFileError
+from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, data_doubts, fit_doubts
+from forcetorque.calibration.joint.artefact import sensor_artefact
+from forcetorque.calibration.joint.fit import ChangeSpread
+from forcetorque.calibration.joint.interval import JointInterval, joint_interval, required_prior
+from forcetorque.calibration.joint.model_error import ModelTolerance
+from forcetorque.calibration.joint.outcome import JointOutcome
+from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
+from forcetorque.calibration.moments import channel_full_scale
+from forcetorque.calibration.summary import learnt_directions
+from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.campaign import Campaign
+from forcetorque.experiment.campaign_intervals import CampaignRecording
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Use
 
-from forcetorque.base.arrays import BoolArray
-from forcetorque.calibration.joint.contact_windows import Touch, all_touches, residuals, untouched
-from forcetorque.calibration.joint.fit import JointFit, fit_jointly
-from forcetorque.calibration.joint.model_error import ErrorTerm, ModelTolerance, delay_terms, error_terms
-from forcetorque.calibration.joint.nodes import Stretch
-from forcetorque.calibration.joint.prior import ChangeSpread
-from forcetorque.calibration.joint.residuals import PartResidual
-from forcetorque.calibration.joint.sums import part_sums
-from forcetorque.calibration.joint.windows import PartWindows, part_windows
-from forcetorque.robot.sub_model import SubModel
-
-ROUNDS: Final = 3
-"""How often the equations are made linear: what the zero of a joint does depends on what goes through it."""
-LINEAR_S: Final = 600.0
-"""Time that the rounds before the last take, evenly out of more: it tells enough to make equations linear about."""
+JOINT_FILE = "joint.json"
+"""Name of the file with the covariance of all sensors, beside their calibrations."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class UntouchedStretch:
-    """A stretch and the parts whose equations hold in it."""
+class JointData:
+    """What the calibration intervals of recordings say of several sensors."""
 
-    stretch: Stretch
-    """Readings and motion."""
-    parts: tuple[SubModel, ...]
-    """Parts that nothing should touch and whose joints were logged."""
-    weighed: tuple[SubModel, ...] = ()
-    """Parts that nothing should touch, of whose joints only those between their sensors were logged."""
+    campaigns: Mapping[str, Campaign]
+    """Every sensor in all recordings, by its name."""
+    intervals: tuple[JointInterval, ...]
+    """The intervals."""
     left_out: tuple[str, ...] = ()
-    """Parts that nothing touches either, but whose joints were not logged, in words."""
+    """Intervals in which every part is touched, in words."""
+
+    @classmethod
+    def of(
+        cls, experiments: Sequence[Experiment], sensors: Sequence[str] | None, progress: Callable[[str], None]
+    ) -> Self:
+        """Read them.
+
+        Args:
+            experiments: Recordings of one robot.
+            sensors: Sensors with a prior matrix; all of the first file if None.
+            progress: Called with what is being done.
+
+        Returns:
+            The data.
+
+        Raises:
+            ExperimentError: If there is no calibration interval, the files are of different sensors, or in one no
+                untouched part has all joints in the log.
+            EstimationError: If every part is touched in every interval.
+        """
+        names = tuple(sensor.name for sensor in experiments[0].sensors) if sensors is None else tuple(sensors)
+        campaigns = {name: Campaign([SensorRun(experiment, name) for experiment in experiments]) for name in names}
+        intervals, touched = [], []
+        for label, outcome in _intervals(campaigns[names[0]], names, progress):
+            if isinstance(outcome, JointInterval):
+                intervals.append(outcome)
+            else:
+                touched.append((label, outcome))
+        if not intervals:
+            raise touched[0][1]
+        left_out = tuple(f"interval {label!r} is left out: {error}" for label, error in touched)
+        return cls(campaigns=campaigns, intervals=tuple(intervals), left_out=left_out)
+
+    @property
+    def recordings(self) -> tuple[str, ...]:
+        """Names of the recordings that have a calibration interval."""
+        return tuple(dict.fromkeys(one.untouched.stretch.recording for one in self.intervals))
+
+    def of_recordings(self, recordings: Collection[str]) -> tuple[JointInterval, ...]:
+        """Pick the intervals of some recordings.
+
+        Args:
+            recordings: Their names.
+
+        Returns:
+            The intervals.
+        """
+        return tuple(one for one in self.intervals if one.untouched.stretch.recording in recordings)
+
+    def fit(
+        self,
+        intervals: Sequence[JointInterval],
+        tolerance: ModelTolerance | None = None,
+        progress: Callable[[str], None] = lambda _: None,
+    ) -> JointResult:
+        """Fit all sensors to some intervals.
+
+        Args:
+            intervals: Some of these intervals.
+            tolerance: How far the robot model may be off; `ModelTolerance()` if None.
+            progress: Called with what is being done.
+
+        Returns:
+            The fit.
+
+        Raises:
+            FitError: If there are no equations.
+        """
+        spreads = {name: _spread(campaign) for name, campaign in self.campaigns.items()}
+        return fit_stretches([one.untouched for one in intervals], tolerance, spreads=spreads, progress=progress)
+
+    def calibrations(
+        self, intervals: Sequence[JointInterval], result: JointResult, *, code_version: str, created: str
+    ) -> dict[str, Calibration]:
+        """Give the calibration of every sensor beside a part with forces and moments.
+
+        One of which only weights are known is no calibration: they tell nothing of its moments.
+
+        Args:
+            intervals: The intervals that were fitted.
+            result: The fit.
+            code_version: Version of this library, for the record.
+            created: Date and time, ISO 8601, for the record.
+
+        Returns:
+            Calibrations by sensor.
+        """
+        whole = {name for part in result.residuals if part.rows.all() and part.kept.any() for name in part.sensors}
+        return {
+            name: sensor_artefact(
+                name,
+                campaign,
+                intervals,
+                result,
+                joint_file=JOINT_FILE,
+                code_version=code_version,
+                created=created,
+            )
+            for name, campaign in self.campaigns.items()
+            if name in whole
+        }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class JointResult:
-    """A joint fit and what was left out of it."""
-
-    fit: JointFit
-    """The fit."""
-    residuals: tuple[PartResidual, ...]
-    """What is left of the equation of every part in every stretch, windows that disagree too."""
-    touches: tuple[Touch, ...]
-    """Spans that were left out because they disagree."""
-    left_out: tuple[str, ...]
-    """Parts that nothing touches, but whose joints were not logged, in words."""
+def _spread(campaign: Campaign) -> ChangeSpread:
+    full_scale = channel_full_scale(CampaignRecording.of(campaign.runs[0]))
+    return ChangeSpread.of(required_prior(campaign.sensor), full_scale)
 
 
-def fit_stretches(
-    stretches: Sequence[UntouchedStretch],
-    tolerance: ModelTolerance | None = None,
-    *,
-    spreads: Mapping[str, ChangeSpread] | None = None,
-    progress: Callable[[str], None] = lambda _: None,
-) -> JointResult:
-    """Calibrate all sensors of a robot at once.
+def _intervals(
+    campaign: Campaign, sensors: Sequence[str], progress: Callable[[str], None]
+) -> Iterator[tuple[str, JointInterval | EstimationError]]:
+    """Each with its label: what it says, or why no part of it does."""
+    runs = [
+        run for run in campaign.runs if any(one.use is Use.CALIBRATION for one in run.experiment.recording.intervals)
+    ]
+    for run in runs or campaign.runs[:1]:  # the first says itself what it lacks
+        for interval in run.experiment.intervals(Use.CALIBRATION):
+            label = campaign.label(run, interval.label)
+            progress(f"reading {label}")
+            try:
+                with campaign.stated(run):
+                    outcome: JointInterval | EstimationError = joint_interval(
+                        run.experiment,
+                        interval,
+                        sensors,
+                        label=label,
+                        recording=campaign.recording(run),
+                        session=campaign.session(run, interval.label),
+                    )
+            except EstimationError as error:
+                outcome = error
+            yield label, outcome
+
+
+FILES = "calibrations"
+"""What the calibrations are called together that are given as files, where there are several."""
+
+
+def read_candidates(paths: Iterable[Path]) -> dict[str, Mapping[str, Calibration]]:
+    """Read calibrations of the sensors of a robot: all files are one candidate, every folder is one of its own.
 
     Args:
-        stretches: What is known, of any number of recordings of one robot.
+        paths: Calibration files, and folders of them such as `calibrate --jointly` writes.
+
+    Returns:
+        By name of the candidate its calibrations by name of their file.
+
+    Raises:
+        MissingFileError: If a folder holds no calibration.
+        FormatError: If a file is none.
+    """
+    candidates: dict[str, Mapping[str, Calibration]] = {}
+    single: dict[str, Calibration] = {}
+    for path in paths:
+        if not path.is_dir():
+            single[str(path)] = read_calibration(path)
+            continue
+        files = sorted(file for file in path.glob("*.json") if file.name != JOINT_FILE)
+        if not files:
+            raise MissingFileError(f"{path}: expected a folder of calibrations, .json; it holds none")
+        candidates[str(path)] = {str(file): read_calibration(file) for file in files}
+    if single:
+        return {next(iter(single)) if len(single) == 1 else FILES: single, **candidates}
+    return candidates
+
+
+@with_recording_notes
+def calibrate_jointly(
+    experiments: Sequence[Experiment],
+    folder: Path | str,
+    sensors: Sequence[str] | None = None,
+    *,
+    code_version: str,
+    created: str,
+    tolerance: ModelTolerance | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+) -> SensorCalibrations:
+    """Calibrate all sensors of a robot at once, on the calibration intervals of any number of recordings.
+
+    No contact needs to be known: parts of the robot between its sensors that nothing touches give the equations.
+
+    Args:
+        experiments: Recordings of one robot; with an IMU as support where no link stands still.
+        folder: Folder that `save` of the result writes the calibrations to.
+        sensors: Sensors to calibrate, which have a prior matrix; all of the first file if None.
+        code_version: Version of this library, for the record.
+        created: Date and time, ISO 8601, for the record.
         tolerance: How far the robot model may be off; `ModelTolerance()` if None.
-        spreads: How the changes of a sensor scatter, by its name; `EVEN` for sensors that are not there.
         progress: Called with what is being done.
 
     Returns:
-        The fit.
+        A calibration per sensor, which no file holds yet, and in `joint` errors of the model, what is left of the
+        equations, and spans that were touched.
 
     Raises:
-        FitError: If there are no equations.
+        ExperimentError: If there is no calibration interval, the files are of different sensors, or in one no untouched
+            part has all joints in the log.
+        EstimationError: If every part is touched in every interval.
+        FitError: If a sensor that was asked for is beside no untouched part whose joints were logged.
     """
-    terms = _all_terms(stretches, ModelTolerance() if tolerance is None else tolerance)
-    progress(f"equations of {len(stretches)} intervals")
-    duration = sum(float(np.ptp(one.stretch.time_s)) for one in stretches if len(one.stretch))
-    every = max(round(duration / LINEAR_S), 1)
-    windows = _windows(stretches, terms, None, every)
-    fit = _fit(windows, _agreeing(windows, None), terms, spreads)
-    for number in range(2, ROUNDS + 1):
-        progress(f"the same about the fit, round {number} of {ROUNDS}")
-        windows = _windows(stretches, terms, fit, every if number < ROUNDS else 1)
-        fit = _fit(windows, _agreeing(windows, fit), terms, spreads)
-    kept = _agreeing(windows, fit)
-    return JointResult(
-        fit=fit,
-        residuals=tuple(
-            PartResidual.of(one, residuals(one, fit), marks) for one, marks in zip(windows, kept, strict=True)
+    data = JointData.of(experiments, sensors, progress)
+    result = data.fit(data.intervals, tolerance, progress)
+    calibrations = data.calibrations(data.intervals, result, code_version=code_version, created=created)
+    if not calibrations:
+        raise FitError(
+            f"{', '.join(data.campaigns)}: beside no untouched part whose joints were logged; log them all, name the "
+            "other sensors of the part too, or take a motion in which nothing touches it"
+        )
+    place = Path(folder)
+    joint = JointOutcome.of(result, calibrations, str(place / JOINT_FILE))
+    doubts = [
+        *data.left_out,
+        *(_without_equation(name) for name in data.campaigns if name not in calibrations),
+        *joint.doubts(),
+        *(
+            doubt
+            for name in calibrations
+            for run in data.campaigns[name].runs
+            for doubt in data_doubts(run, by_model=False)
         ),
-        touches=all_touches(windows, kept),
-        left_out=tuple(dict.fromkeys(words for one in stretches for words in one.left_out)),
+        *(doubt for calibration in calibrations.values() for doubt in fit_doubts(calibration)),
+    ]
+    return SensorCalibrations(
+        experiment="; ".join(dict.fromkeys(experiment.name for experiment in experiments)),
+        calibrations=tuple(
+            SensorCalibration(
+                file=str(place / calibration_file(calibration.sensor.name, calibration.sensor.serial)),
+                calibration=calibration,
+                secondary_matrix=calibration.secondary_matrix(),
+                learnt=learnt_directions(calibration),
+            )
+            for calibration in calibrations.values()
+        ),
+        joint=joint,
+        warnings=tuple(dict.fromkeys(doubts)),
     )
 
 
-def _windows(
-    stretches: Sequence[UntouchedStretch], terms: Sequence[ErrorTerm], about: JointFit | None, every: int
-) -> tuple[PartWindows, ...]:
-    return tuple(
-        windows
-        for one in stretches
-        for windows in part_windows(one.stretch, one.parts, terms, weighed=one.weighed, about=about, every=every)
+def _without_equation(sensor: str) -> str:
+    return (
+        f"{sensor}: beside no untouched part whose joints were logged, so not calibrated; its readings count by their "
+        "weight at most"
     )
 
 
-def _agreeing(windows: Sequence[PartWindows], fit: JointFit | None) -> list[BoolArray]:
-    return [untouched(one, fit) for one in windows]
+def calibration_file(sensor: str, serial: str) -> str:
+    """Name the file of a sensor's calibration.
 
+    Args:
+        sensor: Name of the sensor.
+        serial: Its serial number.
 
-def _fit(
-    windows: Sequence[PartWindows],
-    kept: Sequence[BoolArray],
-    terms: Sequence[ErrorTerm],
-    spreads: Mapping[str, ChangeSpread] | None,
-) -> JointFit:
-    return fit_jointly(part_sums(one.kept(marks) for one, marks in zip(windows, kept, strict=True)), terms, spreads)
-
-
-def _all_terms(stretches: Sequence[UntouchedStretch], tolerance: ModelTolerance) -> tuple[ErrorTerm, ...]:
-    terms = (
-        term for one in stretches for term in error_terms(one.stretch.tree, one.parts, tolerance, weighed=one.weighed)
-    )
-    delays = delay_terms([one.stretch.recording for one in stretches], tolerance)
-    return (*{term.name: term for term in terms}.values(), *delays)
+    Returns:
+        Name and serial number, quoted because either may hold a slash.
+    """
+    return f"{quote(f'{sensor}_{serial}', safe=' ')}.json"

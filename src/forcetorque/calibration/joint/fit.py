@@ -1,29 +1,89 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""All sensors of a robot at once, from equations of parts that nothing touches.
+"""All sensors of a robot in one fit, from equations of link groups without contact, and its prior distribution.
 
-The unknowns, changes of all matrices, offsets and errors of the model, are normal with a prior: the size of a sensor's
-changes follows from the data (evidence), tolerances of the model are stated. The noise of every row of every part is
-what is left over, found by iteration. Noise of the readings stands in the coefficients too: its expected part of the
-normal equations is taken off, no more of it than what is left over can hold (errors in variables).
+The unknowns, changes of all matrices, offsets and errors of the model, are normal with a prior: the size of a
+sensor's changes follows from the data (evidence), tolerances of the model are specified. The noise of every row of
+every link group is the residual, found by iteration. Noise of the measurements stands in the coefficients too: its
+expected part of the normal equations is taken off, no more of it than the residual can hold (errors in variables).
 
-Evidence may lower the size of changes, but not raise it above the expected one: on a real robot the misfit of its model
-passes for changes of the matrices, and larger sizes would open directions that the motion does not determine. Predicted
-errors are those that the estimate makes if changes are as large as evidence says.
+What coefficients make of wrenches is uneven. A sensor that computes moments from forces by small differences of its
+channels reads a moment as a force far more easily than another, and only its prior matrix shows that. Gain, rotation
+and displacement of its frame make the rest.
+
+Evidence may lower the size of changes, but not raise it above the expected one: on a real robot the misfit of its
+model passes for changes of the matrices, and larger sizes would open directions that the motion does not determine.
+Predicted errors are those that the estimate makes if changes are as large as evidence says.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Final, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.arrays import FloatArray, IntArray, require_shape
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.joint.model_error import ZERO, ErrorTerm
-from forcetorque.calibration.joint.prior import EVEN, KINDS, ChangeSpread
 from forcetorque.calibration.joint.sums import PartSums, Places
 from forcetorque.calibration.joint.windows import UNITS
+from forcetorque.experiment.calibration.assumptions import FRAME, FRAME_ROOTS, SENSOR
+
+KINDS: Final = (SENSOR, FRAME)
+"""Expected size of both kinds of changes, and what that expectation weighs."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ChangeSpread:
+    """How the rows of D scatter before any data; in `UNITS`."""
+
+    roots: FloatArray
+    """L of both kinds and every row, with L L^T its covariance where its size is 1; shape (2, 6, 6, 6).
+
+    First coefficients that are off by as much as their row is large; then gain, rotation and displacement of the frame.
+    """
+
+    @classmethod
+    def of(cls, matrix: FloatArray, full_scale: FloatArray) -> Self:
+        """Tell it from a prior matrix.
+
+        Args:
+            matrix: Prior matrix; shape (6, c); N/count, N m/count.
+            full_scale: Full scale of every channel; shape (c,); counts.
+
+        Returns:
+            The spread.
+        """
+        require_shape(full_scale, name="full_scale", shape=(matrix.shape[1],))
+        scaled = matrix * full_scale
+        response = np.linalg.pinv(scaled) * UNITS
+        sizes = np.sqrt((scaled**2).mean(axis=1)) / UNITS
+        return cls(
+            roots=np.stack(
+                [
+                    sizes[:, None, None] * np.linalg.cholesky(response.T @ response),
+                    FRAME_ROOTS * UNITS / UNITS[:, None, None],
+                ]
+            )
+        )
+
+    def covariance(self, sizes: FloatArray) -> FloatArray:
+        """Give the covariance of every row.
+
+        Args:
+            sizes: Size of both kinds; shape (2,).
+
+        Returns:
+            Covariances; shape (6, 6, 6).
+        """
+        scaled = sizes[:, None, None, None] * self.roots
+        return (scaled @ scaled.transpose(0, 1, 3, 2)).sum(axis=0)
+
+
+EVEN: Final = ChangeSpread(roots=np.stack([np.stack([np.eye(6)] * 6), np.zeros((6, 6, 6))]))
+"""Every coefficient of D scatters alike: for a sensor of which no matrix is known."""
+
 
 _SMALLEST, _LARGEST = 0.1, 5.0
 """How far the size of changes by evidence may be from the expected one."""

@@ -11,10 +11,8 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
-from forcetorque.calibration.joint.calibrate import UntouchedStretch
-from forcetorque.calibration.joint.contact_windows import residuals_by
 from forcetorque.calibration.joint.nodes import Stretch
-from forcetorque.calibration.joint.residuals import PartResidual
+from forcetorque.calibration.joint.robust_fit import PartResidual, UntouchedStretch, residuals_by
 from forcetorque.calibration.joint.windows import part_windows, window_means
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.contacts import contacts_in
@@ -27,8 +25,7 @@ from forcetorque.recording.sample_quality import UnusableCounts
 from forcetorque.robot.mechanics.root_motion import imu_frame
 from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
 from forcetorque.robot.mechanics.sub_model_equations import joints_of_cuts, joints_of_part, sensors_of, untouched_parts
-from forcetorque.robot.sub_model import SubModel
-from forcetorque.robot.tree import BodyTree, build_tree
+from forcetorque.robot.tree import BodyTree, SubModel, build_tree
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

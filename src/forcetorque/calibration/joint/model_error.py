@@ -12,6 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import cross
 from forcetorque.base.wrench import transform_wrench
+from forcetorque.robot.dynamics import net_wrench
 from forcetorque.robot.mechanics.sub_model_equations import (
     PartEquation,
     heavy_bodies,
@@ -20,9 +21,7 @@ from forcetorque.robot.mechanics.sub_model_equations import (
     part_equations,
 )
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import net_wrench
-from forcetorque.robot.sub_model import SubModel
-from forcetorque.robot.tree import BodyTree
+from forcetorque.robot.tree import BodyTree, SubModel
 
 ZERO: Final = "zero of "
 """How the name of the error of a joint begins."""

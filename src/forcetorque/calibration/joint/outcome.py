@@ -12,16 +12,13 @@ from pydantic import Field
 
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.calibration.joint.calibrate import JointResult
-from forcetorque.calibration.joint.contact_windows import Touch
 from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.model_error import ErrorTerm
-from forcetorque.calibration.joint.residuals import PartResidual
+from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual, Touch
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.results.number_text import with_error
-from forcetorque.results.row import Row, Shown
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import Row, Shown, Table, table_of
 
 _GAIN_PERCENT = 3.0
 """Error of a gain from which it counts as not determined: as large as that of the masses that tell it."""

@@ -26,7 +26,7 @@ from forcetorque.robot.mechanics.sub_model_equations import (
     part_equations,
     weight_equations,
 )
-from forcetorque.robot.sub_model import SubModel
+from forcetorque.robot.tree import SubModel
 
 if TYPE_CHECKING:
     from forcetorque.calibration.joint.fit import JointFit

@@ -9,10 +9,15 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.plausibility.direction import require_moving_load, require_same_sign, span_doubts
-from forcetorque.calibration.plausibility.magnitude import require_moment_unit, require_within_full_scale, scale_doubts
-from forcetorque.calibration.plausibility.movement import Doubt, Movement
-from forcetorque.calibration.plausibility.setup import ROBOT, Setup
+from forcetorque.calibration.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
+from forcetorque.calibration.plausibility.sense_and_gain import (
+    require_moment_unit,
+    require_moving_load,
+    require_same_sign,
+    require_within_full_scale,
+    scale_doubts,
+    span_doubts,
+)
 from forcetorque.calibration.plausibility.timing import delay_doubts, require_gauges
 from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
 from forcetorque.experiment.calibration.sensor_model import is_invertible

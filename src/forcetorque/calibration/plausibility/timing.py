@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.calibration.plausibility.movement import Doubt, Movement
+from forcetorque.calibration.plausibility.compared_wrenches import Doubt, Movement
 from forcetorque.experiment.calibration.moments import DataSet, Moments, symmetric_pseudo_inverse
 from forcetorque.recording.delay import EVEN, EvenPair, residual_at_lags
 

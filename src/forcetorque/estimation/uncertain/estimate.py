@@ -1,29 +1,150 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Answer a question with covariances: what is wrong with readings and known wrenches goes linearly to the answers."""
+"""Contact wrenches and joint torques with covariances, linear in the errors of measurements and known wrenches."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, require_shape
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, require_shape
 from forcetorque.base.errors import EstimationError, ShapeError, known_names
 from forcetorque.base.pose import make_pose
 from forcetorque.base.wrench import transform_wrench
-from forcetorque.estimation.uncertain.actions import actions_of, actors_of
-from forcetorque.estimation.uncertain.equations import Scene, posterior_of
-from forcetorque.estimation.uncertain.estimates import BY_SAMPLE, UncertainEstimates
-from forcetorque.estimation.uncertain.uncertainty import Uncertainty, wrench_covariances
-from forcetorque.estimation.uncertain.undetermined import Undetermined, undetermined_of
+from forcetorque.estimation.uncertain.equations import Scene, Undetermined, posterior_of, undetermined_of
+from forcetorque.estimation.uncertain.uncertainty import Uncertainty, actions_of, actors_of, wrench_covariances
 from forcetorque.robot.contacts import Wrenches
-from forcetorque.robot.kinematics import BodyState
-from forcetorque.robot.mechanics.inputs import Inputs, checked_inputs, refuse_infinite
+from forcetorque.robot.dynamics import BodyState, net_wrench
+from forcetorque.robot.mechanics.estimate import Inputs, checked_inputs, refuse_infinite
+from forcetorque.robot.mechanics.estimates import column_of
 from forcetorque.robot.mechanics.question import Question, TorqueSum
 from forcetorque.robot.mechanics.readable import Block, body_states
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import net_wrench
+
+BY_SAMPLE: Final = (
+    "contact_wrenches",
+    "contact_covariance",
+    "torques",
+    "torque_covariance",
+    "torque_lasting",
+    "residual",
+    "rank",
+    "condition",
+)
+"""Fields with a row for each sample."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UncertainEstimates:
+    """Estimates of n samples; NaN in a gap, and where a number depends on what is not determined."""
+
+    contacts: tuple[str, ...]
+    """Contacts: unknown ones, then known ones, in the order of the question."""
+    contact_wrenches: FloatArray
+    """What the environment does to the robot, in and about the contact frame; of a known contact as readings and its
+    tangents have corrected it; shape (n, contacts, 6); N, N m."""
+    contact_covariance: FloatArray
+    """Covariance of its error; shape (n, contacts, 6, 6)."""
+    joints: tuple[str, ...]
+    """Joints whose torque was asked for."""
+    torques: FloatArray
+    """What the motor does along +q; shape (n, joints); N m, N where prismatic."""
+    torque_covariance: FloatArray
+    """Covariance of their errors; shape (n, joints, joints)."""
+    torque_lasting: FloatArray
+    """What one standard deviation of each of p errors that last leaves them wrong by; part of that covariance; shape
+    (n, joints, p)."""
+    parts: tuple[str, ...]
+    """Sub-models whose equations were solved, by the sensor at their base or the root link."""
+    residual: FloatArray
+    """What neither unknowns nor errors explain of each, along the root link's axes; shape (n, parts, 6); N, N m."""
+    rank: IntArray
+    """Directions of all unknowns together that the equations see; shape (n,)."""
+    condition: FloatArray
+    """Largest over smallest singular value of those; shape (n,); NaN for rank 0."""
+    undetermined: tuple[Undetermined, ...]
+    """What the equations do not see, and where."""
+
+    def __len__(self) -> int:
+        return len(self.torques)
+
+    def of_samples(self, kept: BoolArray) -> UncertainEstimates:
+        """Keep some samples.
+
+        Args:
+            kept: Which; shape (n,).
+
+        Returns:
+            Their estimates.
+        """
+        arrays: dict[str, Any] = {name: getattr(self, name)[kept] for name in BY_SAMPLE}
+        hidden = [replace(one, samples=one.samples[kept]) for one in self.undetermined if one.samples[kept].any()]
+        return replace(self, **arrays, undetermined=tuple(hidden))
+
+    @property
+    def determined(self) -> BoolArray:
+        """Whether everything is determined in a sample; shape (n,)."""
+        hidden = np.zeros(len(self), dtype=np.bool_)
+        for one in self.undetermined:
+            hidden |= one.samples
+        return ~hidden
+
+    @property
+    def torque_sd(self) -> FloatArray:
+        """Standard deviation of each torque; shape (n, joints)."""
+        return _deviations(self.torque_covariance)
+
+    def contact(self, name: str) -> FloatArray:
+        """Give the wrenches of a contact.
+
+        Args:
+            name: Its name.
+
+        Returns:
+            Wrenches in the contact frame; shape (n, 6); N, N m.
+        """
+        return self.contact_wrenches[:, column_of(name, self.contacts, "contact")]
+
+    def contact_sd(self, name: str) -> FloatArray:
+        """Give the standard deviations of the wrench of a contact.
+
+        Args:
+            name: Its name.
+
+        Returns:
+            One for each component; shape (n, 6); N, N m.
+        """
+        return _deviations(self.covariance_of(name))
+
+    def covariance_of(self, name: str) -> FloatArray:
+        """Give the covariance of the wrench of a contact.
+
+        Args:
+            name: Its name.
+
+        Returns:
+            Covariances; shape (n, 6, 6).
+        """
+        return self.contact_covariance[:, column_of(name, self.contacts, "contact")]
+
+    def torque(self, joint: str) -> FloatArray:
+        """Give the torques of a joint.
+
+        Args:
+            joint: Its name.
+
+        Returns:
+            Torques; shape (n,); N m, N where prismatic.
+        """
+        return self.torques[:, column_of(joint, self.joints, "torque")]
+
+
+def _deviations(covariance: FloatArray) -> FloatArray:
+    variance = np.einsum("...ii->...i", covariance)
+    return np.sqrt(np.maximum(variance, 0.0))
+
 
 _BLOCK: Final = 256
 """Samples at once: matrices of all sub-models, for each of them, stay in the processor's cache."""

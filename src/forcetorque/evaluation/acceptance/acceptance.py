@@ -10,14 +10,13 @@ from typing import ClassVar, Literal, Self
 from pydantic import Field, model_validator
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion, RecordingCriterion, Subject, criteria_of
-from forcetorque.evaluation.acceptance.file import AcceptanceFile
 from forcetorque.evaluation.acceptance.static_checks import RecordingChecks, StaticChecks, check
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.unfitted_samples import doubts_about_choice
-from forcetorque.experiment.validity import ReadingsOutside, readings_outside, sentences
+from forcetorque.experiment.validity import ReadingsOutside, doubts_about_choice, readings_outside, sentences
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result

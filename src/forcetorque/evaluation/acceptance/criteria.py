@@ -15,22 +15,22 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.calibration.summary import learnt_directions
-from forcetorque.evaluation.acceptance import file as limits
-from forcetorque.evaluation.acceptance.file import Component
+from forcetorque.evaluation.acceptance import acceptance_file as limits
+from forcetorque.evaluation.acceptance.acceptance_file import Component
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
 from forcetorque.evaluation.evaluation import CandidateErrors, judge_errors
-from forcetorque.evaluation.load_cases.judgement import use_verdicts
 from forcetorque.evaluation.load_cases.section import LoadCaseTable
+from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.evaluation.matrix_checks import PopulationPosition
 from forcetorque.evaluation.validation.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.campaign import Campaign
-from forcetorque.experiment.candidates import PRIOR
+from forcetorque.experiment.free_sub_model import OtherSensors
 from forcetorque.experiment.interval_quality import IntervalQuality
-from forcetorque.experiment.offset_policy import Offset
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sub_model_choice import OtherSensors
-from forcetorque.results.row import FloatOrNull, Row
+from forcetorque.experiment.validation_offset import Offset
+from forcetorque.results.table import FloatOrNull, Row
 
 
 class Bound(StrEnum):

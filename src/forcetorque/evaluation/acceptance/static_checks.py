@@ -27,7 +27,7 @@ from forcetorque.experiment.interval_quality import IntervalQuality, has_counts,
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, Use
-from forcetorque.results.row import FloatOrNull, Row, WrenchValues
+from forcetorque.results.table import FloatOrNull, Row, WrenchValues
 
 _Answer = TypeVar("_Answer")
 

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.load_cases.verdict import UseError, UseVerdict
-from forcetorque.results.figures.canvas import (
+from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     REFERENCE_LINE,
     legend_below,

@@ -16,12 +16,11 @@ from forcetorque.evaluation.load_cases.load_case import LoadCase, pushes_at, pus
 from forcetorque.evaluation.load_cases.section import LOAD_CASES, LoadCaseTable
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
-from forcetorque.robot.kinematics import body_pose, joints_between, link_pose
+from forcetorque.robot.dynamics import body_pose, joints_between, link_pose
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
-from forcetorque.robot.sub_model import outboard_bodies
-from forcetorque.robot.tree import BodyTree, build_tree
-from forcetorque.simulation.motions.stand import joint_range
+from forcetorque.robot.tree import BodyTree, build_tree, outboard_bodies
+from forcetorque.simulation.motions.held_robot import joint_range
 
 DEFAULT_RADIUS_M: Final = 0.3
 """How far from a sensor a push acts where nobody states it."""

@@ -1,13 +1,37 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The verdict on a calibration at a load case: whether it may be used, why, and what to do."""
+"""The verdict on a calibration at a load case, from predicted errors and validation data: reasons and advice."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import Annotated, Final, Literal
 
-from forcetorque.evaluation.load_cases.prediction import PredictedError
-from forcetorque.results.row import Row, Shown
-from forcetorque.results.table import short_names
+import numpy as np
+
+from forcetorque.base.errors import FitError
+from forcetorque.base.noise.paired_comparison import ALIKE
+from forcetorque.base.wrench import FORCE, MOMENT
+from forcetorque.evaluation.load_cases.load_case import LoadCase, UseOffset
+from forcetorque.evaluation.load_cases.operating_loads import Refuse, loads_of_use, raise_refused
+from forcetorque.evaluation.load_cases.prediction import CONFIDENCE, ErrorSize, PredictedError, predict, predict_prior
+from forcetorque.evaluation.load_cases.section import LoadCaseTable
+from forcetorque.evaluation.load_cases.validation_evidence import (
+    Evidence,
+    JudgedExcitation,
+    MeasuredError,
+    PriorComparison,
+    compare_with_prior,
+    judged_evidence,
+)
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.experiment.calibrations_under_test import Calibrations, named
+from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.validation_offset import Offset
+from forcetorque.experiment.validity import doubts_about_choice, require_unseen_if_judged
+from forcetorque.payload.diagnostics import circular_loads
+from forcetorque.recording.recording import Use
+from forcetorque.results.table import Row, Shown, short_names
 
 Decision = Literal["use", "do not use", "not enough data"]
 Tone = Literal["good", "caution", "bad", "unknown", "note"]
@@ -156,3 +180,302 @@ def lower_the_predicted(after: PredictedError, allowed: tuple[float, float]) -> 
     shares = {source: float(getattr(worst.sources, source)) for source in _BY_SOURCE}
     quantity = "force" if worst is after.force else "moment"
     return f"Most of the {quantity} error comes from {_BY_SOURCE[max(shares, key=shares.__getitem__)]}"
+
+
+HOPELESS: Final = 0.1
+"""Predicted probability of an error within what is allowed up to which the verdict is `do not use`."""
+FEWEST_S: Final = 5
+"""Seconds of judged data below which they test nothing."""
+CONSTANT_SHARE: Final = 0.01
+"""Constant error that is allowed where nobody states an error, as a share of the loads."""
+_QUANTITIES: Final[tuple[tuple[Literal["force", "moment"], Literal["N", "N m"], slice], ...]] = (
+    ("force", "N", FORCE),
+    ("moment", "N m", MOMENT),
+)
+
+
+class UseJudge:
+    """Holds one calibration to one use."""
+
+    def __init__(
+        self,
+        case: LoadCase,
+        calibration: Calibration,
+        measured: Evidence | None,
+        *,
+        worse: Sequence[PriorComparison] = (),
+    ) -> None:
+        """Take what a verdict rests on.
+
+        Args:
+            case: The use.
+            calibration: The calibration.
+            measured: What it measured on data that were not fitted; None where there are none.
+            worse: Comparisons in which these data find it worse than its prior.
+
+        Raises:
+            FitError: If the use changes a variable that the calibration does not know.
+        """
+        self.case, self.calibration, self.measured = case, calibration, measured
+        self.worse = worse
+        self.posterior: Posterior | None = calibration.posterior
+        self.after: PredictedError | None = None
+        self.before: PredictedError | None = None
+        if self.posterior is not None:
+            self.after, self.before = predict(calibration, case), predict_prior(calibration, case)
+
+    @property
+    def within(self) -> float | None:
+        """Predicted probability that the error is no more than allowed; None where nothing predicts it."""
+        return None if self.after is None else self.after.within(*self.case.requirement)
+
+    def verdict(self) -> tuple[Decision, tuple[Reason, ...]]:
+        """Decide.
+
+        Returns:
+            The decision, and its reasons, the weightiest first.
+        """
+        reasons = tuple(sorted(self._reasons(), key=lambda reason: ("use", "data", None).index(reason.against)))
+        decisions: dict[str | None, Decision] = {"use": "do not use", "data": "not enough data", None: "use"}
+        return decisions[reasons[0].against], reasons
+
+    def _reasons(self) -> Iterator[Reason]:
+        yield from self._predicted()
+        yield from self._measured()
+        for doubt in self.calibration.doubts:
+            yield Reason(against="data", text=f"the fitted data were in doubt: {doubt}", remedy=MEND_DATA)
+        yield from self._worse()
+
+    def _worse(self) -> Iterator[Reason]:
+        """Where the judged data find a quantity that is judged worse than with the prior, by more than a trifle."""
+        limits = {quantity: limit for (quantity, _, _), limit in zip(_QUANTITIES, self.case.requirement, strict=True)}
+        for row in self.worse:
+            if row.mean <= ALIKE[1] * row.prior_mean or np.isinf(limits[row.quantity]):
+                continue
+            text = (
+                f"on data that were not fitted its {row.quantity} error is larger than that of its prior, "
+                f"{amount(row.mean, row.unit)} against {amount(row.prior_mean, row.unit)}"
+            )
+            yield Reason(against="use", text=text, remedy=LOOK_FOR_CAUSE)
+
+    def _predicted(self) -> Iterator[Reason]:
+        if self.after is None:
+            text = (
+                f"a calibration of type {self.calibration.estimation_type} knows no error at other loads than those "
+                "that were judged; fit it by the generative model"
+            )
+            yield Reason(against="data", text=text, remedy=FIT_GENERATIVE)
+            return
+        share = self.after.within(*self.case.requirement)
+        words = self._predicted_words()
+        remedy = lower_the_predicted(self.after, self.case.requirement)
+        if share >= CONFIDENCE:
+            yield Reason(against=None, text=words)
+        elif share <= HOPELESS:
+            yield Reason(against="use", text=words, remedy=remedy)
+        else:
+            chance = f"{words}; the chance that it is within that is {100.0 * share:.0f} %"
+            yield Reason(against="data", text=chance, remedy=remedy)
+
+    def _predicted_words(self) -> str:
+        """Such as `it errs by some 4.1 N, at most 6.3 N, where 16 N are allowed, and by some 0.1 N m, ...`."""
+        parts, prior = [], []
+        for (quantity, unit, _), allowed in zip(_QUANTITIES, self.case.requirement, strict=True):
+            size: ErrorSize = getattr(self.after, quantity)
+            limit = "" if np.isinf(allowed) else f" ({amount(allowed, unit)} allowed)"
+            parts.append(f"by some {amount(size.typical, unit)}, at most {amount(size.at_most, unit)}{limit}")
+            if self.before is not None:
+                prior.append(amount(getattr(self.before, quantity).typical, unit))
+        before = f"; the prior by some {' and '.join(prior)}" if prior else ""
+        return f"it errs {' and '.join(parts)}{before}"
+
+    def errors(self) -> Iterator[UseError]:
+        """Predict the errors.
+
+        Yields:
+            Those of force and moment; nothing without a covariance.
+        """
+        if self.after is None:
+            return
+        loads = (self.case.force_N, self.case.moment_Nm)
+        for (quantity, unit, _), allowed, load in zip(_QUANTITIES, self.case.requirement, loads, strict=True):
+            after: ErrorSize = getattr(self.after, quantity)
+            before: ErrorSize | None = None if self.before is None else getattr(self.before, quantity)
+            yield UseError(
+                quantity=quantity,
+                unit=unit,
+                load=load,
+                before=None if before is None else before.typical,
+                before_at_least=None if before is None else before.at_least,
+                before_at_most=None if before is None else before.at_most,
+                after=after.typical,
+                after_at_least=after.at_least,
+                after_at_most=after.at_most,
+                allowed=None if np.isinf(allowed) else allowed,
+                measured=self._measured_size(quantity),
+                axes=tuple(after.axes.tolist()),
+                from_matrix=after.sources.matrix,
+                from_offset=after.sources.offset,
+                from_variables=after.sources.variables,
+                from_noise=after.sources.noise,
+            )
+
+    def _measured_size(self, quantity: str) -> float | None:
+        if self.measured is None:
+            return None
+        error: MeasuredError = getattr(self.measured, quantity)
+        return error.rest if self.case.offset is UseOffset.TARED else float(np.hypot(error.constant, error.rest))
+
+    def _measured(self) -> Iterator[Reason]:
+        if self.measured is None:
+            text = "no data that were not fitted test it; state a validation interval"
+            yield Reason(against="data", text=text, remedy=JUDGE)
+            return
+        if len(self.measured.reference) < FEWEST_S:
+            text = f"the data that were not fitted last {len(self.measured.reference)} s only, too short to test it"
+            yield Reason(against="data", text=text, remedy=JUDGE)
+        loads = (self.case.force_N, self.case.moment_Nm)
+        expected = self._expected_there()
+        for (quantity, unit, _), allowed, load in zip(_QUANTITIES, self.case.requirement, loads, strict=True):
+            error: MeasuredError = getattr(self.measured, quantity)
+            yield from self._constant(error, quantity, unit, allowed, load)
+            rest = f"on data that were not fitted its {quantity} error is {amount(error.rest, unit)} (RMS)"
+            if error.rest_at_least > allowed:
+                text = f"{rest} without the constant part, {amount(allowed, unit)} allowed"
+                yield Reason(against="use", text=text, remedy=LOOK_FOR_CAUSE)
+            elif expected is not None and error.rest_at_least > expected[quantity]:
+                text = (
+                    f"{rest}, at most {amount(expected[quantity], unit)} were predicted: something is not in the model"
+                )
+                yield Reason(against="data", text=text, remedy=LOOK_FOR_CAUSE)
+        # sessions at rest, each in a posture of its own, do not move: offsets take up what a wrong matrix makes of it
+        seen = JudgedExcitation.of(self.measured.reference, [self.calibration], moved=self.measured.moved)
+        if seen.words is not None:
+            yield Reason(against="data", text=f"{seen.words}; judge data that move", remedy=JUDGE_WHAT_MOVES)
+
+    def _constant(
+        self, error: MeasuredError, quantity: str, unit: str, allowed: float, load: float
+    ) -> Iterator[Reason]:
+        if self.case.offset is UseOffset.TARED or np.isinf(allowed):
+            return
+        limit = allowed if self.case.states_requirement else CONSTANT_SHARE * load
+        if error.constant_at_least > limit:
+            text = (
+                f"on data that were not fitted {amount(error.constant, unit)} of its {quantity} error are constant, "
+                f'{amount(limit, unit)} allowed; tare it before use, and state offset = "tared" in [[load_case]]'
+            )
+            yield Reason(against="use", text=text, remedy=TARE)
+
+    def _expected_there(self) -> dict[str, float] | None:
+        """Error that is predicted, at most, at the loads of the judged data; noise that is slow included."""
+        if self.posterior is None or self.measured is None or not self.measured.moved.any():
+            return None
+        there = LoadCase(
+            name="judged",
+            words="",
+            wrench=self.measured.moved,
+            offset=UseOffset.TARED,
+        )
+        predicted = predict(self.calibration, there)
+        slow = self.posterior.to_wrench**2 @ np.array([row.white**2 * row.ratio for row in self.posterior.noise])
+        return {
+            quantity: float(np.sqrt(getattr(predicted, quantity).at_most ** 2 + slow[part].sum()))
+            for quantity, _, part in _QUANTITIES
+        }
+
+
+def amount(value: float, unit: str) -> str:
+    """Write a size with two digits that count and without a power of ten.
+
+    Args:
+        value: The size.
+        unit: Its unit.
+
+    Returns:
+        Such as `0.043 N m` or `324 N`.
+    """
+    return f"{value:.0f} {unit}" if value >= 100.0 else f"{float(f'{value:.2g}'):g} {unit}"
+
+
+def use_verdicts(
+    runs: Runs,
+    calibrations: Calibrations,
+    more: Sequence[LoadCaseTable] = (),
+    *,
+    refuse: Refuse = raise_refused,
+) -> tuple[UseVerdict, ...]:
+    """Say of every calibration whether it may be used for the loads to come.
+
+    It may where the predicted error is within what is allowed with 95 %, and data that were not fitted moved and do
+    not speak against it. It may not where that has a probability of at most 10 %, or the judged data say so.
+
+    Args:
+        runs: The sensor in one recording, or in several.
+        calibrations: Its calibrations by name, or one, which have not seen the validation intervals.
+        more: Load cases beside those of the experiments, such as those of an acceptance file.
+        refuse: Called with what is wrong with a load case, on which there is then no verdict; raises it if left out.
+
+    Returns:
+        A verdict for every calibration and load case.
+
+    Raises:
+        ExperimentError: If a load case cannot be had at the sensor, or a calibration has seen a judged interval.
+        SerialNumberError: If a calibration is of another sensor.
+        FitError: If a load case changes a variable that the calibration does not know.
+    """
+    campaign, judged = Campaign.of(runs), named(calibrations)
+    for name, calibration in judged.items():
+        for run in campaign.runs:
+            require_unseen_if_judged(name, calibration, run)
+    measured = judged_evidence(campaign, judged)
+    compared = compare_with_prior(campaign, judged) if measured else ()
+    worse = [row for row in compared if row.judgement == "worse"]
+    verdicts = []
+    for name, calibration in judged.items():
+        informing = tuple(dict.fromkeys(_informing(campaign, name, calibration)))
+        for case in loads_of_use(campaign.runs, more, matrix=calibration.matrix, refuse=refuse):
+            try:
+                judge = UseJudge(
+                    case,
+                    calibration,
+                    measured.get(name),
+                    worse=[row for row in worse if (row.candidate, row.offset) == (name, _COMPARED[case.offset])],
+                )
+            except FitError as error:
+                refuse(error)
+            else:
+                verdicts.append(_verdict(campaign, name, judge, informing))
+    return tuple(verdicts)
+
+
+def _informing(campaign: Campaign, name: str, calibration: Calibration) -> Iterator[Reason]:
+    """What no judged data can show: that what judges is not independent of what is judged."""
+    for run in campaign.runs:
+        circular = circular_loads(run)
+        chosen = doubts_about_choice(run, name, calibration) if run.has(Use.VALIDATION) else ()
+        for sentence in (*circular, *chosen):
+            if sentence not in calibration.doubts:  # of which the judge speaks
+                yield Reason(against=None, text=sentence)
+
+
+_COMPARED: Final = {UseOffset.FITTED: Offset.FITTED, UseOffset.TARED: Offset.JUDGED_MEAN}
+"""With which offset judged data compare a calibration and its prior for a use."""
+
+
+def _verdict(campaign: Campaign, name: str, judge: UseJudge, informing: tuple[Reason, ...]) -> UseVerdict:
+    decision, reasons = judge.verdict()
+    case = judge.case
+    return UseVerdict(
+        sensor=campaign.sensor.name,
+        serial=campaign.sensor.serial,
+        candidate=name,
+        load_case=case.name,
+        loads=case.words,
+        offset=case.offset.value,
+        stated=case.is_stated,
+        decision=decision,
+        sentence=f"{decision} for {case.words}: {reasons[0].text}",
+        reasons=(*reasons, *informing),
+        within=judge.within,
+        errors=tuple(judge.errors()),
+    )

@@ -8,12 +8,11 @@ from typing import Self
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.evaluation.sphere.affine import MomentFit
-from forcetorque.evaluation.sphere.analysis import SphereAnalysis
-from forcetorque.evaluation.sphere.findings import CloudForm, EllipsoidFit, RadiusFit
-from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
+from forcetorque.evaluation.sphere.affine_fit import MomentFit
+from forcetorque.evaluation.sphere.fit_results import CloudForm, EllipsoidFit, RadiusFit
+from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, SphereAnalysis
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.row import AxisValues, Row
+from forcetorque.results.table import AxisValues, Row
 
 
 class RadiusRow(Row):

@@ -10,13 +10,13 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
-from forcetorque.evaluation.sphere.findings import RULE, TOLERANCE
+from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow, SphereRow
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.applicability import by_sensor
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.candidates import Calibrations, named
+from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from forcetorque.evaluation.sphere.findings import RULE, TOLERANCE
+from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow
 from forcetorque.evaluation.trials.result import GroupFitRow, GroupRow, TrialRow, group_rows
 from forcetorque.evaluation.trials.trials import TrialGroup, group_trials, read_trials

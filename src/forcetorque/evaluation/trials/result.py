@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from typing import Self
 
 from forcetorque.base.arrays import BoolArray
-from forcetorque.evaluation.sphere.findings import CloudForm, EllipsoidFit
+from forcetorque.evaluation.sphere.fit_results import CloudForm, EllipsoidFit
 from forcetorque.evaluation.sphere.result import EllipsoidRow, bounded
-from forcetorque.evaluation.sphere.trials import Drift
-from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere
+from forcetorque.evaluation.trials.trials import Drift, TrialGroup, TrialSphere
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.row import AxisValues, Row
+from forcetorque.results.table import AxisValues, Row
 
 
 class TrialRow(Row):

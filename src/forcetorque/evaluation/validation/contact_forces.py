@@ -11,21 +11,33 @@ import numpy as np
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.paired_comparison import PairedErrors, compare_errors
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.evaluation.load_cases.evidence import JudgedExcitation, fewest_independent
-from forcetorque.evaluation.load_cases.prior_comparison import ErrorComparison, ratio_fields
+from forcetorque.evaluation.load_cases.validation_evidence import (
+    ErrorComparison,
+    JudgedExcitation,
+    fewest_independent,
+    ratio_fields,
+)
 from forcetorque.evaluation.validation.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibrations_under_test import errors_from_zero
 from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.error_statistics import errors_from_zero
 from forcetorque.experiment.experiment import ExperimentSensor
-from forcetorque.experiment.free_sub_model import SubModelChoice
-from forcetorque.experiment.offset_policy import Offset
-from forcetorque.experiment.sub_model_choice import OtherSensors
+from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
-from forcetorque.results.row import Row, Shown, ShownWrench, WrenchValues
-from forcetorque.results.table import Table, short_names, table_of, with_first_column, without_vague
+from forcetorque.results.table import (
+    Row,
+    Shown,
+    ShownWrench,
+    Table,
+    WrenchValues,
+    short_names,
+    table_of,
+    with_first_column,
+    without_vague,
+)
 
 
 class CandidateComparison(ErrorComparison):

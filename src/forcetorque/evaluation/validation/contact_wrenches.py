@@ -15,12 +15,10 @@ from forcetorque.base.noise.means import one_after_another
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import WRENCH_COMPONENTS, transform_wrench
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.candidates import JudgedCandidate
-from forcetorque.experiment.first_second import gap_words, nothing_left
-from forcetorque.experiment.free_sub_model import FreeSubModel
+from forcetorque.experiment.calibrations_under_test import JudgedCandidate
+from forcetorque.experiment.free_sub_model import ContactForceValidation, FreeSubModel
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.experiment.offset_policy import Offset
-from forcetorque.experiment.sub_model_choice import ContactForceValidation
+from forcetorque.experiment.validation_offset import Offset, gap_words, nothing_left
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.robot.contacts import Wrenches

@@ -8,18 +8,20 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from forcetorque.evaluation.validation.joint_torque_errors import torque_errors
-from forcetorque.evaluation.validation.torque_samples import JudgedTorques, judged_torques, pooled_torques
+from forcetorque.evaluation.validation.joint_torque_errors import (
+    JudgedTorques,
+    judged_torques,
+    pooled_torques,
+    torque_errors,
+)
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibrations_under_test import JudgedRow
 from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.candidates import JudgedRow
-from forcetorque.experiment.free_sub_model import SubModelChoice
-from forcetorque.experiment.sub_model_choice import OtherSensors
+from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
-from forcetorque.results.row import Shown
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import Shown, Table, table_of
 from forcetorque.robot.model import JointType
 
 

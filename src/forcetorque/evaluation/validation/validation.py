@@ -10,8 +10,7 @@ from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.evaluation import smoothing_words
-from forcetorque.evaluation.load_cases.judgement import use_verdicts
-from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_sentences
+from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_sentences, use_verdicts
 from forcetorque.evaluation.validation.contact_forces import (
     BestCandidate,
     ContactForceErrors,
@@ -21,20 +20,19 @@ from forcetorque.evaluation.validation.contact_forces import (
     contact_forces_of,
 )
 from forcetorque.evaluation.validation.contact_wrenches import ContactWrenches, contact_wrenches
+from forcetorque.evaluation.validation.joint_torque_errors import JudgedTorques, judged_torques, pooled_torques
 from forcetorque.evaluation.validation.joint_torques import (
     JointTorqueErrors,
     RecordingJointTorques,
     joint_torque_table,
     joint_torques_of,
 )
-from forcetorque.evaluation.validation.torque_samples import JudgedTorques, judged_torques, pooled_torques
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.candidates import Calibrations, named
-from forcetorque.experiment.free_sub_model import FreeSubModel, SubModelChoice
-from forcetorque.experiment.offset_policy import Offset
-from forcetorque.experiment.sub_model_choice import OtherSensors
+from forcetorque.experiment.free_sub_model import FreeSubModel, OtherSensors, SubModelChoice
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import Result

@@ -18,17 +18,15 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, BoolArray, FloatArray
 from forcetorque.base.errors import FormatError, RecordingError, SerialNumberError, ShapeError
-from forcetorque.base.files import write_bytes_atomically
-from forcetorque.base.output_file import refuse_output
+from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.stored_model import Part, checked_part, read_json
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.provenance import Lambda, Provenance, Selection, SensorIdentity, Validity
 from forcetorque.experiment.calibration.quadratic_correction import NonlinearTrial, QuadraticCorrection
-from forcetorque.experiment.calibration.secondary import secondary_matrix
-from forcetorque.experiment.calibration.sensor_model import WrenchModel
-from forcetorque.results.html import html_table, html_warnings
+from forcetorque.experiment.calibration.sensor_model import WrenchModel, secondary_matrix
 from forcetorque.results.table import Table
+from forcetorque.results.table_rendering import html_table, html_warnings
 
 SCHEMA: Final = "forcetorque/calibration/3"
 """Name and version of the file's form."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
 from forcetorque.base.errors import FitError
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 
 ACCURACY_SHARE: Final = 1e-3
 """Accuracy of the reference where nobody states it, as a share of the full scale."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import FitError, known_names
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 
 
 class OffsetStrategy(StrEnum):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sensor model `wrench = matrix raw + coefficients (variables - reference values) + offset`, and its inverse."""
+"""Sensor model `wrench = matrix raw + coefficients (variables - reference values) + offset`, and its inverse."""
 
 from __future__ import annotations
 
@@ -11,6 +11,39 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_last_axis, require_shape
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.experiment.calibration.quadratic_correction import QuadraticCorrection
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class LinearVariable:
+    """A variable that a fit may add to the raw readings (thesis 5.9)."""
+
+    name: str
+    """Name, such as `temperature`."""
+    unit: str
+    """Unit."""
+    reference_value: float | None = None
+    """Value at which it contributes nothing; None to take that of the first sample."""
+    prior: FloatArray | None = None
+    """Coefficients to stay close to; shape (6,); N, N m per unit; None for no penalty."""
+    prior_deviation: FloatArray | None = None
+    """How far the coefficients may be from them; shape (6,); N, N m per unit; None for 0.5 % of full scale per degree,
+    and for any other unit one full scale over the range that was seen. Only the generative model asks."""
+
+    def __post_init__(self) -> None:
+        if self.prior_deviation is not None:
+            deviation = read_only(self.prior_deviation, name=f"variable {self.name!r}: prior_deviation", shape=(6,))
+            if not (np.isfinite(deviation).all() and (deviation > 0.0).all()):
+                raise FitError(
+                    f"variable {self.name!r}: expected six prior deviations above 0, got {deviation.tolist()}"
+                )
+            object.__setattr__(self, "prior_deviation", deviation)
+        if self.prior is not None:
+            prior = read_only(self.prior, name=f"variable {self.name!r}: prior", shape=(6,))
+            if not np.isfinite(prior).all():
+                raise FitError(f"variable {self.name!r}: expected six finite prior coefficients, got {prior.tolist()}")
+            object.__setattr__(self, "prior", prior)
+        if self.reference_value is not None and not np.isfinite(self.reference_value):
+            raise FitError(f"variable {self.name!r}: expected a finite reference value, got {self.reference_value}")
 
 
 def _no_coefficients() -> FloatArray:
@@ -155,3 +188,63 @@ def recover_raw(wrench: Any, prior: Any) -> FloatArray:
     if not is_invertible(matrix):
         raise FitError("the prior matrix is singular, so raw counts cannot be recovered from the calibrated stream")
     return np.asarray(np.linalg.solve(matrix, readings.T).T, dtype=np.float64)
+
+
+def secondary_matrix(matrix: Any, prior: Any) -> FloatArray:
+    """Give the matrix that turns readings made with the prior into readings made with a new matrix.
+
+    Args:
+        matrix: New calibration matrix; shape (6, 6); N/count, N m/count.
+        prior: Matrix that the electronics use; shape (6, 6); N/count, N m/count.
+
+    Returns:
+        `S = C C_prior^-1` (5.20); shape (6, 6).
+
+    Raises:
+        ShapeError: If a matrix is not 6 x 6.
+        FitError: If the prior cannot be inverted.
+    """
+    new, old = np.asarray(matrix, dtype=np.float64), np.asarray(prior, dtype=np.float64)
+    for name, array in (("matrix", new), ("prior", old)):
+        if array.shape != (6, 6):
+            raise ShapeError(f"{name}: expected shape (6, 6), got {array.shape}")
+    if not is_invertible(old):
+        raise FitError("the prior matrix is singular, so no matrix corrects what it made")
+    return np.asarray(np.linalg.solve(old.T, new.T).T, dtype=np.float64)
+
+
+def secondary_model(new: WrenchModel, stream: WrenchModel) -> WrenchModel:
+    """Give what turns a stream that is already calibrated, temperature and offset included, into a new calibration.
+
+    The stream is `f_in = C_w r + c_w (t - t_w) + o_w`, the new one `f = C r + c (t - t0) + o`. So
+    `f = S f_in + c_s (t - t0) + o_s` with `S = C C_w^-1`, `c_s = c - S c_w`, `o_s = o - S [o_w + c_w (t0 - t_w)]`
+    (thesis 5.20 carried on to variables and offset).
+
+    Args:
+        new: New model of the sensor, of six channels.
+        stream: Model with which the stream is made, of the same variables in the same order, or of none.
+
+    Returns:
+        Model whose "raw readings" are the stream's wrenches: S, o_s, c_s and the new reference values.
+
+    Raises:
+        ShapeError: If a matrix is not 6 x 6, or the stream depends on variables that the new model does not have.
+        FitError: If the matrix of the stream cannot be inverted, or a model has quadratic terms.
+    """
+    if new.quadratic is not None or stream.quadratic is not None:
+        raise FitError("expected two linear models, got quadratic terms, which no matrix takes from one to the other")
+    matrix = secondary_matrix(new.matrix, stream.matrix)
+    if not len(stream.reference_values):
+        return replace(new, matrix=matrix, offset=new.offset - matrix @ stream.offset)
+    if len(stream.reference_values) != len(new.reference_values):
+        raise ShapeError(
+            f"stream: expected the {len(new.reference_values)} variables of the new model or none, "
+            f"got {len(stream.reference_values)}"
+        )
+    stream_offset = stream.offset + stream.coefficients @ (new.reference_values - stream.reference_values)
+    return replace(
+        new,
+        matrix=matrix,
+        offset=new.offset - matrix @ stream_offset,
+        coefficients=new.coefficients - matrix @ stream.coefficients,
+    )

@@ -13,15 +13,13 @@ from pydantic import ConfigDict, Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray, IntArray
 from forcetorque.base.errors import FitError
-from forcetorque.base.files import write_bytes_atomically
-from forcetorque.base.output_file import refuse_output
+from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.stored_model import Part, read_part
 from forcetorque.experiment.calibration.assumptions import Assumptions
-from forcetorque.experiment.calibration.linear_variable import LinearVariable
-from forcetorque.experiment.calibration.moments import DataSet, Moments
+from forcetorque.experiment.calibration.moments import DataSet, Moments, WindowMeans
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.provenance import FittedInterval, SensorIdentity
-from forcetorque.experiment.calibration.window_means import WindowMeans
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.recording.sample_quality import UnusableCounts
 
 SCHEMA: Final = "forcetorque/moments/1"

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.formats.array_file.contents import ArrayContents
+from forcetorque.formats.array_file.streams import ArrayContents
 from forcetorque.formats.hdf5_file import dataset_numbers, datasets, is_numeric, members, opened_hdf5, require_readable
-from forcetorque.formats.robometry.channel import log_group
+from forcetorque.formats.robometry.channels import log_group
 
 MAGIC_73 = b"MATLAB 7.3 MAT-file"
 """What files of MATLAB 7.3 begin with, before the signature of HDF5."""

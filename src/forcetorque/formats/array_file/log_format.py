@@ -13,12 +13,18 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, MissingExtraError, known_names
 from forcetorque.base.input_file import require_unpacked
-from forcetorque.formats.array_file.contents import ArrayContents
 from forcetorque.formats.array_file.hdf5 import MAGIC_73, hdf5_contents, is_matlab_73, labels_itself, read_hdf5
 from forcetorque.formats.array_file.matlab import MAGIC, is_matlab_file, matlab_contents, read_matlab
 from forcetorque.formats.array_file.npz import is_npz_file, npz_contents, read_npz
-from forcetorque.formats.array_file.statement import ArrayLog, Hdf5Log, MatlabLog, NpzLog
-from forcetorque.formats.array_file.streams import array_stream, wanted_arrays
+from forcetorque.formats.array_file.streams import (
+    ArrayContents,
+    ArrayLog,
+    Hdf5Log,
+    MatlabLog,
+    NpzLog,
+    array_stream,
+    wanted_arrays,
+)
 from forcetorque.formats.hdf5_file import is_hdf5_file
 from forcetorque.formats.log_format import (
     LogContext,

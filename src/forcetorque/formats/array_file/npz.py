@@ -19,7 +19,7 @@ from numpy.lib import format as npy
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, FormatError
 from forcetorque.base.input_file import require_file
-from forcetorque.formats.array_file.contents import ArrayContents
+from forcetorque.formats.array_file.streams import ArrayContents
 
 MOST_ARRAYS = 10_000
 """Arrays of a file."""

@@ -15,10 +15,10 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, known_names
+from forcetorque.base.input_file import read_xml
 from forcetorque.base.pose import invert_pose, make_pose
 from forcetorque.base.units import si_factor
 from forcetorque.base.wrench import wrench_matrix
-from forcetorque.base.xml_file import read_xml
 from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
 
 _AXES = ("Fx", "Fy", "Fz", "Tx", "Ty", "Tz")

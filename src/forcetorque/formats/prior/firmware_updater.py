@@ -14,7 +14,7 @@ import numpy as np
 
 from forcetorque.base.arrays import IntArray
 from forcetorque.base.errors import FormatError, MissingFileError, ShapeError, quoted
-from forcetorque.base.files import write_bytes_atomically
+from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.formats.icub_matrix import MatrixFile
 from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
 

@@ -15,8 +15,8 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import FormatError, MissingFileError
-from forcetorque.base.files import write_bytes_atomically
-from forcetorque.base.xml_file import read_xml
+from forcetorque.base.input_file import read_xml
+from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
 
 _GROUP = "modelClassParams"

@@ -22,17 +22,21 @@ from forcetorque.formats.hdf5_file import (
     require_readable,
 )
 from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable
-from forcetorque.formats.robometry.channel import DESCRIPTION, channel_paths, log_group, read_channel, texts
-from forcetorque.formats.robometry.streams import (
+from forcetorque.formats.robometry.channels import (
+    DESCRIPTION,
     JOINT_QUANTITIES,
     JOINTS,
+    channel_paths,
     joint_stream,
+    log_group,
     orientation_stream,
+    read_channel,
     sensor_quantity,
     sensor_stream,
+    texts,
 )
 from forcetorque.formats.signals import STATE_SENSE, SenseTable
-from forcetorque.recording.orientation import ROLL_PITCH_YAW
+from forcetorque.recording.frames import ROLL_PITCH_YAW
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Stream
 

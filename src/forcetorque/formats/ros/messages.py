@@ -1,13 +1,108 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The messages that are read, field by field, as geometry_msgs, nav_msgs, sensor_msgs and tf2_msgs define them."""
+"""The ROS messages that are read, field by field, one or many at once, in ROS 1 encoding and in CDR [1].
+
+Messages that share texts and lengths have their fields at the same places. CDR is that of [1] OMG, DDS
+Interoperability Wire Protocol 2.2, 10.5: numbers stand at multiples of their size after the first four bytes, and texts
+end with a zero that counts.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+import struct
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
+from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.ros.cursor import Cursor
+
+_LITTLE_ENDIAN_CDR = b"\x00\x01"
+_MOST_ELEMENTS = 10_000
+"""Elements of a list in a message: joints of a robot, transforms between its links."""
+
+
+@dataclass(kw_only=True)
+class Cursor:
+    """Goes through a message, and keeps what others must share with it to have their fields at the same places."""
+
+    data: bytes
+    """The message."""
+    cdr: bool
+    """Whether it is encoded as in ROS 2."""
+    place: int = 0
+    """Byte that comes next."""
+    shared: list[tuple[int, int]] = field(default_factory=list)
+    """First byte and byte behind the last of texts and lengths."""
+
+    def __post_init__(self) -> None:
+        if self.cdr:
+            self._take(4, 1)
+            if self.data[:2] != _LITTLE_ENDIAN_CDR:
+                raise FormatError(f"expected little-endian CDR, got encoding {self.data[:2].hex()}")
+
+    def skip(self, size: int, *, align: int) -> int:
+        """Pass over a field whose value may differ.
+
+        Args:
+            size: Bytes.
+            align: Its alignment in CDR.
+
+        Returns:
+            Its first byte.
+        """
+        return self._take(size, align)
+
+    def count(self) -> int:
+        """Read the length of a list.
+
+        Returns:
+            The length.
+
+        Raises:
+            FormatError: If it is longer than such lists are.
+        """
+        count = self._whole()
+        if count > _MOST_ELEMENTS:
+            raise FormatError(f"expected a list of at most {_MOST_ELEMENTS} elements, got {count}")
+        return count
+
+    def text(self) -> str:
+        """Read a text.
+
+        Returns:
+            The text.
+        """
+        size = self._whole()
+        start = self._take(size, 1)
+        self.shared.append((start, start + size))
+        return self.data[start : start + size].rstrip(b"\0").decode("utf-8", "backslashreplace")
+
+    def doubles(self, count: int) -> int:
+        """Pass over numbers.
+
+        Args:
+            count: How many.
+
+        Returns:
+            The first byte.
+        """
+        return self._take(8 * count, 8) if count else self.place
+
+    def _whole(self) -> int:
+        start = self._take(4, 4)
+        self.shared.append((start, start + 4))
+        return struct.unpack_from("<I", self.data, start)[0]
+
+    def _take(self, size: int, align: int) -> int:
+        if self.cdr and self.place >= 4:
+            self.place += -(self.place - 4) % align
+        start, self.place = self.place, self.place + size
+        if self.place > len(self.data):
+            raise FormatError(f"expected a whole message, got {len(self.data)} bytes; was the bag cut off?")
+        return start
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -144,3 +239,98 @@ def _header(cursor: Cursor) -> tuple[int | None, int, str]:
 def _pose(cursor: Cursor) -> dict[str, tuple[int, int]]:
     translation = (cursor.doubles(3), 3)
     return {"translation": translation, "orientation": (cursor.doubles(4), 4)}
+
+
+MOST_LAYOUTS = 1000
+"""Kinds of messages in a topic, by names and lengths; more make reading as slow as one by one."""
+
+_Bytes = npt.NDArray[np.uint8]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Batch:
+    """Messages whose fields lie at the same places; n of them."""
+
+    rows: IntArray
+    """Which messages of those that were given; shape (n,)."""
+    fields: tuple[Fields, ...]
+    """Where the fields lie."""
+    data: _Bytes
+    """The messages; shape (n, bytes)."""
+
+    def numbers(self, start: int, count: int) -> FloatArray:
+        """Read float64 numbers.
+
+        Args:
+            start: Their first byte.
+            count: How many.
+
+        Returns:
+            The numbers; shape (n, count).
+        """
+        return self._as(start, 8 * count, "<f8")
+
+    def stamp_ns(self, start: int) -> IntArray:
+        """Read stamps.
+
+        Args:
+            start: Their first byte.
+
+        Returns:
+            The stamps; shape (n,); ns.
+        """
+        seconds, nanoseconds = self._as(start, 8, "<u4").astype(np.int64).T
+        return seconds * 1_000_000_000 + nanoseconds
+
+    def counters(self, start: int) -> IntArray:
+        """Read counters.
+
+        Args:
+            start: Their first byte.
+
+        Returns:
+            The counters; shape (n,).
+        """
+        return self._as(start, 4, "<u4")[:, 0].astype(np.int64)
+
+    def _as(self, start: int, size: int, kind: str) -> npt.NDArray[Any]:
+        return np.ascontiguousarray(self.data[:, start : start + size]).view(kind)
+
+
+def decode(
+    messages: Sequence[bytes], find: Callable[[Cursor], tuple[Fields, ...]], *, cdr: bool, topic: str
+) -> Iterator[Batch]:
+    """Find the fields of messages of one topic.
+
+    Args:
+        messages: The messages.
+        find: Finds the fields of one.
+        cdr: Whether they are encoded as in ROS 2.
+        topic: Topic, for messages of errors.
+
+    Yields:
+        Messages that are alike.
+
+    Raises:
+        FormatError: If a message is not whole, or hardly two are alike.
+    """
+    lengths: IntArray = np.fromiter(map(len, messages), dtype=np.int64, count=len(messages))
+    layouts = 0
+    for length in np.unique(lengths):
+        rows = np.flatnonzero(lengths == length)
+        joined = b"".join(messages if len(rows) == len(messages) else [messages[row] for row in rows.tolist()])
+        data = np.frombuffer(joined, dtype=np.uint8).reshape(len(rows), length)
+        while len(rows):
+            layouts += 1
+            cursor = Cursor(data=messages[int(rows[0])], cdr=cdr) if length else None
+            if cursor is None or layouts > MOST_LAYOUTS:
+                raise FormatError(f"{topic}: expected messages of few kinds, got empty ones or {layouts} kinds")
+            try:
+                fields = find(cursor)
+            except FormatError as error:
+                raise FormatError(f"{topic}: message {rows[0] + 1}: {error}") from error
+            alike = np.ones(len(rows), dtype=bool)
+            for start, end in cursor.shared:
+                alike &= (data[:, start:end] == data[0, start:end]).all(axis=1)
+            yield Batch(rows=rows[alike], fields=fields, data=data[alike] if not alike.all() else data)
+            rows, data = rows[~alike], data[~alike]

@@ -15,9 +15,9 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogSketch, LogTable
 from forcetorque.formats.signals import StatedRate, StatedSignal
-from forcetorque.formats.tabular.row_blocks import EvenRows, StampColumn, StampUnit, TableLayout, TableSignal
 from forcetorque.formats.tabular.sketch import is_table, sketch_table
 from forcetorque.formats.tabular.table import ROW_NS, read_table, table_columns
+from forcetorque.formats.tabular.table_layout import EvenRows, StampColumn, StampUnit, TableLayout, TableSignal
 from forcetorque.recording.alignment import joined_stream
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Stream

@@ -14,7 +14,7 @@ import pyarrow.compute as pc
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.arrow import arrow_numbers
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.tabular.row_blocks import NANOSECOND_DIGITS, StampColumn
+from forcetorque.formats.tabular.table_layout import NANOSECOND_DIGITS, StampColumn
 
 ISO8601 = "iso8601"
 """What stands for the unit of a column of dates."""

@@ -17,11 +17,17 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.signals import even_stamps, stated_quantity, units_in_si
-from forcetorque.formats.tabular.columnar import frame_rows, is_parquet_file, parquet_columns, parquet_rows
 from forcetorque.formats.tabular.numbers import column_floats, column_stamps
-from forcetorque.formats.tabular.row_blocks import EvenRows, Rows, StampColumn, TableLayout, TableSignal
-from forcetorque.formats.tabular.text import text_columns, text_rows
-from forcetorque.recording.orientation import OrientationLayout, orientation_signals
+from forcetorque.formats.tabular.row_readers import (
+    frame_rows,
+    is_parquet_file,
+    parquet_columns,
+    parquet_rows,
+    text_columns,
+    text_rows,
+)
+from forcetorque.formats.tabular.table_layout import EvenRows, Rows, StampColumn, TableLayout, TableSignal
+from forcetorque.recording.frames import OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream
 

@@ -22,10 +22,8 @@ from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileEr
 from forcetorque.formats.signals import STATE_SENSE
 from forcetorque.formats.yarp.measures import READ_LISTS, MeasuresList, MeasuresSensor, read_measures, sensor_sizes
 from forcetorque.formats.yarp.message import Bottle, is_number
-from forcetorque.formats.yarp.plain_ports import read_analog, read_inertial, read_state
-from forcetorque.formats.yarp.port_folder import LOG_NAMES, find_port
-from forcetorque.formats.yarp.port_log import read_first_message
-from forcetorque.formats.yarp.port_reading import PortReading
+from forcetorque.formats.yarp.plain_ports import PortReading, read_analog, read_inertial, read_state
+from forcetorque.formats.yarp.port_log import LOG_NAMES, find_port, read_first_message
 from forcetorque.formats.yarp.skin_ports import (
     SkinPart,
     holds_skin,
@@ -35,7 +33,7 @@ from forcetorque.formats.yarp.skin_ports import (
     skin_parts,
 )
 from forcetorque.formats.yarp.state_ext import count_joints, read_state_ext
-from forcetorque.recording.orientation import ROLL_PITCH_YAW
+from forcetorque.recording.frames import ROLL_PITCH_YAW
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES
 

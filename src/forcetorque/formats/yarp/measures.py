@@ -24,9 +24,9 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, RecordingError, known_names
 from forcetorque.base.units import si_factor
 from forcetorque.formats.yarp.message import Bottle, BottleValue, is_number
+from forcetorque.formats.yarp.plain_ports import ANGLES, CLOCK, PortReading
 from forcetorque.formats.yarp.port_log import PortLog, read_port_log
-from forcetorque.formats.yarp.port_reading import ANGLES, CLOCK, PortReading
-from forcetorque.recording.orientation import ROLL_PITCH_YAW, OrientationLayout, orientation_signals
+from forcetorque.recording.frames import ROLL_PITCH_YAW, OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream
 

@@ -19,8 +19,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.yarp.message import FAIL, OK, Bottle, is_number
-from forcetorque.formats.yarp.port_log import PortLog, read_port_log
-from forcetorque.formats.yarp.port_reading import (
+from forcetorque.formats.yarp.plain_ports import (
     CLOCK,
     JOINT_UNITS,
     NAME_ALL,
@@ -29,6 +28,7 @@ from forcetorque.formats.yarp.port_reading import (
     places_of_joints,
     units_of_joints,
 )
+from forcetorque.formats.yarp.port_log import PortLog, read_port_log
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Stream
 

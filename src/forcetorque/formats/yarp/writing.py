@@ -13,11 +13,11 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import MissingFileError, RecordingError
-from forcetorque.base.files import real_path, temporary_beside
+from forcetorque.base.output_file import real_path, temporary_beside
 from forcetorque.base.units import si_factor
 from forcetorque.formats.yarp.discover import PortKind
 from forcetorque.formats.yarp.measures import READ_LISTS, MeasuresList, MeasuresSensor
-from forcetorque.formats.yarp.port_reading import JOINT_UNITS, angles_of
+from forcetorque.formats.yarp.plain_ports import JOINT_UNITS, angles_of
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
 

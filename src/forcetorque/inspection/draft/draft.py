@@ -12,8 +12,7 @@ from typing import Annotated, Literal
 from pydantic import Field, ValidationError
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
-from forcetorque.base.files import STANDARD_OUTPUT, write_bytes_atomically
-from forcetorque.base.output_file import refuse_output
+from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_bytes_atomically
 from forcetorque.base.toml_file import open_questions
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
@@ -27,17 +26,25 @@ from forcetorque.inspection.draft.intervals import (
     interval_lines,
     whole_log,
 )
+from forcetorque.inspection.draft.joints import standing_lines
 from forcetorque.inspection.draft.log import draft_log, recording_lines
-from forcetorque.inspection.draft.missing_joints import standing_lines
-from forcetorque.inspection.draft.sensors import DraftedSensor, draft_sensors, sensor_joints, sensor_lines
+from forcetorque.inspection.draft.sensors_and_supports import (
+    DraftedSensor,
+    base_of_arm,
+    draft_sensors,
+    has_no_tool,
+    interval_support,
+    load_lines,
+    sensor_joints,
+    sensor_lines,
+    support_lines,
+)
 from forcetorque.inspection.draft.streams import DraftedLog, relative
-from forcetorque.inspection.draft.supports import base_of_arm, has_no_tool, interval_support, load_lines, support_lines
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
-from forcetorque.inspection.streams import StreamRow, stream_rows, stream_table
+from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
 from forcetorque.recording.recording import Recording
 from forcetorque.results.result import Result
-from forcetorque.results.row import Row, Shown
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.robot.model import JointType, RobotModel
 from forcetorque.robot.urdf import read_urdf
 

@@ -22,10 +22,9 @@ from forcetorque.recording.quality import spans
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.stream import Stream
-from forcetorque.robot.joint_motion import joint_motion_at
+from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
-from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.motion import JointMotion, RootMotion, joint_motion_at
 from forcetorque.robot.tree import build_tree, required_joints
 
 WINDOW_S = 0.2

@@ -13,11 +13,16 @@ from forcetorque.formats.headings import read_heading
 from forcetorque.formats.log_format import LogDescription, LogFormat, LogSketch, SketchingFormat
 from forcetorque.formats.other_file import other_file
 from forcetorque.formats.registry import format_name, format_named, not_recognised, recognised_format
-from forcetorque.inspection.draft.arrays import array_groups, array_lines, array_streams, array_time
-from forcetorque.inspection.draft.column_match import likenesses, time_column
 from forcetorque.inspection.draft.joints import joints_question
-from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream, relative
-from forcetorque.inspection.draft.table_columns import table_lines, table_streams
+from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream, likenesses, relative, time_column
+from forcetorque.inspection.draft.tables_and_arrays import (
+    array_groups,
+    array_lines,
+    array_streams,
+    array_time,
+    table_lines,
+    table_streams,
+)
 from forcetorque.inspection.draft.toml_lines import line, question, toml_value
 from forcetorque.robot.model import RobotModel
 

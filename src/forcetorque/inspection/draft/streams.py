@@ -1,15 +1,236 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Streams of a log before they are specified, and paths as an experiment file has them."""
+"""Streams of a log before they are specified, and what their columns match by their headings."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from forcetorque.base.toml_file import OPEN
+from forcetorque.formats.headings import Heading, is_time_name
 from forcetorque.formats.log_format import LogDescription, LogSketch, SketchedColumns
-from forcetorque.inspection.draft.column_match import Likeness
+from forcetorque.recording.frames import OrientationForm
+
+_APART = r"[ _./:\-\[\]]*"
+_FORCE = re.compile(rf"^(?P<before>.*?)(?:force|f){_APART}(?P<axis>[xyz])(?P<behind>[^a-z]*)$")
+_MOMENT = re.compile(rf"^(?P<before>.*?)(?:torque|moment|tau|mu|t|m){_APART}(?P<axis>[xyz])(?P<behind>[^a-z]*)$")
+_VECTORS = (
+    (r"(?:linear_acceleration|acceleration|accel|acc|a)", "proper_acceleration", ""),
+    (r"(?:angular_velocity|gyroscope|gyro|omega|w)", "angular_velocity", ""),
+    (r"(?:gravity)", "gravity", ""),
+    (r"(?:g)", OPEN, "gravity or angular_velocity"),
+)
+_QUATERNION = re.compile(r"^(?P<before>.*?)(?:quaternion|orientation|quat|q|r|o)" + _APART + r"(?P<axis>[xyzw])$")
+_ANGLES = re.compile(
+    r"^(?P<before>|.*(?:euler|rpy|orientation|rotation|pose|imu|tcp|ee|tool|flange|sensor)[ _./]+)"
+    r"(?P<axis>roll|pitch|yaw)$"
+)
+"""Alone or of a frame: those of a neck or a hip are joints."""
+_MATRIX = re.compile(r"^(?P<before>.*?)r" + _APART + r"(?P<axis>[123]_?[123])$")
+_NUMBERED = re.compile(r"^(?P<before>.*?)(?P<number>\d+)(?P<behind>\D*)$")
+_CHANNELS = re.compile(r"(?:ch|channel|raw|gauge|gage|strain|sg|adc|ai|v)$")
+_MOTIONS = {
+    "": "position",
+    "j": "position",
+    "q": "position",
+    "pos": "position",
+    "position": "position",
+    "angle": "position",
+    "joint": "position",
+    "joints": "position",
+    "actual_q": "position",
+    "qd": "velocity",
+    "dq": "velocity",
+    "v": "velocity",
+    "vel": "velocity",
+    "velocity": "velocity",
+    "qdd": "acceleration",
+    "ddq": "acceleration",
+    "acc": "acceleration",
+    "acceleration": "acceleration",
+    "tau": "torque",
+    "torque": "torque",
+    "effort": "torque",
+    "current": "motor_current",
+}
+_STATES = re.compile(r"^(?:.*_)?joint_states?_|^field_(?=position|velocity|effort)")
+"""What stands in front where programs of ROS wrote messages of joints as a table."""
+_FIXED_ROWS = 9
+_OF_JOINTS = {"j", "joint", "joints"}
+"""Words of columns that are of joints, however many they are."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Likeness:
+    """Columns that look like one quantity."""
+
+    quantity: str
+    """The quantity; `?` where the headings fit several."""
+    columns: tuple[int, ...]
+    """Places of the columns in the table, in the order of the quantity."""
+    names: tuple[str, ...] | None = None
+    """Joints of the robot by the columns; None where the quantity has names of its own, or nobody knows them."""
+    form: OrientationForm | None = None
+    """Of an orientation, how it is written."""
+    words: str = ""
+    """What is to be asked of the quantity."""
+
+
+def time_column(headings: Sequence[Heading], steps: Sequence[float | None]) -> int | None:
+    """Find the column that looks like the time.
+
+    Args:
+        headings: Headings of the table.
+        steps: Median step of each column that rises as times do; None for the others.
+
+    Returns:
+        Its place: the first one that is called so and rises, else the first column if that rises; None for none.
+    """
+    named = [k for k, heading in enumerate(headings) if is_time_name(heading.name) and steps[k] is not None]
+    return next(iter(named), 0 if steps and steps[0] is not None else None)
+
+
+def likenesses(headings: Sequence[Heading], joints: Sequence[str]) -> tuple[Likeness, ...]:
+    """Say what the columns of a table look like.
+
+    Args:
+        headings: Headings of the columns.
+        joints: Joints of the robot that move.
+
+    Returns:
+        Groups of columns, each in its order, in the order of their first columns; columns in none look like nothing.
+    """
+    used: set[int] = set()
+    groups: list[Likeness] = []
+    for search in (_of_joints, _wrenches, _rotations, _quaternions, _angles, _vectors, _temperatures, _numbered):
+        free = {k: heading.name.strip().lower() for k, heading in enumerate(headings) if k not in used}
+        for group in search(free, joints):
+            if used.isdisjoint(group.columns):
+                groups.append(group)
+                used.update(group.columns)
+    return tuple(sorted(groups, key=lambda group: group.columns[0]))
+
+
+def _plain(text: str) -> str:
+    return re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")
+
+
+def _of_joints(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+    """Headings with the name of a joint in them, by what else is in them."""
+    by_length = sorted(joints, key=len, reverse=True)
+    groups: dict[str, dict[str, int]] = {}
+    for k, name in free.items():
+        text = f"_{_plain(name)}_"
+        joint = next((joint for joint in by_length if f"_{_plain(joint)}_" in text), None)
+        if joint is not None:
+            rest = text.replace(f"_{_plain(joint)}_", "_", 1).strip("_")
+            groups.setdefault(rest, {}).setdefault(joint, k)
+    likeness: dict[str, Likeness] = {}
+    for rest, members in groups.items():
+        quantity = _motion(rest)
+        if quantity is not None and quantity not in likeness:
+            likeness[quantity] = Likeness(quantity=quantity, columns=tuple(members.values()), names=tuple(members))
+    return list(likeness.values())
+
+
+def _motion(words: str) -> str | None:
+    """The quantity of joints that words are for, whatever program or topic stands in front."""
+    return _MOTIONS.get(words.removeprefix("actual_") or words) or _MOTIONS.get(_STATES.sub("", words))
+
+
+def _axes(free: Mapping[int, str], pattern: re.Pattern[str]) -> dict[tuple[str, str], dict[str, int]]:
+    """Columns by axis, of each group of what stands before and behind."""
+    groups: dict[tuple[str, str], dict[str, int]] = {}
+    for k, name in free.items():
+        match = pattern.match(name)
+        if match:
+            parts = match.groupdict()
+            groups.setdefault((parts["before"], parts.get("behind") or ""), {}).setdefault(match["axis"], k)
+    return groups
+
+
+def _wrenches(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+    moments = _axes(free, _MOMENT)
+    wrenches = []
+    for key, force in _axes(free, _FORCE).items():
+        moment = moments.get(key, {})
+        if len(force) == len(moment) == 3:
+            columns = tuple(axes[axis] for axes in (force, moment) for axis in "xyz")
+            wrenches.append(Likeness(quantity="wrench", columns=columns))
+    return wrenches
+
+
+def _rotations(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+    order = [f"{row}{column}" for row in "123" for column in "123"]
+    groups = _axes(free, _MATRIX).values()
+    plain = ({axis.replace("_", ""): k for axis, k in axes.items()} for axes in groups)
+    return [
+        Likeness(
+            quantity="orientation", columns=tuple(axes[entry] for entry in order), form=OrientationForm.MATRIX_ROWS
+        )
+        for axes in plain
+        if len(axes) == _FIXED_ROWS
+    ]
+
+
+def _quaternions(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+    return [
+        Likeness(quantity="orientation", columns=tuple(axes[axis] for axis in "xyzw"), form=OrientationForm.QUAT_XYZW)
+        for axes in _axes(free, _QUATERNION).values()
+        if len(axes) == 4
+    ]
+
+
+def _angles(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+    return [
+        Likeness(
+            quantity="orientation",
+            columns=tuple(axes[axis] for axis in ("roll", "pitch", "yaw")),
+            form=OrientationForm.EULER,
+        )
+        for axes in _axes(free, _ANGLES).values()
+        if len(axes) == 3
+    ]
+
+
+def _vectors(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+    vectors = []
+    for words, quantity, question in _VECTORS:
+        pattern = re.compile(rf"^(?P<before>|.*[ _./:]){words}{_APART}(?P<axis>[xyz])$")
+        for axes in _axes(free, pattern).values():
+            if len(axes) == 3:
+                columns = tuple(axes[axis] for axis in "xyz")
+                vectors.append(Likeness(quantity=quantity, columns=columns, words=question))
+    return vectors
+
+
+def _temperatures(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+    warm = [k for k, name in free.items() if name.startswith("temp")]
+    return [Likeness(quantity="temperature", columns=(k,)) for k in warm[:1]]
+
+
+def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+    """Channels of electronics, and as many joints by number as the robot has."""
+    groups: dict[tuple[str, str], list[tuple[int, int]]] = {}
+    for k, name in free.items():
+        match = _NUMBERED.match(name)
+        if match:
+            groups.setdefault((match["before"], match["behind"]), []).append((int(match["number"]), k))
+    likeness: dict[str, Likeness] = {}
+    for (before, behind), members in groups.items():
+        columns = tuple(k for _, k in sorted(members))
+        word = _plain(before or behind)
+        if _CHANNELS.search(word) and len(columns) >= 6:
+            likeness.setdefault("raw", Likeness(quantity="raw", columns=columns))
+        quantity = _motion(_plain(behind) or word) or _motion(word)
+        of_joints = word in _OF_JOINTS or _STATES.match(word) is not None
+        counted = len(columns) == len(joints) or (of_joints and 1 < len(columns) <= len(joints))
+        if word and quantity is not None and counted:
+            likeness.setdefault(quantity, Likeness(quantity=quantity, columns=columns))
+    return list(likeness.values())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,16 +14,22 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.noise.stationary import sample_statistics
+from forcetorque.base.noise.means import sample_statistics
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.offset_policy import Offset, OffsetPolicy
 from forcetorque.experiment.offsets import offset_policies
-from forcetorque.locomotion.net_force.net_contact import NetContact
+from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
+from forcetorque.locomotion.net_force.net_contact import (
+    NetContact,
+    Reader,
+    contact_doubts,
+    leans,
+    readers_of,
+    reading_doubts,
+)
 from forcetorque.locomotion.net_force.result import Coherence, CoherenceSummary, OffsetOfSensor, PhaseForce, ThreeOrNull
-from forcetorque.locomotion.net_force.sensor_readers import Reader, contact_doubts, leans, readers_of, reading_doubts
 from forcetorque.recording.recording import Interval, MovingSupport, Use
 from forcetorque.results.number_text import finite_or_none
 

@@ -8,11 +8,10 @@ from typing import Literal
 
 from pydantic import Field
 
-from forcetorque.experiment.offset_policy import Offset
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.number_text import interval, number, with_error
 from forcetorque.results.result import Result
-from forcetorque.results.row import AxisValues, Row, WrenchValues
-from forcetorque.results.table import Table, short_names
+from forcetorque.results.table import AxisValues, Row, Table, WrenchValues, short_names
 
 NOT_EVIDENCE = "not evidence"
 """What a table says of a phase that gave the offset, or the matrix."""

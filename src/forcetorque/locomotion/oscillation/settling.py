@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import RecordingError
 from forcetorque.base.noise.autocorrelation import autocorrelation
 from forcetorque.base.units import NORMAL_95
-from forcetorque.locomotion.oscillation.resampled import EvenedSignal
+from forcetorque.locomotion.oscillation.spectrum import EvenedSignal
 
 END_SHARE = 1.0 / 3.0
 """Part of the time until the next step that tells where a signal ends, and how much it moves there anyway."""

@@ -11,8 +11,12 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.units import NORMAL_95
 from forcetorque.formats.sample_table import Column
-from forcetorque.locomotion.standing.centre_of_mass import ComAcceleration
-from forcetorque.locomotion.standing.pressure import PlaneTolerance, PressureCentres, Sole
+from forcetorque.locomotion.standing.centre_of_mass_and_pressure import (
+    ComAcceleration,
+    PlaneTolerance,
+    PressureCentres,
+    Sole,
+)
 from forcetorque.locomotion.standing.support_phases import (
     RELEASE_SHARE,
     TOUCH_SHARE,

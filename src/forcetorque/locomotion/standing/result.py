@@ -10,14 +10,12 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.autocorrelation import autocorrelation
-from forcetorque.base.noise.means import one_after_another
-from forcetorque.base.noise.regression import half_width
-from forcetorque.base.noise.stationary import sample_statistics
-from forcetorque.locomotion.standing.centre_of_mass import ComAcceleration
+from forcetorque.base.noise.means import one_after_another, sample_statistics
+from forcetorque.base.noise.slow_noise import half_width
+from forcetorque.locomotion.standing.centre_of_mass_and_pressure import ComAcceleration, PressureCentres
 from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance, RobotBalance, half_widths
-from forcetorque.locomotion.standing.pressure import PressureCentres
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.row import Row, Shown
+from forcetorque.results.table import Row, Shown
 
 _MM = 1e3
 _FEWEST_STRETCHES = 3

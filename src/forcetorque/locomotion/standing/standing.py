@@ -18,8 +18,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.formats.sample_table import SampleSpan, write_samples
-from forcetorque.locomotion.foot_forces import FootForces
-from forcetorque.locomotion.standing.foot_wrenches import balance_of_forces, balance_of_sensors
+from forcetorque.locomotion.standing.foot_wrenches import FootForces, balance_of_forces, balance_of_sensors
 from forcetorque.locomotion.standing.interval import BalanceOptions, IntervalBalance
 from forcetorque.locomotion.standing.result import (
     FootPressureRow,

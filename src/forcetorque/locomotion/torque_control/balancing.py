@@ -12,12 +12,12 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import cross, invert_pose, make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.locomotion.standing.centre_of_mass import centre_of_mass
+from forcetorque.locomotion.standing.centre_of_mass_and_pressure import centre_of_mass
 from forcetorque.locomotion.torque_control.world import JOINTS, LEGS, SOLE_CENTRE, SOLES, Biped, Posture
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.simulation.motions.inverse_kinematics import joints_reaching
-from forcetorque.simulation.motions.waypoints import minimum_jerk
+from forcetorque.simulation.motions.trajectories import minimum_jerk
 
 _CROUCH_M: Final = 0.03
 """How much lower the pelvis stands than with straight legs; m."""

@@ -11,9 +11,8 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.base.toml_file import NotNegative, Positive, Table, Text, read_toml
 from forcetorque.locomotion.torque_control.balancing import Balance, Timing
-from forcetorque.locomotion.torque_control.closed_loop import LoopSetting
+from forcetorque.locomotion.torque_control.closed_loop import PRINTED, LoopSetting
 from forcetorque.locomotion.torque_control.controller import JointDrive, TorqueGains
-from forcetorque.locomotion.torque_control.sensors import PRINTED
 from forcetorque.locomotion.torque_control.world import JOINTS, MOST_TILT_DEG, Biped
 
 PERIOD_S: Final = 0.001

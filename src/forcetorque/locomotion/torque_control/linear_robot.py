@@ -17,10 +17,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ControlError
 from forcetorque.locomotion.torque_control.balancing import Phase, Reference
-from forcetorque.locomotion.torque_control.closed_loop import LoopSetting
-from forcetorque.locomotion.torque_control.plant import LinearPlant
-from forcetorque.locomotion.torque_control.sensors import estimated_torques, moved, torque_question
-from forcetorque.locomotion.torque_control.stability import GROWTH, Onset, Stability, TorqueLoop, stability
+from forcetorque.locomotion.torque_control.closed_loop import LoopSetting, estimated_torques, moved, torque_question
+from forcetorque.locomotion.torque_control.stability import GROWTH, LinearPlant, Onset, Stability, TorqueLoop, stability
 from forcetorque.locomotion.torque_control.world import JOINTS, SENSORS, Biped, World
 
 _STEP: Final = 1e-5

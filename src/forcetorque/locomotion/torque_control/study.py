@@ -5,26 +5,95 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Final, Literal
+from typing import Annotated, Final, Literal
 
 import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import BoolArray, FloatArray
-from forcetorque.base.noise.regression import half_width
+from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.locomotion.oscillation.resampled import evened
-from forcetorque.locomotion.oscillation.search import find_oscillations
+from forcetorque.locomotion.oscillation.oscillation import find_oscillations
+from forcetorque.locomotion.oscillation.spectrum import evened
 from forcetorque.locomotion.torque_control.balancing import Phase, Reference, standing, switching
-from forcetorque.locomotion.torque_control.closed_loop import LoopRun, LoopSetting, run_loop
+from forcetorque.locomotion.torque_control.closed_loop import (
+    LoopRun,
+    LoopSetting,
+    SensorErrors,
+    drawn_matrices,
+    run_loop,
+)
 from forcetorque.locomotion.torque_control.file import PERIOD_S, TorqueLoopFile
 from forcetorque.locomotion.torque_control.linear_robot import LinearRobot, linear_robot, require_stable
-from forcetorque.locomotion.torque_control.result import TorqueLoopOnsetRow, TorqueLoopRow
-from forcetorque.locomotion.torque_control.sensors import SensorErrors, drawn_matrices
 from forcetorque.locomotion.torque_control.world import SENSORS, Biped
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import Row, Shown, Table, table_of
+
+
+class TorqueLoopRow(Row):
+    """Runs that differ in the draw of E alone."""
+
+    tilt_deg: Annotated[float, Shown("soles", "deg", digits=0)]
+    """How far the soles are turned."""
+    gain_factor: Annotated[float, Shown("gains", "times", digits=2)]
+    """Multiple of the gains of the file."""
+    errors: Annotated[str, Shown("errors")]
+    """Whose size; `none` without E."""
+    scale: Annotated[float, Shown("scale", digits=2)]
+    """Multiple of it."""
+    force_error_N: Annotated[float, Shown("of weight", "N", digits=1)]
+    """Standard deviation of the force error that the weight of the robot then makes on any axis."""
+    runs: Annotated[int, Shown("runs")]
+    """How many."""
+    tracking_rms_Nm: Annotated[float, Shown("tracking", "N m", digits=2, error="tracking_half_width_95_Nm")]
+    """Mean over runs of the root mean square of true less desired joint torque, until a fall."""
+    tracking_half_width_95_Nm: float | None
+    """Half of its 95 % interval over runs; None of a single one."""
+    centre_rms_mm: Annotated[float, Shown("CoM off", "mm", digits=1)]
+    """Root mean square of how far the centre of mass is from where it should be, until a fall."""
+    falls: Annotated[int, Shown("falls")]
+    """Runs that fell while the support changed."""
+    falls_least_percent: Annotated[float, Shown("at least", "%", digits=0)]
+    """Lower end of the 95 % interval of the share that falls (Clopper and Pearson)."""
+    falls_most_percent: Annotated[float, Shown("at most", "%", digits=0)]
+    """Its upper end."""
+    oscillating: Annotated[int, Shown("swings on")]
+    """Runs that, standing on the left foot, swing after a push and go on swinging, or fall."""
+    oscillating_least_percent: Annotated[float, Shown("at least", "%", digits=0)]
+    """Lower end of the 95 % interval of the share that swings on."""
+    oscillating_most_percent: Annotated[float, Shown("at most", "%", digits=0)]
+    """Its upper end."""
+    amplitude_mm: Annotated[float | None, Shown("amplitude", "mm", digits=1)]
+    """Median amplitude of the centre of mass where it goes on without a fall; None where none does."""
+
+
+class TorqueLoopOnsetRow(Row):
+    """From which size of E on the linear loop is unstable, over draws of E."""
+
+    tilt_deg: Annotated[float, Shown("soles", "deg", digits=0)]
+    """How far the soles are turned."""
+    gain_factor: Annotated[float, Shown("gains", "times", digits=2)]
+    """Multiple of the gains of the file."""
+    errors: Annotated[str, Shown("errors")]
+    """Whose size counts as 1."""
+    support: Annotated[str, Shown("standing on")]
+    """Which feet bear."""
+    draws: Annotated[int, Shown("draws")]
+    """How many."""
+    least_scale: Annotated[float | None, Shown("least", digits=2)]
+    """Smallest size of all draws; None where none up to the largest that was looked at is unstable."""
+    median_scale: Annotated[float | None, Shown("median", digits=2)]
+    """Median; None where it is beyond that."""
+    median_force_error_N: Annotated[float | None, Shown("of weight", "N", digits=1)]
+    """The median as force error that the weight of the robot makes on any axis."""
+    below_one_percent: Annotated[float, Shown("unstable at 1", "%", digits=0)]
+    """Share of draws that are unstable at their own size."""
+    median_frequency_hz: Annotated[float | None, Shown("frequency", "Hz", digits=2)]
+    """Median frequency at which they begin; 0 is a drift away without a swing."""
+    largest_scale: float
+    """Largest multiple that was looked at."""
+
 
 NO_ERROR: Final = "none"
 """Name of the errors of sensors that read the truth."""

@@ -14,10 +14,10 @@ from forcetorque.base.errors import MissingExtraError, RobotError
 from forcetorque.base.pose import make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import reading_sign
-from forcetorque.locomotion.standing.centre_of_mass import mass_of
+from forcetorque.locomotion.standing.centre_of_mass_and_pressure import mass_of
 from forcetorque.locomotion.torque_control.controller import JointDrive
-from forcetorque.robot.mjcf_text import mjcf_text, mjcf_tree
 from forcetorque.robot.model import JointType, RobotModel
+from forcetorque.robot.model_text import mjcf_text, mjcf_tree
 from forcetorque.robot.tree import BodyTree, build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import BIPED_URDF

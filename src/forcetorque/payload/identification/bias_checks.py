@@ -10,11 +10,11 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.noise.slow_noise import SlowNoise
 from forcetorque.payload.identification.fit import Fit, fit, plain_fit
+from forcetorque.payload.identification.load_estimates import BiasTest, DriftChoice
+from forcetorque.payload.identification.load_problem import LoadProblem
 from forcetorque.payload.identification.noise import noise_sizes
 from forcetorque.payload.identification.parameters import Kind, places
 from forcetorque.payload.identification.prediction import expected, masses
-from forcetorque.payload.identification.problem import LoadProblem
-from forcetorque.payload.identification.solution import BiasTest, DriftChoice
 
 
 def bias_tests(fitted: Fit, *, drift: bool) -> tuple[BiasTest, ...]:

@@ -10,12 +10,11 @@ from itertools import product
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.noise.regression import CONFIDENCE, half_width, log_prior
-from forcetorque.base.noise.slow_noise import SlowNoise, Timeline
+from forcetorque.base.noise.slow_noise import CONFIDENCE, SlowNoise, Timeline, half_width, log_prior
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import FORCE_AND_MOMENT
+from forcetorque.payload.identification.load_problem import LoadRows
 from forcetorque.payload.identification.prediction import instants
-from forcetorque.payload.identification.problem import LoadRows
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -25,10 +25,10 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import reading_sign
 from forcetorque.experiment.calibration.assumptions import FRAME, SENSOR, Assumptions, rows_of
 from forcetorque.payload.identification.fit import plain_fit
+from forcetorque.payload.identification.load_problem import LoadProblem
 from forcetorque.payload.identification.noise import noise_sizes
 from forcetorque.payload.identification.parameters import Guess, Kind
 from forcetorque.payload.identification.prediction import load_columns, load_wrench
-from forcetorque.payload.identification.problem import LoadProblem
 
 _ROUNDS = 40
 """Rounds in which sizes and loads settle; eight are usual."""

@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import FORCE, reading_sign
+from forcetorque.payload.identification.load_problem import Load, LoadProblem, LoadRows
 from forcetorque.payload.identification.parameters import (
     AXES,
     OF_LOAD,
@@ -21,7 +22,6 @@ from forcetorque.payload.identification.parameters import (
     rotation_by,
     six_of,
 )
-from forcetorque.payload.identification.problem import Load, LoadProblem, LoadRows
 
 _SMALL = 1e-5
 """rad: step of the differences that give derivatives by rotations; what is left is of the order of its square."""

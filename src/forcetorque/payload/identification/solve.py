@@ -11,16 +11,16 @@ from forcetorque.base.pose import skew
 from forcetorque.payload.identification.bias_checks import bias_tests, choose_drift
 from forcetorque.payload.identification.fit import Fit, fit
 from forcetorque.payload.identification.hypotheses import hypotheses
-from forcetorque.payload.identification.parameters import Kind, inertia_of, places, six_of
-from forcetorque.payload.identification.prediction import inertial, instants
-from forcetorque.payload.identification.problem import INERTIAL, Load, LoadProblem
-from forcetorque.payload.identification.solution import (
+from forcetorque.payload.identification.load_estimates import (
     DisagreeingRow,
     LoadEstimate,
     LoadSolution,
     SessionEstimate,
     VariableEstimate,
 )
+from forcetorque.payload.identification.load_problem import INERTIAL, Load, LoadProblem
+from forcetorque.payload.identification.parameters import Kind, inertia_of, places, six_of
+from forcetorque.payload.identification.prediction import inertial, instants
 from forcetorque.payload.identification.unobservable import open_directions, spanned_by
 
 _NAMED = 0.5

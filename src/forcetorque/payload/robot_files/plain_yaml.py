@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.base.decimal_text import DECIMAL_NUMBER
 from forcetorque.base.errors import FormatError, MissingFileError, known_names
+from forcetorque.base.units import DECIMAL_NUMBER
 
 _ENTRY = re.compile(r"(?P<key>[A-Za-z_]\w*):(?:\s+(?P<value>.*))?$")
 _ITEM = re.compile(r"\s*-\s+(?P<value>\S+)$")

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a document is made of, before anyone decides how it looks."""
+"""What a document is made of: text, tables and figures, and messages in place of pictures that cannot be drawn."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from enum import StrEnum
 
-from forcetorque.base.errors import FormatError
+from forcetorque.base.errors import ForceTorqueError, FormatError
 from forcetorque.results.document.picture import Picture
 from forcetorque.results.table import Table
 
@@ -150,3 +150,28 @@ class Document:
     def instant(self) -> datetime:
         """When it was made."""
         return datetime.fromisoformat(self.created)
+
+
+def without_undrawn(document: Document) -> Document:
+    """Draw every picture, and say of those that cannot be drawn why.
+
+    Args:
+        document: The document.
+
+    Returns:
+        It with a sentence in the place of every figure that its data do not make.
+    """
+    return replace(document, sections=tuple(map(_section, document.sections)))
+
+
+def _section(section: Section) -> Section:
+    return replace(section, blocks=tuple(map(_block, section.blocks)), sections=tuple(map(_section, section.sections)))
+
+
+def _block(block: Block) -> Block:
+    if isinstance(block, Figure):
+        try:
+            block.picture.png  # noqa: B018 - drawn here, where its error becomes a sentence
+        except ForceTorqueError as error:
+            return Text(text=f"A figure could not be drawn: {error}")
+    return block

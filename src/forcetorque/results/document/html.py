@@ -7,8 +7,17 @@ import base64
 from importlib import resources
 
 from forcetorque.base.errors import MissingExtraError
-from forcetorque.results.document.content import NO_ROWS, Block, Document, Figure, List, Page, Text, Verdict
-from forcetorque.results.document.undrawn import without_undrawn
+from forcetorque.results.document.content import (
+    NO_ROWS,
+    Block,
+    Document,
+    Figure,
+    List,
+    Page,
+    Text,
+    Verdict,
+    without_undrawn,
+)
 from forcetorque.results.number_text import with_joined_units
 from forcetorque.results.table import Table
 

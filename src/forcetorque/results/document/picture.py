@@ -8,7 +8,7 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from forcetorque.results.figures.canvas import png_bytes
+from forcetorque.results.figures import png_bytes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -15,8 +15,7 @@ from shutil import get_terminal_size
 from typing import TYPE_CHECKING
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.base.files import STANDARD_OUTPUT, refuse_existing
-from forcetorque.base.output_file import declare_outputs
+from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs, refuse_existing
 
 if TYPE_CHECKING:
     from forcetorque.results.result import Result
@@ -109,7 +108,7 @@ def say(sentence: str, output_format: Format) -> None:
         sentence: The sentence.
         output_format: Form of the result.
     """
-    from forcetorque.results.text import wrapped
+    from forcetorque.results.table_rendering import wrapped
 
     if output_format is Format.TABLE:
         sys.stdout.write(wrapped(sentence, width()) + "\n")
@@ -215,7 +214,7 @@ def refuse_figure(figure: Path | None, *, force: bool | None = None) -> None:
     """
     if figure is None:
         return
-    from forcetorque.results.figures.canvas import new_figure
+    from forcetorque.results.figures import new_figure
 
     if figure.suffix.lower() != ".png":
         raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")

@@ -10,11 +10,11 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.robot.contacts import Wrenches
-from forcetorque.robot.mechanics.inputs import activity_of, checked_inputs
+from forcetorque.robot.mechanics.estimate import activity_of, checked_inputs
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.mechanics.readable import RANK_TOLERANCE, Block, body_states, contact_columns, weighted
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.sub_model import SubModel
+from forcetorque.robot.tree import SubModel
 
 _POSES = 64
 """Poses that are looked at, evenly over the samples: what cannot be told apart depends on the pose alone."""

@@ -16,8 +16,7 @@ from forcetorque.base.arrays import BoolArray
 from forcetorque.base.errors import EstimationError, RobotError, ShapeError, known_names
 from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.mechanics.estimates import Layout
-from forcetorque.robot.sub_model import SubModel, cut_of, outboard_bodies, path_to_root, sub_models
-from forcetorque.robot.tree import BodyTree
+from forcetorque.robot.tree import BodyTree, SubModel, cut_of, outboard_bodies, path_to_root, sub_models
 
 
 class TorqueSum(StrEnum):

@@ -19,13 +19,11 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import transform_wrench
 from forcetorque.robot.contacts import Contact
-from forcetorque.robot.kinematics import BodyState, move_to, root_state
+from forcetorque.robot.dynamics import BodyState, in_body, in_parent, move_to, net_wrench, root_state
 from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.robot.mechanics.question import Needs, Question
 from forcetorque.robot.motion import JointMotion
-from forcetorque.robot.newton_euler import in_body, in_parent, net_wrench
-from forcetorque.robot.sub_model import SubModel, path_to_root
-from forcetorque.robot.tree import Connection
+from forcetorque.robot.tree import Connection, SubModel, path_to_root
 
 RANK_TOLERANCE = 1e-9
 """Singular values below this part of the largest are rounding: geometry comes from numbers of some 1e-16."""

@@ -14,7 +14,7 @@ from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import MovingSupport, Recording, Support
 from forcetorque.recording.smoothing import SavitzkyGolay, smooth
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.kinematics import joints_between, motion_of_link
+from forcetorque.robot.dynamics import joints_between, motion_of_link
 from forcetorque.robot.model import JointType, RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree

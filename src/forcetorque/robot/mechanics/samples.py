@@ -17,12 +17,11 @@ from forcetorque.recording.recording import Interval, MovingSupport, Recording, 
 from forcetorque.recording.sample_quality import SampleQuality, UnusableCounts, repeated_samples
 from forcetorque.recording.smoothing import EvenGrid, SavitzkyGolay, smooth
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.joint_motion import joint_motion_at
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import joints_to_support, support_motion_at
 from forcetorque.robot.model import RobotModel
-from forcetorque.robot.motion import JointMotion, RootMotion, require_joints_in_radians
+from forcetorque.robot.motion import JointMotion, RootMotion, joint_motion_at, require_joints_in_radians
 from forcetorque.robot.tree import build_tree
 
 

@@ -20,11 +20,9 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError, RobotError, known_names
 from forcetorque.base.pose import cross, make_pose
 from forcetorque.base.wrench import transform_wrench, wrench_matrix
-from forcetorque.robot.kinematics import BodyState, move_to, root_state, stacked_root
+from forcetorque.robot.dynamics import BodyState, move_to, net_wrench, root_state, stacked_root
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.newton_euler import net_wrench
-from forcetorque.robot.sub_model import SubModel, path_to_root, sub_models
-from forcetorque.robot.tree import Body, BodyTree, Connection
+from forcetorque.robot.tree import Body, BodyTree, Connection, SubModel, path_to_root, sub_models
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

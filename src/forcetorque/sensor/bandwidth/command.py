@@ -45,7 +45,7 @@ def response(
 
     Example: forcetorque response taps.toml -e impact --force hammer
     """
-    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.sensor_run import SensorRun
@@ -73,7 +73,7 @@ def response(
             calibration=read_by,
         )
     if figure is not None:
-        from forcetorque.results.figures.canvas import png_bytes
+        from forcetorque.results.figures import png_bytes
         from forcetorque.sensor.bandwidth.figure import response_figure
 
         write_bytes_atomically(figure, png_bytes(response_figure(result)))

@@ -10,14 +10,12 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.base.noise.regression import half_width
+from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.sensor.bandwidth.even_record import EvenRecord
-from forcetorque.sensor.bandwidth.events import Event, find_events
-from forcetorque.sensor.bandwidth.records import ExcitationKind, ExcitedRecord
+from forcetorque.sensor.bandwidth.excited_records import EvenRecord, ExcitationKind, ExcitedRecord
 from forcetorque.sensor.bandwidth.result import DecayCurve, EventRow, ResponseNumber
-from forcetorque.sensor.bandwidth.ring_down import RingDown, gains, ring_downs, step_direction
+from forcetorque.sensor.bandwidth.ring_down import Event, RingDown, find_events, gains, ring_downs, step_direction
 from forcetorque.sensor.bandwidth.second_order import SecondOrder
 
 

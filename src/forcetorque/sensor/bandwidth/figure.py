@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from forcetorque.results.figures.canvas import (
+from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,
     SMALL_POINTS,

@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, read_only
 from forcetorque.base.errors import FitError, ShapeError
-from forcetorque.base.noise.regression import CONFIDENCE
+from forcetorque.base.noise.slow_noise import CONFIDENCE
 
 LEAST_AVERAGES = 4
 """Averages of a spectrum; of one the coherence is 1, whatever was measured."""

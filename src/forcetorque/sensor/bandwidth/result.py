@@ -8,7 +8,7 @@ from typing import Annotated
 import numpy as np
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.results.row import FloatOrNull, Row, Shown, Values
+from forcetorque.results.table import FloatOrNull, Row, Shown, Values
 from forcetorque.sensor.bandwidth.second_order import InverseFilter
 
 

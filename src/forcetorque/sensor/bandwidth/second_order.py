@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import FitError
-from forcetorque.base.noise.regression import half_width
+from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.base.units import NORMAL_95
 from forcetorque.sensor.bandwidth.frequency_response import FrequencyResponse, frequency_response
 

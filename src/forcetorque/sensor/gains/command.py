@@ -57,8 +57,8 @@ def gains(
     runs = [SensorRun(content, _with_gains(content, chosen, amplifier_gain, allowed_gains)) for chosen in sensors]
     answer = Gains.together(select_gains(run, margin=margin, calibration=matrices.get(run.sensor.name)) for run in runs)
     if figure is not None:
-        from forcetorque.base.files import write_bytes_atomically
-        from forcetorque.results.figures.canvas import png_bytes
+        from forcetorque.base.output_file import write_bytes_atomically
+        from forcetorque.results.figures import png_bytes
         from forcetorque.sensor.gains.figure import gain_figure
 
         drawn = gain_figure([sensor_gains(run, margin=margin) for run in runs])

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.results.figures.canvas import COLOURS, ROW_INCHES, new_figure
-from forcetorque.results.figures.curves import thinned_line
+from forcetorque.results.figures import COLOURS, ROW_INCHES, new_figure, thinned_line
 from forcetorque.sensor.gains.gains import SensorGains
 
 if TYPE_CHECKING:

@@ -13,8 +13,7 @@ from forcetorque.recording.alignment import interpolate, seconds_since, usable_s
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Stream
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.row import Row, Values
-from forcetorque.results.table import Table
+from forcetorque.results.table import Row, Table, Values
 from forcetorque.sensor.gains.amplifier_gains import GainChange, strongest_samples
 
 

@@ -35,7 +35,7 @@ def thermal(
 
     Example: forcetorque thermal cycles.toml --figure drift.png
     """
-    from forcetorque.base.files import write_bytes_atomically
+    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.sensor_run import SensorRun
     from forcetorque.results.terminal.output import refuse_figure
@@ -62,7 +62,7 @@ def thermal(
             for one in chosen
         )
     if figure is not None:
-        from forcetorque.results.figures.canvas import png_bytes
+        from forcetorque.results.figures import png_bytes
         from forcetorque.sensor.temperature.figure import thermal_figure
 
         write_bytes_atomically(figure, png_bytes(thermal_figure(result.sensors)))

@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import FitError
-from forcetorque.base.noise.regression import half_width, regress
+from forcetorque.base.noise.slow_noise import half_width, regress
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.sensor.temperature.cycles import LEAST_OVERLAP, Cycles, compared_share
 

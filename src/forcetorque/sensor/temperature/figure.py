@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from forcetorque.results.figures.canvas import (
+from forcetorque.results.figures import (
     ROW_INCHES,
     SMALL_POINTS,
     TITLE_POINTS,
@@ -16,9 +16,9 @@ from forcetorque.results.figures.canvas import (
     look,
     new_figure,
     shown_name,
+    thinned_cloud,
 )
-from forcetorque.results.figures.curves import thinned_cloud
-from forcetorque.sensor.temperature.result import SensorThermal
+from forcetorque.sensor.temperature.temperature_drift import SensorThermal
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -13,11 +13,15 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError, ForceTorqueError, ShapeError
 from forcetorque.sensor.transfer.network import fit_network
-from forcetorque.sensor.transfer.points import calibration_points
-from forcetorque.sensor.transfer.polynomial import fit_linear, fit_logarithmic, fit_polynomial
-from forcetorque.sensor.transfer.power import fit_exponential, fit_power
-from forcetorque.sensor.transfer.sections import fit_piecewise_linear, fit_spline
-from forcetorque.sensor.transfer.transfer_function import TransferFunction
+from forcetorque.sensor.transfer.parametric import (
+    fit_exponential,
+    fit_linear,
+    fit_logarithmic,
+    fit_polynomial,
+    fit_power,
+)
+from forcetorque.sensor.transfer.piecewise import fit_piecewise_linear, fit_spline
+from forcetorque.sensor.transfer.transfer_function import TransferFunction, calibration_points
 
 Fitter = Callable[[FloatArray, FloatArray], TransferFunction]
 """What fits a kind of function to stimuli and outputs; `functools.partial(fit_polynomial, degree=5)` sets a setting."""

@@ -11,8 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import FitError, MissingExtraError, SensorError
-from forcetorque.sensor.transfer.points import calibration_points
-from forcetorque.sensor.transfer.transfer_function import TransferFunction
+from forcetorque.sensor.transfer.transfer_function import TransferFunction, calibration_points
 
 _ITERATIONS = 5000
 """Steps of the training; below a hundred are usual."""

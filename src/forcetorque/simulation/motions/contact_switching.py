@@ -11,15 +11,15 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError, ShapeError, known_names
-from forcetorque.robot.kinematics import joints_between, link_pose
+from forcetorque.robot.dynamics import joints_between, link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.simulation.motions.foot_loads import FootLoads, Hook, internal_pushes
-from forcetorque.simulation.motions.insitu import balancing_postures
+from forcetorque.simulation.motions.held_robot import Stand
+from forcetorque.simulation.motions.joint_motions import balancing_postures
 from forcetorque.simulation.motions.movement import Foothold, Footing, Movement, MovementKind, Phase, PhaseKind
 from forcetorque.simulation.motions.on_both_feet import INTERNAL_FORCE_N
 from forcetorque.simulation.motions.stance import Stance
-from forcetorque.simulation.motions.stand import Stand
-from forcetorque.simulation.motions.waypoints import Waypoints, minimum_jerk, shortest_moves
+from forcetorque.simulation.motions.trajectories import Waypoints, minimum_jerk, shortest_moves
 
 _SETTLED_S = 0.25
 """How long all stays as it is before and after weight is handed over; s."""

@@ -15,9 +15,9 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import WRENCH_COMPONENTS, transform_wrench, wrench_matrix
 from forcetorque.robot.contacts import Contact, ContactType
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.simulation.motions.movement import Movement, Touch
-from forcetorque.simulation.motions.spline import Spline
+from forcetorque.simulation.motions.trajectories import Spline
 
 _COST = np.array([1.0, 1.0, 0.05, 150.0, 150.0, 150.0])
 """Cost of a squared component of a foot's wrench: the vertical force is cheap, and 1 N m costs as much as 12 N along

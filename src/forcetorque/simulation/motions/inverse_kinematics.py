@@ -14,11 +14,10 @@ from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import RobotError
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import cross, make_pose
-from forcetorque.robot.kinematics import body_poses, link_pose, motion_of_link
+from forcetorque.robot.dynamics import body_poses, link_pose, motion_of_link
 from forcetorque.robot.model import Joint, JointType, RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.sub_model import path_to_root
-from forcetorque.robot.tree import BodyTree, Connection, build_tree
+from forcetorque.robot.tree import BodyTree, Connection, build_tree, path_to_root
 
 _STEPS = 60
 _LARGEST_STEP = 0.3

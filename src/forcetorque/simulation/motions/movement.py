@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_sha
 from forcetorque.base.errors import RobotError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
-from forcetorque.robot.kinematics import link_pose, motion_of_link
+from forcetorque.robot.dynamics import link_pose, motion_of_link
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.model import RobotModel

@@ -8,8 +8,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.simulation.motions.inverse_kinematics import CARRIAGE_JOINTS
 from forcetorque.simulation.motions.movement import Movement, MovementKind
-from forcetorque.simulation.motions.spline import Spline
 from forcetorque.simulation.motions.stance import Stance, Steps
+from forcetorque.simulation.motions.trajectories import Spline
 
 _REACH_M = 0.03
 _TURN_RAD = 0.09

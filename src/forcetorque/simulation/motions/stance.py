@@ -12,16 +12,14 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.base.pose import invert_pose, make_pose, rotation_about_z
-from forcetorque.robot.kinematics import link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import BodyTree, build_tree
 from forcetorque.simulation.motions.foot_loads import FootLoads, internal_pushes
+from forcetorque.simulation.motions.held_robot import Legs, Stand, legs_of, shortest_turn_down
 from forcetorque.simulation.motions.inverse_kinematics import CARRIAGE_JOINTS, Carriage, carried_poses, joints_reaching
-from forcetorque.simulation.motions.limbs import Legs, legs_of
 from forcetorque.simulation.motions.movement import Movement, MovementKind
-from forcetorque.simulation.motions.spline import Spline
-from forcetorque.simulation.motions.stand import Stand, shortest_turn_down
-from forcetorque.simulation.motions.waypoints import minimum_jerk
+from forcetorque.simulation.motions.trajectories import Spline, minimum_jerk
 
 _UNLOADED = (0.02, 0.12)
 _LIFTED = (0.13, 0.37)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -11,13 +11,71 @@ from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.results.result import Result
-from forcetorque.results.row import Row, Shown
-from forcetorque.results.table import Table
-from forcetorque.skin.layout.findings import shape_findings
-from forcetorque.skin.layout.findings.finding import LayoutFinding, counted
-from forcetorque.skin.layout.findings.shape import shape_of
+from forcetorque.results.table import Row, Shown, Table
+from forcetorque.skin.layout.defects import (
+    FACETED_DEG,
+    NEAREST_CENTRES_M,
+    OBLIQUE_DEG,
+    duplicates,
+    gaps,
+    normal_directions,
+    normal_lengths,
+    off_template,
+    overlaps,
+    representatives,
+)
+from forcetorque.skin.layout.finding import Defect, LayoutFinding, PatchShape, counted, shape_of
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import PatchDescription
+
+_LOOKS: tuple[Callable[[PatchShape], Iterator[LayoutFinding]], ...] = (
+    representatives,
+    duplicates,
+    off_template,
+    overlaps,
+    normal_lengths,
+    normal_directions,
+    gaps,
+)
+
+
+def layout_findings(patch: PatchDescription) -> tuple[LayoutFinding, ...]:
+    """Look for everything that may be wrong with a layout.
+
+    Args:
+        patch: Patch.
+
+    Returns:
+        Findings; none where it is sound.
+    """
+    return shape_findings(shape_of(patch))
+
+
+def shape_findings(shape: PatchShape) -> tuple[LayoutFinding, ...]:
+    """Look for everything that may be wrong with a layout whose shape is known.
+
+    Args:
+        shape: Patch.
+
+    Returns:
+        Findings; none where it is sound.
+    """
+    return tuple(finding for look in _LOOKS for finding in look(shape))
+
+
+__all__ = [
+    "FACETED_DEG",
+    "NEAREST_CENTRES_M",
+    "OBLIQUE_DEG",
+    "Defect",
+    "LayoutFinding",
+    "PatchShape",
+    "counted",
+    "layout_findings",
+    "shape_findings",
+    "shape_of",
+]
+
 
 _MOST = 6
 """Stretches of numbers that a table has; JSON and CSV have all numbers."""

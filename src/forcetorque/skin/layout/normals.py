@@ -12,7 +12,7 @@ from forcetorque.base.arrays import FloatArray, IntArray, read_only
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import PatchDescription
 from forcetorque.skin.layout.modules import outward_of_boards
-from forcetorque.skin.surface.surface import SkinSurface, skin_surface
+from forcetorque.skin.surface import SkinSurface, skin_surface
 
 _REACH_M: Final = 0.012
 """Standard deviation of the weights of planes around a point; m: two thirds of the distance between modules."""

@@ -11,9 +11,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.recording.recording import Recording
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.chamber import NOISE_COUNTS, REST_COUNTS, TaxelResponses
 from forcetorque.skin.simulation.contact import ContactTruth
-from forcetorque.skin.simulation.recording import counts_recording
+from forcetorque.skin.simulation.recordings import NOISE_COUNTS, REST_COUNTS, TaxelResponses, counts_recording
 
 COUNTS_PER_K: Final = 1.2
 """Mean fall of a taxel or pad by temperature; heat reads as pressure."""

@@ -17,7 +17,6 @@ from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
-from forcetorque.skin.taxels.figure_data import TaxelPicture, taxel_picture
 from forcetorque.skin.taxels.fit import FittedSamples, compare_curves, fitted_samples
 from forcetorque.skin.taxels.health import taxel_response
 from forcetorque.skin.taxels.patch_calibration import CalibratedTaxel, PatchCalibration, PatchProvenance
@@ -25,12 +24,14 @@ from forcetorque.skin.taxels.recording import PatchRecording, of_use, patch_reco
 from forcetorque.skin.taxels.result import (
     CandidateRow,
     SkinRecordingRow,
+    TaxelPicture,
     TaxelRow,
     recording_name,
     recording_row,
+    taxel_picture,
     taxel_row,
 )
-from forcetorque.skin.temperature.calibrate import WarmUpRow, learn_warm_up, warm_up_row
+from forcetorque.skin.temperature.warm_up import WarmUpRow, learn_warm_up, warm_up_row
 
 _SHOWN = 12
 """Taxels of the table; JSON and CSV have all."""

@@ -13,10 +13,9 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve, fit_curve
-from forcetorque.skin.taxels.cycle import REST_SHARE, TOP_SHARE
 from forcetorque.skin.taxels.health import Ailment
-from forcetorque.skin.taxels.pressure_table import ROWS
-from forcetorque.skin.taxels.recording import PatchRecording
+from forcetorque.skin.taxels.patch_calibration import ROWS
+from forcetorque.skin.taxels.recording import REST_SHARE, TOP_SHARE, PatchRecording
 from forcetorque.skin.taxels.result import CandidateRow, in_kPa, recording_name
 
 

@@ -20,8 +20,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.pose import cross
-from forcetorque.skin.surface.rim import Rim
-from forcetorque.skin.surface.surface import SkinSurface
+from forcetorque.skin.surface import Rim, SkinSurface
 
 _SIDES: Final = ((0, 1), (1, 2), (2, 0))
 

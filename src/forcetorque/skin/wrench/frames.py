@@ -13,16 +13,12 @@ from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import SkinError, known_names
 from forcetorque.recording.alignment import seconds_since, usable_samples
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
-from forcetorque.skin.contact.following import PatchFollower, Release
-from forcetorque.skin.contact.identities import ContactLife, ContactLives
-from forcetorque.skin.contact.reading import PatchReader, PressureFrame
+from forcetorque.skin.contact.pressure_frame import PatchReader, PressureFrame
+from forcetorque.skin.contact.tracking import ContactLife, ContactLives, PatchFollower, Release
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
-from forcetorque.skin.messages import require_counts
-from forcetorque.skin.taxels.health import FULL_COUNTS, Ailment, taxel_ailments
-from forcetorque.skin.taxels.patch_calibration import PatchCalibration
-from forcetorque.skin.taxels.pressure_table import PressureTable
-from forcetorque.skin.temperature.gains import HeatGains, HeatRule, TaxelDrift
-from forcetorque.skin.temperature.pads import stuck_pads
+from forcetorque.skin.taxels.health import FULL_COUNTS, Ailment, require_counts, taxel_ailments
+from forcetorque.skin.taxels.patch_calibration import PatchCalibration, PressureTable
+from forcetorque.skin.temperature.gains import HeatGains, HeatRule, TaxelDrift, stuck_pads
 from forcetorque.skin.wrench.patch import SkinPatch
 
 _SICK: Final = (Ailment.WRAPS, Ailment.RAILS, Ailment.NOISE)

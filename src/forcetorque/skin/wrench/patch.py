@@ -12,12 +12,17 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_shape
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.surface.rim import edge_taxels, rim_strip
-from forcetorque.skin.surface.surface import SkinSurface, skin_surface
+from forcetorque.skin.surface import SkinSurface, edge_taxels, rim_strip, skin_surface
 from forcetorque.skin.wrench.elements import SkinElements, skin_elements
-from forcetorque.skin.wrench.kriging import ForetoldPressures, kriging_operator
-from forcetorque.skin.wrench.operator import WrenchMethod, WrenchOperator
-from forcetorque.skin.wrench.pressure_fields import linear_operator, simple_operator, thesis_operator
+from forcetorque.skin.wrench.operator import (
+    ForetoldPressures,
+    WrenchMethod,
+    WrenchOperator,
+    kriging_operator,
+    linear_operator,
+    simple_operator,
+    thesis_operator,
+)
 
 _Built = TypeVar("_Built")
 _KEPT: Final = 16

@@ -14,11 +14,10 @@ from forcetorque.recording.alignment import seconds_since, usable_samples
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Stream
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.row import AxisValues, FloatOrNull, Row, Shown, WrenchValues
+from forcetorque.results.table import AxisValues, FloatOrNull, Row, Shown, WrenchValues
 from forcetorque.skin.contact.contacts import SkinContacts, lobes
-from forcetorque.skin.contact.following import Release
-from forcetorque.skin.contact.identities import ContactLife, followed_places
-from forcetorque.skin.contact.reading import PressureFrame
+from forcetorque.skin.contact.pressure_frame import PressureFrame
+from forcetorque.skin.contact.tracking import ContactLife, Release, followed_places
 from forcetorque.skin.temperature.gains import HeatRule
 from forcetorque.skin.wrench.frames import SkinFrames
 from forcetorque.skin.wrench.patch import SkinPatch

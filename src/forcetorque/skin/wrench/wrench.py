@@ -18,12 +18,12 @@ from forcetorque.experiment.input_files import stated_in
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
-from forcetorque.skin.contact.reading import PressureFrame
+from forcetorque.skin.contact.pressure_frame import PressureFrame
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.layout.normals import rebuilt_normals
-from forcetorque.skin.surface.surface import unrolled
+from forcetorque.skin.surface import unrolled
 from forcetorque.skin.taxels.patch_calibration import PatchCalibration, read_patch_calibration
 from forcetorque.skin.wrench.frames import FrameChoice, SkinFrames, patch_messages, skin_frames
 from forcetorque.skin.wrench.operator import WrenchMethod

@@ -13,8 +13,13 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError
-from forcetorque.calibration.export.wholebodydynamics.correction import SensorCorrection, corrected, from_calibration
-from forcetorque.calibration.export.wholebodydynamics.file import read_groups, write_groups
+from forcetorque.calibration.export.wholebodydynamics import (
+    SensorCorrection,
+    corrected,
+    from_calibration,
+    read_groups,
+    write_groups,
+)
 from tests.calibration.export.wholebodydynamics.device import Processor, bottle, configured, use_pre_estimated_offset
 from tests.fuzzing import examples
 from tests.scenes.calibrations import FACTORY, make_calibration

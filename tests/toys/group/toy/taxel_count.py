@@ -10,8 +10,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from forcetorque.results.result import Result
-from forcetorque.results.row import Row, Shown
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.skin.layout.formats.registry import describe_patch
 
 

@@ -14,8 +14,7 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import split_pose
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.mechanics.question import QUESTIONS, Needs, Question, closed_form
-from forcetorque.robot.sub_model import SubModel, path_to_root
-from forcetorque.robot.tree import Connection, Coordinate
+from forcetorque.robot.tree import Connection, Coordinate, SubModel, path_to_root
 
 
 class Bodies(NamedTuple):

@@ -13,7 +13,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, UnitError
-from forcetorque.base.files import write_bytes_atomically
+from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.units import si_factor
 from forcetorque.skin.layout.layout import PatchDescription, SkinLayout
 from forcetorque.skin.layout.modules import LARGEST_MESSAGE

@@ -11,9 +11,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, SkinError
 from forcetorque.base.input_file import read_text
-from forcetorque.skin.layout.formats.icub_positions import IcubPositions
+from forcetorque.skin.layout.formats.icub_skin_gui import IcubPositions, SkinGuiPlan
 from forcetorque.skin.layout.formats.layout_table import LayoutTable
-from forcetorque.skin.layout.formats.skin_gui import SkinGuiPlan
 from forcetorque.skin.layout.formats.taxel_array import TaxelArrayMessage
 from forcetorque.skin.layout.formats.urdf_frames import UrdfFrames
 from forcetorque.skin.layout.layout import PatchDescription, SkinLayout

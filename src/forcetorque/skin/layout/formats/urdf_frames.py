@@ -20,11 +20,10 @@ from forcetorque.base.toml_file import Table, read_toml
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.skin.layout.formats.skin_gui import read_plan
+from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.layout import PatchDescription
-from forcetorque.skin.layout.modules import LARGEST_MESSAGE, MODULE_COLUMNS, modular_patch
+from forcetorque.skin.layout.modules import LARGEST_MESSAGE, MODULE_COLUMNS, modular_patch, module_poses
 from forcetorque.skin.layout.normals import rebuilt_normals
-from forcetorque.skin.layout.plan import module_poses
 
 _SCHEMA = "forcetorque/module_frames/1"
 _NUMBER = "{module}"

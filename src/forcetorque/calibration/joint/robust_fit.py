@@ -1,0 +1,305 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Robust joint fit: fit, leave out windows in contact, linearise, fit again; residuals before and after."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.calibration.contact_windows import FEWEST, disagreeing, minority, with_neighbours
+from forcetorque.calibration.joint.fit import ChangeSpread, JointFit, fit_jointly
+from forcetorque.calibration.joint.model_error import ErrorTerm, ModelTolerance, delay_terms, error_terms
+from forcetorque.calibration.joint.nodes import Stretch
+from forcetorque.calibration.joint.sums import part_sums
+from forcetorque.calibration.joint.windows import UNITS, WINDOW_S, PartWindows, part_windows
+from forcetorque.experiment.calibration.assumptions import LOADS
+from forcetorque.robot.tree import SubModel
+
+_NEIGHBOURS = 2
+"""Windows to either side that leave with it: a touch begins and ends gently."""
+_LEAST = 1e-3
+"""Smallest scale of a residual, in `UNITS`: below that it is rounding."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Touch:
+    """A span of time in which a part was touched, or in which its equation does not hold for another reason."""
+
+    part: str
+    """Name of the part."""
+    label: str
+    """Label of the interval."""
+    start_s: float
+    """Start; s on the clock of the recording."""
+    end_s: float
+    """End; s."""
+
+
+def residuals(windows: PartWindows, fit: JointFit | None) -> FloatArray:
+    """Give what is left of the equations of a part.
+
+    Args:
+        windows: Its windows.
+        fit: The fit; None for the prior matrices, with the offsets that suit these windows best.
+
+    Returns:
+        Left side less right side; shape (w, 6); in `UNITS`.
+    """
+    if fit is None:
+        return residuals_by(windows, {name: np.eye(LOADS) for name in windows.sensors}, None)
+    unknowns = fit.mean[fit.places.of_part(windows.sensors, windows.stretch.session, windows.terms)]
+    return np.concatenate([block.columns @ unknowns - block.right for block in windows.blocks()])
+
+
+def residuals_by(
+    windows: PartWindows, factors: Mapping[str, FloatArray], offsets: Mapping[str, FloatArray] | None
+) -> FloatArray:
+    """Give what is left of the equations of a part by given calibrations, of a model that is taken for exact.
+
+    Args:
+        windows: Its windows.
+        factors: What wrenches by the prior matrix of a sensor are to be multiplied by; shape (6, 6); N, N m.
+        offsets: What is to be added to them; shape (6,); N, N m; None for what suits these windows best.
+
+    Returns:
+        Left side less right side; shape (w, 6); in `UNITS`.
+    """
+    changes = [(factors[name] * (UNITS / UNITS[:, None]) - np.eye(LOADS)).ravel() for name in windows.sensors]
+    left = np.concatenate([block.changes @ np.concatenate(changes) - block.right for block in windows.blocks()])
+    of_offsets = windows.offsets
+    if offsets is None:
+        columns = of_offsets.reshape(-1, of_offsets.shape[2])
+        added = -np.linalg.lstsq(columns, left.ravel(), rcond=None)[0]
+    else:
+        added = np.concatenate([offsets[name] / UNITS for name in windows.sensors])
+    return np.asarray(left + of_offsets @ added)
+
+
+def untouched(windows: PartWindows, fit: JointFit | None) -> BoolArray:
+    """Tell which windows agree with the others.
+
+    Args:
+        windows: Windows of a part.
+        fit: As of `residuals`.
+
+    Returns:
+        Marks; shape (w,).
+    """
+    if len(windows) < FEWEST:
+        return np.ones(len(windows), dtype=bool)
+    far = disagreeing(residuals(windows, fit)[:, windows.rows > 0.0], _LEAST)
+    return ~minority(with_neighbours(far, _NEIGHBOURS))
+
+
+def touches_of(windows: PartWindows, kept: BoolArray) -> list[Touch]:
+    """List the spans that were left out.
+
+    Args:
+        windows: Windows of a part.
+        kept: Which of them agree; shape (w,).
+
+    Returns:
+        Spans of windows that follow each other.
+    """
+    edges = np.flatnonzero(np.diff(np.r_[True, kept, True].astype(int)))
+    half = 0.5 * WINDOW_S
+    return [
+        Touch(
+            part=windows.part,
+            label=windows.stretch.label,
+            start_s=float(windows.time_s[start]) - half,
+            end_s=float(windows.time_s[end - 1]) + half,
+        )
+        for start, end in zip(edges[::2], edges[1::2], strict=True)
+    ]
+
+
+def all_touches(windows: Sequence[PartWindows], kept: Sequence[BoolArray]) -> tuple[Touch, ...]:
+    """List the spans that were left out of all parts.
+
+    Args:
+        windows: Windows of the parts.
+        kept: Which of them agree.
+
+    Returns:
+        The spans, part by part.
+    """
+    return tuple(touch for one, marks in zip(windows, kept, strict=True) for touch in touches_of(one, marks))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PartResidual:
+    """What is left of the equation of one part in w windows of one stretch: sensors less what moves its bodies."""
+
+    part: str
+    """Name of the part."""
+    label: str
+    """Label of the interval."""
+    recording: str
+    """Recording that it is of."""
+    session: str
+    """Session that it is of."""
+    root_link: str
+    """Link whose motion is known."""
+    sensors: tuple[str, ...]
+    """The k sensors of the part."""
+    time_s: FloatArray
+    """Mean instants; shape (w,); s on the clock of the recording."""
+    before: FloatArray
+    """By the prior matrices, with the offsets that suit these windows best; shape (w, 6); N, N m."""
+    after: FloatArray
+    """By the fit, or by calibrations; shape (w, 6); N, N m."""
+    at_sensors: FloatArray
+    """What is left by the fit, carried to every sensor: by how much it reads too much if it alone is to blame; shape
+    (w, k, 6); N, N m; NaN where the equation has forces only."""
+    rows: FloatArray
+    """1 for a row that the equation has, 0 for one that is left out; shape (6,)."""
+    mass_kg: float
+    """Mass of its bodies."""
+    kept: BoolArray
+    """Windows that were fitted: the others disagree with them; shape (w,)."""
+
+    @classmethod
+    def of(cls, windows: PartWindows, after: FloatArray, kept: BoolArray) -> PartResidual:
+        """Take what is left in windows.
+
+        Args:
+            windows: Windows of a part.
+            after: What is left of their equations; shape (w, 6); in `UNITS`.
+            kept: Which of them were fitted; shape (w,).
+
+        Returns:
+            The same in N and N m.
+        """
+        count = len(windows.sensors)
+        carried = np.full((len(windows), count, LOADS), np.nan)
+        if windows.rows.all():
+            transmission = windows.offsets.reshape(-1, LOADS, count, LOADS).transpose(0, 2, 1, 3)
+            carried = np.linalg.solve(transmission, np.repeat(after[:, None, :, None], count, axis=1))[..., 0]
+        stretch = windows.stretch
+        return cls(
+            part=windows.part,
+            label=stretch.label,
+            recording=stretch.recording,
+            session=stretch.session,
+            root_link=stretch.tree.root_link,
+            sensors=windows.sensors,
+            time_s=windows.time_s,
+            before=residuals(windows, None) * UNITS,
+            after=after * UNITS,
+            at_sensors=carried * UNITS,
+            rows=windows.rows,
+            mass_kg=windows.mass_kg,
+            kept=kept,
+        )
+
+
+ROUNDS: Final = 3
+"""How often the equations are made linear: what the zero of a joint does depends on what goes through it."""
+LINEAR_S: Final = 600.0
+"""Time that the rounds before the last take, evenly out of more: it tells enough to make equations linear about."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UntouchedStretch:
+    """A stretch and the parts whose equations hold in it."""
+
+    stretch: Stretch
+    """Readings and motion."""
+    parts: tuple[SubModel, ...]
+    """Parts that nothing should touch and whose joints were logged."""
+    weighed: tuple[SubModel, ...] = ()
+    """Parts that nothing should touch, of whose joints only those between their sensors were logged."""
+    left_out: tuple[str, ...] = ()
+    """Parts that nothing touches either, but whose joints were not logged, in words."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class JointResult:
+    """A joint fit and what was left out of it."""
+
+    fit: JointFit
+    """The fit."""
+    residuals: tuple[PartResidual, ...]
+    """What is left of the equation of every part in every stretch, windows that disagree too."""
+    touches: tuple[Touch, ...]
+    """Spans that were left out because they disagree."""
+    left_out: tuple[str, ...]
+    """Parts that nothing touches, but whose joints were not logged, in words."""
+
+
+def fit_stretches(
+    stretches: Sequence[UntouchedStretch],
+    tolerance: ModelTolerance | None = None,
+    *,
+    spreads: Mapping[str, ChangeSpread] | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+) -> JointResult:
+    """Calibrate all sensors of a robot at once.
+
+    Args:
+        stretches: What is known, of any number of recordings of one robot.
+        tolerance: How far the robot model may be off; `ModelTolerance()` if None.
+        spreads: How the changes of a sensor scatter, by its name; `EVEN` for sensors that are not there.
+        progress: Called with what is being done.
+
+    Returns:
+        The fit.
+
+    Raises:
+        FitError: If there are no equations.
+    """
+    terms = _all_terms(stretches, ModelTolerance() if tolerance is None else tolerance)
+    progress(f"equations of {len(stretches)} intervals")
+    duration = sum(float(np.ptp(one.stretch.time_s)) for one in stretches if len(one.stretch))
+    every = max(round(duration / LINEAR_S), 1)
+    windows = _windows(stretches, terms, None, every)
+    fit = _fit(windows, _agreeing(windows, None), terms, spreads)
+    for number in range(2, ROUNDS + 1):
+        progress(f"the same about the fit, round {number} of {ROUNDS}")
+        windows = _windows(stretches, terms, fit, every if number < ROUNDS else 1)
+        fit = _fit(windows, _agreeing(windows, fit), terms, spreads)
+    kept = _agreeing(windows, fit)
+    return JointResult(
+        fit=fit,
+        residuals=tuple(
+            PartResidual.of(one, residuals(one, fit), marks) for one, marks in zip(windows, kept, strict=True)
+        ),
+        touches=all_touches(windows, kept),
+        left_out=tuple(dict.fromkeys(words for one in stretches for words in one.left_out)),
+    )
+
+
+def _windows(
+    stretches: Sequence[UntouchedStretch], terms: Sequence[ErrorTerm], about: JointFit | None, every: int
+) -> tuple[PartWindows, ...]:
+    return tuple(
+        windows
+        for one in stretches
+        for windows in part_windows(one.stretch, one.parts, terms, weighed=one.weighed, about=about, every=every)
+    )
+
+
+def _agreeing(windows: Sequence[PartWindows], fit: JointFit | None) -> list[BoolArray]:
+    return [untouched(one, fit) for one in windows]
+
+
+def _fit(
+    windows: Sequence[PartWindows],
+    kept: Sequence[BoolArray],
+    terms: Sequence[ErrorTerm],
+    spreads: Mapping[str, ChangeSpread] | None,
+) -> JointFit:
+    return fit_jointly(part_sums(one.kept(marks) for one, marks in zip(windows, kept, strict=True)), terms, spreads)
+
+
+def _all_terms(stretches: Sequence[UntouchedStretch], tolerance: ModelTolerance) -> tuple[ErrorTerm, ...]:
+    terms = (
+        term for one in stretches for term in error_terms(one.stretch.tree, one.parts, tolerance, weighed=one.weighed)
+    )
+    delays = delay_terms([one.stretch.recording for one in stretches], tolerance)
+    return (*{term.name: term for term in terms}.values(), *delays)

@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reduce recordings of a sensor to the moments that a calibration needs, with the error of estimated loads."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from urllib.parse import quote
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.calibration.contact_windows import agreeing_samples
+from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.posterior import LoadError
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
+from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments, VariableDescription
+from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.campaign_intervals import CampaignInterval, CampaignRecording
+from forcetorque.experiment.raw_counts import full_scale_of
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.payload.diagnostics import reference_doubts
+from forcetorque.payload.identification.load_estimates import LoadSolution
+from forcetorque.payload.identification.parameters import OF_LOAD, Kind, places
+from forcetorque.payload.link_loads import link_loads
+from forcetorque.recording.recording import Use
+
+_ROUNDING = 1e-12
+"""Share of the largest variance below which a combination of loads is known exactly."""
+
+
+def load_error_of(solution: LoadSolution) -> LoadError | None:
+    """Tell by how much errors of estimated loads move the response of a sensor and its offsets.
+
+    Args:
+        solution: Loads that were estimated with a matrix that is known in part.
+
+    Returns:
+        The errors; None where no load was estimated, or the matrix was taken as exact.
+    """
+    listed = solution.guess.parameters
+    loads = [k for k, one in enumerate(listed) if one.kind in OF_LOAD]
+    loads = [k for k in loads if np.isfinite(solution.covariance[k, k])]
+    if not loads or not places(listed, Kind.MATRIX):
+        return None
+    own = solution.covariance[np.ix_(loads, loads)]
+    size = np.sqrt(np.diag(own))
+    size[size == 0.0] = 1.0
+    variance, directions = np.linalg.eigh(own / np.outer(size, size))
+    uncertain = variance > _ROUNDING * variance.max(initial=0.0)
+    # S^-1/2, in the directions in which loads are uncertain
+    root = directions[:, uncertain] / np.sqrt(variance[uncertain]) / size[:, None]
+    sessions = [name.name for name in solution.sessions]
+    factor = np.zeros((6, 6 + len(sessions), root.shape[1]))
+    for row in range(6):
+        factor[row, :6] = solution.covariance[np.ix_(places(listed, Kind.MATRIX, row), loads)] @ root
+        for number in range(len(sessions)):
+            biases = places(listed, Kind.BIAS, number)
+            if biases and np.isfinite(solution.covariance[biases[row], biases[row]]):
+                factor[row, 6 + number] = solution.covariance[biases[row], loads] @ root
+    return LoadError(sessions=tuple(sessions), factor=factor)
+
+
+def recording_moments(runs: Runs) -> list[RecordingMoments]:
+    """Reduce the calibration intervals of a sensor.
+
+    Args:
+        runs: The sensor, in one experiment or several.
+
+    Returns:
+        Moments and means of every recording.
+
+    Raises:
+        ExperimentError: If there is no calibration interval, or the full scale of the sensor is not known.
+    """
+    from forcetorque.calibration.plausibility.checks import examine
+
+    campaign = Campaign.of(runs)
+    sensor = campaign.sensor
+    without_variables = campaign.runs[0].experiment.fit_options.with_variables is False
+    variables = [] if without_variables else [v.linear for v in sensor.variables]
+    intervals = campaign.samples(Use.CALIBRATION, variables=[variable.name for variable in variables])
+    doubts = examine([interval.data_set for interval in intervals], sensor.prior, sensor.full_scale)
+    results = []
+    for run, recording in zip(campaign.runs, campaign.recordings, strict=True):
+        own = [interval for interval in intervals if interval.recording == recording]
+        if not own:
+            continue
+        stated_by = CampaignRecording.of(run)
+        kept, left_out = agreeing_moments(stated_by, own, variables=variables)
+        said = [*(doubt.message for doubt in doubts), *reference_doubts(run), *left_out]
+        moments = moments_of(stated_by, kept, variables=variables, doubts=said)
+        results.append(moments.model_copy(update={"load_error": _load_error(run)}))
+    return results
+
+
+def agreeing_moments(
+    recording: CampaignRecording, intervals: Sequence[CampaignInterval], *, variables: Sequence[LinearVariable]
+) -> tuple[list[IntervalMoments], list[str]]:
+    """Reduce intervals of a recording, without the samples that disagree with all others.
+
+    Args:
+        recording: The recording.
+        intervals: Samples of its calibration intervals.
+        variables: Linear variables that are fitted.
+
+    Returns:
+        What is kept of the intervals, and a sentence per span that was left out.
+    """
+    options, data_sets = recording.options, [interval.data_set for interval in intervals]
+    agree, spans = agreeing_samples(
+        data_sets, recording.sensor.prior, _assumptions(recording), variables=variables, drift=options.drift
+    )
+    kept = [interval.moments(marks) for interval, marks in zip(intervals, agree, strict=True) if marks.any()]
+    start_s = recording.start_ns * 1e-9
+    return kept, [
+        f"interval {span.label!r}: {span.start_s - start_s:.2f} to {span.end_s - start_s:.2f} s is left out: the "
+        f"readings disagree there with all others, by up to {span.force_N:.2g} N and {span.moment_Nm:.2g} N m, as if "
+        "something touched the distal links; `inspect` shows contacts"
+        for span in spans
+    ]
+
+
+def _assumptions(recording: CampaignRecording) -> Assumptions:
+    options = recording.options
+    return Assumptions(
+        full_scale=channel_full_scale(recording), accuracy=options.accuracy, repeatability=options.repeatability
+    )
+
+
+def _load_error(run: SensorRun) -> LoadError | None:
+    """What is not known of loads on links that the sensor itself weighed, with the matrix of the same fit."""
+    loads = link_loads(run.experiment)
+    if loads is None or loads.are_stated or loads.weigher.name != run.sensor.name:
+        return None
+    return load_error_of(loads.solution(run.experiment))
+
+
+def moments_of(
+    recording: CampaignRecording,
+    intervals: Sequence[IntervalMoments],
+    *,
+    variables: Sequence[LinearVariable],
+    doubts: Sequence[str],
+) -> RecordingMoments:
+    """Put what is kept of intervals beside what the recording says about the sensor.
+
+    Args:
+        recording: The recording.
+        intervals: What is kept of its intervals.
+        variables: Linear variables that are fitted.
+        doubts: What makes any fit of them doubtful.
+
+    Returns:
+        The moments of the recording.
+
+    Raises:
+        ExperimentError: If the full scale of the sensor is not known.
+    """
+    sensor, options = recording.sensor, recording.options
+    return RecordingMoments(
+        sensor=recording.identity,
+        experiment=recording.experiment,
+        prior=sensor.prior,
+        prior_source=sensor.prior_source,
+        full_scale=channel_full_scale(recording),
+        accuracy=options.accuracy,
+        repeatability=options.repeatability,
+        drift=options.drift,
+        nonlinear=options.nonlinear,
+        variables=tuple(map(VariableDescription.of, variables)),
+        intervals=tuple(intervals),
+        doubts=tuple(doubts),
+        added=recording.added,
+        inputs_sha256=dict(recording.inputs_sha256),
+    )
+
+
+def channel_full_scale(recording: CampaignRecording) -> FloatArray:
+    """Give the full scale of every channel of a sensor's raw reading.
+
+    Args:
+        recording: What the recording says about the sensor.
+
+    Returns:
+        Full scales; shape (c,); counts, or N and N m where the logged wrench takes the place of counts.
+    """
+    return full_scale_of(recording.sensor, recording.options.accuracy, channels=recording.channels)
+
+
+def store_moments(runs: Runs, folder: Path | str, *, force: bool = False) -> list[Path]:
+    """Keep what a calibration needs of every recording of a sensor.
+
+    Args:
+        runs: The sensor, in one experiment or several.
+        folder: Where the files go; made where it is missing.
+        force: As of `RecordingMoments.save`.
+
+    Returns:
+        The files, one per recording.
+    """
+    place = Path(folder)
+    place.mkdir(parents=True, exist_ok=True)
+    files = []
+    for recording in recording_moments(runs):
+        name = f"{recording.sensor.name}_{recording.sensor.serial}_{recording.intervals[0].recording}"
+        files.append(place / f"{quote(name, safe=' ')}.json")
+        recording.save(files[-1], force=force)
+    return files

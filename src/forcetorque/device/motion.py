@@ -1,0 +1,341 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Motion of a device: sequences of postures, the twelve steps of thesis 6.3.3, and their trajectory in time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, IntArray, read_only
+from forcetorque.base.errors import RobotError, ShapeError
+from forcetorque.device.description import Device, HungLoad
+from forcetorque.device.model import hanging
+from forcetorque.robot.motion import JointMotion
+from forcetorque.simulation.motions.trajectories import Waypoints
+
+_AT_LOCK_RAD = 1e-6
+"""How far from a lock the hinge may be when it is said to be locked; rad."""
+_LOOKS = 41
+"""Places on a way at which it is asked where an unlocked hinge hangs."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Sequence:
+    """Postures in turn, and on which of the ways between them the hinge is unlocked."""
+
+    name: str
+    """What it is called."""
+    joints: tuple[str, ...]
+    """Joints of the columns, those of the device."""
+    postures: FloatArray
+    """Postures; shape (k, j); rad."""
+    steps: tuple[int, ...]
+    """Number of the step that ends in each posture; k of them."""
+    unlocked: tuple[bool, ...]
+    """Whether the hinge hangs freely on the way to each posture but the first; k - 1 of them."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "joints", tuple(self.joints))
+        postures = read_only(self.postures, name="postures", shape=(None, len(self.joints)))
+        object.__setattr__(self, "postures", postures)
+        for name, count in (("steps", len(postures)), ("unlocked", len(postures) - 1)):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+            if len(getattr(self, name)) != count:
+                raise ShapeError(f"{name}: expected {count} of them, got {len(getattr(self, name))}")
+
+    @classmethod
+    def of(cls, device: Device, name: str, postures_deg: Any, *, steps: Any = None, unlocked: Any = None) -> Sequence:
+        """Make a sequence of postures in degrees.
+
+        Args:
+            device: The device.
+            name: What it is called.
+            postures_deg: Postures of `joint_names` of the device; shape (k, j); deg.
+            steps: Number of the step that ends in each; counted from 1 if None.
+            unlocked: Whether the hinge hangs freely on each way; never if None.
+
+        Returns:
+            The sequence.
+        """
+        postures = np.deg2rad(np.asarray(postures_deg, dtype=np.float64))
+        return cls(
+            name=name,
+            joints=device.joint_names,
+            postures=postures,
+            steps=tuple(range(1, len(postures) + 1)) if steps is None else steps,
+            unlocked=(False,) * (len(postures) - 1) if unlocked is None else unlocked,
+        )
+
+    def still_poses(self, device: Device, load: HungLoad, *, spacing_deg: float = 30.0) -> JointMotion:
+        """Rest at every posture and on the ways between them.
+
+        Args:
+            device: The device.
+            load: What hangs on its hinge, which says where it hangs.
+            spacing_deg: How far any joint goes at most from one pose to the next; deg.
+
+        Returns:
+            Poses at rest, each but once in a row.
+
+        Raises:
+            ShapeError: If the spacing is not positive.
+        """
+        if not spacing_deg > 0.0:
+            raise ShapeError(f"spacing_deg: expected a positive angle, got {spacing_deg:g}")
+        poses = [self.postures[:1]]
+        for start, end, free in zip(self.postures, self.postures[1:], self.unlocked, strict=False):
+            count = int(np.ceil(np.abs(end - start).max() / np.deg2rad(spacing_deg) - _AT_LOCK_RAD))
+            share = np.arange(1, count + 1)[:, None] / max(count, 1)
+            way = JointMotion.at_rest(self.joints, start + share * (end - start))
+            poses.append(with_free_hinge(device, load, way).position if free and count else way.position)
+        return JointMotion.at_rest(self.joints, np.concatenate(poses))
+
+    def require_possible(self, device: Device, load: HungLoad) -> None:
+        """Refuse what the device cannot do.
+
+        Args:
+            device: The device.
+            load: What hangs on its hinge.
+
+        Raises:
+            RobotError: If a posture is outside of a range, the hinge rests or is moved where it has no lock, it is
+                unlocked or to be locked where the load does not hang, or the load hangs beyond a stop in between.
+        """
+        if self.joints != device.joint_names:
+            raise RobotError(
+                f"sequence {self.name!r}: expected postures of {', '.join(device.joint_names)}, got those of "
+                f"{', '.join(self.joints)}"
+            )
+        ranges = joint_ranges(device)
+        for number, posture in enumerate(self.postures):
+            for joint, angle in zip(self.joints, np.rad2deg(posture).tolist(), strict=True):
+                if not ranges[joint][0] - 1e-9 <= angle <= ranges[joint][1] + 1e-9:
+                    raise RobotError(
+                        f"sequence {self.name!r}, step {self.steps[number]}: joint {joint!r}: expected a position "
+                        f"within {list(ranges[joint])} deg, got {angle:g}; change the motion or the range in the file"
+                    )
+        for way, free in enumerate(self.unlocked):
+            self._require_hinge(device, load, way, free=free)
+
+    def _require_hinge(self, device: Device, load: HungLoad, way: int, *, free: bool) -> None:
+        start, end = self.postures[way : way + 2]
+        step = f"sequence {self.name!r}, step {self.steps[way + 1]}"
+        if np.abs(np.deg2rad(device.hinge.locks_deg) - end[-1]).min() > _AT_LOCK_RAD:
+            raise RobotError(
+                f"{step}: expected the hinge at one of hinge.locks_deg = {list(device.hinge.locks_deg)}, got "
+                f"{np.rad2deg(end[-1]):g} deg"
+            )
+        if free:
+            share = np.linspace(0.0, 1.0, _LOOKS)[:, None]
+            hangs = with_free_hinge(device, load, JointMotion.at_rest(self.joints, start + share * (end - start)))
+            first, last = hangs.position[[0, -1], -1]
+            if abs(first - start[-1]) > _AT_LOCK_RAD:
+                raise RobotError(
+                    f"{step}: expected the load to hang at the lock at {np.rad2deg(start[-1]):g} deg when it is "
+                    f"unlocked, it hangs at {np.rad2deg(first):.1f} deg and would fall; unlock it elsewhere"
+                )
+            if abs(last - end[-1]) > _AT_LOCK_RAD:
+                raise RobotError(
+                    f"{step}: expected the load to hang at the lock at {np.rad2deg(end[-1]):g} deg when the motion "
+                    f"ends, it hangs at {np.rad2deg(last):.1f} deg and does not reach it; lead it there by the motors"
+                )
+            return
+        if start[-1] != end[-1]:
+            raise RobotError(
+                f"{step}: expected a locked hinge to stay, got a way from {np.rad2deg(start[-1]):g} to "
+                f"{np.rad2deg(end[-1]):g} deg; no motor moves it: unlock it, and let gravity do it"
+            )
+
+
+def joint_ranges(device: Device) -> dict[str, tuple[float, float]]:
+    """Give how far joints go.
+
+    Args:
+        device: The device.
+
+    Returns:
+        Lowest and highest position by joint; deg.
+    """
+    ranges = {"pitch": device.pitch.range_deg, "yaw": device.yaw.range_deg, "hinge": device.hinge.range_deg}
+    if device.turn is not None:
+        ranges["turn"] = (min(device.turn.positions_deg), max(device.turn.positions_deg))
+    return {joint: (float(low), float(high)) for joint, (low, high) in ranges.items()}
+
+
+def with_free_hinge(device: Device, load: HungLoad, motion: JointMotion) -> JointMotion:
+    """Let the hinge hang freely in a motion.
+
+    Args:
+        device: The device.
+        load: What hangs on it.
+        motion: Motion of all joints of the device, the hinge last.
+
+    Returns:
+        The same motion, but for the hinge.
+    """
+    free = hanging(device, load, motion)
+    return JointMotion(
+        names=motion.names,
+        position=np.column_stack([motion.position[:, :-1], free.position]),
+        velocity=np.column_stack([motion.velocity[:, :-1], free.velocity]),
+        acceleration=np.column_stack([motion.acceleration[:, :-1], free.acceleration]),
+    )
+
+
+class YawReturn(StrEnum):
+    """How yaw gets back to 0 before steps 7 and 9, of which the thesis says but where they end."""
+
+    TOGETHER = "together"
+    """Together with pitch, as the words "move to [0,0,0]" have it."""
+    BEFORE = "before"
+    """Before pitch moves."""
+    AFTER = "after"
+    """After pitch moved."""
+    BACKWARDS = "backwards"
+    """It need not: step 8 turns backwards."""
+    NEVER = "never"
+    """It need not: yaw turns on without end."""
+
+
+def twelve_steps(device: Device, *, yaw_return: YawReturn = YawReturn.TOGETHER) -> Sequence:
+    """Make the twelve steps.
+
+    Steps 2 to 5 are done twice, so that yaw goes once around. The hinge is at 0 up to step 10, at the end of 11 at 90.
+
+    Args:
+        device: The device; a turn of it stays at 0.
+        yaw_return: How yaw gets back to 0.
+
+    Returns:
+        The sequence.
+    """
+    ways = [(1, -90.0, 0.0, 0.0)]
+    for half in (0.0, 180.0):
+        ways += [(2, 90.0, half, 0.0), (3, 90.0, half + 90.0, 0.0)]
+        ways += [(4, -90.0, half + 90.0, 0.0), (5, -90.0, half + 180.0, 0.0)]
+    around = 360.0
+    if yaw_return is YawReturn.NEVER:
+        ways += [(7, 0.0, around, 0.0), (8, 0.0, 2 * around, 0.0), (9, -90.0, 2 * around, 0.0)]
+        ways += [(11, 0.0, 2 * around, 90.0), (12, 0.0, 3 * around, 90.0)]
+    elif yaw_return is YawReturn.BACKWARDS:
+        ways += [(7, 0.0, around, 0.0), (8, 0.0, 0.0, 0.0), (9, -90.0, 0.0, 0.0)]
+        ways += [(11, 0.0, 0.0, 90.0), (12, 0.0, around, 90.0)]
+    else:
+        ways += [*_return(7, (-90.0, 0.0), yaw_return), (8, 0.0, around, 0.0), *_return(9, (0.0, -90.0), yaw_return)]
+        ways += [(11, 0.0, 0.0, 90.0), (12, 0.0, around, 90.0)]
+    steps, pitch, yaw, hinge = (np.array(column) for column in zip(*ways, strict=True))
+    others = [] if device.turn is None else [np.zeros(len(ways))]
+    return Sequence.of(
+        device,
+        "12 steps",
+        np.column_stack([pitch, yaw, *others, hinge]),
+        steps=tuple(int(step) for step in steps),
+        unlocked=tuple(int(step) == 11 for step in steps[1:]),
+    )
+
+
+def _return(step: int, pitch: tuple[float, float], yaw_return: YawReturn) -> list[tuple[int, float, float, float]]:
+    """The ways of a step in which pitch goes from one position to another, and yaw from 360 to 0 deg."""
+    end = (step, pitch[1], 0.0, 0.0)
+    if yaw_return is YawReturn.BEFORE:
+        return [(step, pitch[0], 0.0, 0.0), end]
+    if yaw_return is YawReturn.AFTER:
+        return [(step, pitch[1], 360.0, 0.0), end]
+    return [end]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class DeviceTrajectory:
+    """A sequence in time; it is at rest before and after, and at every posture."""
+
+    device: Device
+    """The device."""
+    load: HungLoad
+    """What hangs on it, which says where an unlocked hinge hangs."""
+    sequence: Sequence
+    """Postures in turn."""
+    hold_s: float = 1.0
+    """Rest at every posture; s."""
+    ways: Waypoints = field(init=False)
+    """The moves, with a straight way in place of a hinge that hangs."""
+
+    def __post_init__(self) -> None:
+        self.sequence.require_possible(self.device, self.load)
+        speeds = joint_speeds(self.device)
+        object.__setattr__(
+            self,
+            "ways",
+            Waypoints.at_speed(
+                self.sequence.joints,
+                self.sequence.postures,
+                [speeds[joint] for joint in self.sequence.joints],
+                hold_s=self.hold_s,
+            ),
+        )
+
+    @property
+    def duration_s(self) -> float:
+        """How long it takes; s."""
+        return self.ways.duration_s
+
+    def way_at(self, seconds: FloatArray) -> IntArray:
+        """Tell which way is being gone, or was gone last.
+
+        Args:
+            seconds: Instants; shape (n,); s.
+
+        Returns:
+            Numbers of ways, from 0; -1 before the first one; shape (n,).
+        """
+        return np.searchsorted(self.ways.departures_s, seconds, side="right").astype(np.int64) - 1
+
+    def __call__(self, seconds: FloatArray) -> JointMotion:
+        """Give the motion of the joints.
+
+        Args:
+            seconds: Instants; shape (n,); s.
+
+        Returns:
+            The motion with its exact derivatives; n samples.
+        """
+        motion = self.ways(seconds)
+        position, velocity, acceleration = (
+            np.array(values) for values in (motion.position, motion.velocity, motion.acceleration)
+        )
+        way = self.way_at(seconds)
+        for number in np.flatnonzero(self.sequence.unlocked):
+            rows = np.flatnonzero(way == number)
+            if len(rows):
+                free = with_free_hinge(self.device, self.load, motion.samples(rows))
+                position[rows], velocity[rows], acceleration[rows] = free.position, free.velocity, free.acceleration
+        return JointMotion(names=motion.names, position=position, velocity=velocity, acceleration=acceleration)
+
+    def sampled(self, rate_hz: float) -> tuple[FloatArray, JointMotion]:
+        """Sample it evenly from start to end.
+
+        Args:
+            rate_hz: Rate; Hz.
+
+        Returns:
+            Instants, shape (n,), in s, and the motion at them.
+        """
+        time: FloatArray = np.linspace(0.0, self.duration_s, int(np.ceil(self.duration_s * rate_hz)) + 1)
+        return time, self(time)
+
+
+def joint_speeds(device: Device) -> dict[str, float]:
+    """Give how fast joints go; gravity moves the hinge, which never limits a motion.
+
+    Args:
+        device: The device.
+
+    Returns:
+        Largest speeds by joint; rad/s.
+    """
+    degrees = {"pitch": device.pitch.speed_deg_s, "yaw": device.yaw.speed_deg_s, "hinge": np.inf}
+    if device.turn is not None:
+        degrees["turn"] = device.turn.speed_deg_s
+    return {joint: float(np.deg2rad(speed)) for joint, speed in degrees.items()}

@@ -1,0 +1,467 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What validation data show at a load case: measured errors, motion, and the comparison with the prior matrix."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Annotated, Any, Literal
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.noise.autocorrelation import autocorrelation
+from forcetorque.base.noise.means import mean_error, means_over, one_after_another
+from forcetorque.base.noise.paired_comparison import ErrorRatio, Judgement, PairedErrors, compare_errors
+from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibrations_under_test import JudgedWrenches
+from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.validation_offset import Offset
+from forcetorque.recording.recording import Use
+from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.table import Row, Shown, ShownWrench
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeasuredError:
+    """Error of one quantity, force or moment, on judged data."""
+
+    constant: float
+    """Norm of the mean error in the session in which it is largest; N or N m."""
+    constant_at_least: float
+    """What is left of a mean error, at most, when the half-width of its 95 % interval is taken off."""
+    rest: float
+    """Root mean square of what is left without the means; N or N m."""
+    rest_at_least: float
+    """Lower end of its 95 % interval; 0 where the data are too few to tell."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Evidence:
+    """What one candidate measured on judged data, against what mechanics demands there."""
+
+    force: MeasuredError
+    """Of the force; N."""
+    moment: MeasuredError
+    """Of the moment; N m."""
+    reference: FloatArray
+    """The reference, in means of a second; shape (n, 6); N, N m."""
+    moved: FloatArray
+    """The reference about its mean in each session; shape (n, 6); N, N m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class JudgedStretch:
+    """What one candidate measured in a recording, or in as much of it as belongs to one session."""
+
+    session: str
+    """Name of the session."""
+    time_s: FloatArray
+    """Instants, not falling; shape (n,); s."""
+    measured: FloatArray
+    """What was measured; shape (n, 6); N, N m."""
+    reference: FloatArray
+    """What mechanics demands; shape (n, 6); N, N m."""
+
+
+def evidence(stretches: Sequence[JudgedStretch]) -> Evidence:
+    """Sum up the errors of one candidate in any number of recordings.
+
+    Args:
+        stretches: What it measured in each, at least one.
+
+    Returns:
+        The errors. The constant part is that of the session in which it is largest: of two that cancel each other
+        either would hurt. What is left is about the mean of each session.
+    """
+    instants, errors, references = [], [], []
+    in_session = sorted(stretches, key=lambda stretch: stretch.session)
+    for _, session in groupby(in_session, key=lambda stretch: stretch.session):
+        means = [means_over(one.time_s, np.hstack([one.measured - one.reference, one.reference])) for one in session]
+        instants.append(one_after_another([time for time, _, _ in means]))
+        columns = np.concatenate([columns for _, columns, _ in means])
+        errors.append(columns[:, :6])
+        references.append(columns[:, 6:])
+    line = one_after_another(instants)
+    left, moved = (np.concatenate([own - own.mean(axis=0) for own in parts]) for parts in (errors, references))
+    squares = np.column_stack([(left[:, part] ** 2).sum(axis=1) for part in FORCE_AND_MOMENT])
+    widths = mean_error(squares, line).half_width
+    constants = [
+        (own.mean(axis=0), mean_error(own, time).half_width) for time, own in zip(instants, errors, strict=True)
+    ]
+    force, moment = (
+        _measured(
+            [(float(np.linalg.norm(mean[part])), float(np.linalg.norm(width[part]))) for mean, width in constants],
+            squares[:, k],
+            float(widths[k]),
+        )
+        for k, part in enumerate(FORCE_AND_MOMENT)
+    )
+    return Evidence(
+        force=force,
+        moment=moment,
+        reference=np.concatenate(references),
+        moved=moved,
+    )
+
+
+def _measured(constants: Sequence[tuple[float, float]], square: FloatArray, square_half_width: float) -> MeasuredError:
+    rest = float(square.mean())
+    least = rest - square_half_width
+    return MeasuredError(
+        constant=max(size for size, _ in constants),
+        constant_at_least=max(max(size - half_width, 0.0) for size, half_width in constants),
+        rest=float(np.sqrt(rest)),
+        rest_at_least=float(np.sqrt(least)) if least > 0.0 else 0.0,
+    )
+
+
+def judged_evidence(campaign: Campaign, calibrations: Mapping[str, Calibration]) -> dict[str, Evidence]:
+    """Sum up what every calibration measures on the validation intervals of all recordings.
+
+    Args:
+        campaign: The sensor in any number of recordings.
+        calibrations: Its calibrations by name, which have not seen these intervals.
+
+    Returns:
+        Evidence by name of the calibration; none where no recording has such an interval.
+    """
+    stretches: dict[str, list[JudgedStretch]] = {name: [] for name in calibrations}
+    for run in campaign.runs:
+        if not run.has(Use.VALIDATION):
+            continue
+        judged = run.judged(calibrations)
+        # the calibrations come last: a prior may have the name of one
+        measured = dict(judged.measured[-len(calibrations) :])
+        for session, samples in _sessions(campaign, run, judged).items():
+            for name in calibrations:
+                stretches[name].append(
+                    JudgedStretch(
+                        session=session,
+                        time_s=judged.time_s[samples],
+                        measured=measured[name][samples],
+                        reference=judged.reference[samples],
+                    )
+                )
+    return {name: evidence(parts) for name, parts in stretches.items() if parts}
+
+
+def _sessions(campaign: Campaign, run: SensorRun, judged: JudgedWrenches) -> dict[str, IntArray]:
+    """Samples by session, in the order of time."""
+    indices: dict[str, list[IntArray]] = {}
+    for label, samples in judged.intervals:
+        own = np.arange(samples.start, samples.stop)
+        indices.setdefault(campaign.session(run, label), []).append(own)
+    return {session: np.concatenate(parts) for session, parts in indices.items()}
+
+
+HARDLY = 0.05
+"""Share of the load below which it hardly moved."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JudgedExcitation:
+    """How much the judged loads moved, and how large loads are."""
+
+    force: float
+    """Standard deviation of the reference force, all three components together; N."""
+    moment: float
+    """The same of the moment; N m."""
+    load_force: float
+    """The larger of the root mean square judged force and the standard deviation of the fitted ones; N."""
+    load_moment: float
+    """The same of the moment; N m."""
+
+    @classmethod
+    def of(
+        cls, reference: FloatArray, calibrations: Iterable[Calibration], *, moved: FloatArray | None = None
+    ) -> JudgedExcitation:
+        """Sum up judged loads.
+
+        Args:
+            reference: Expected wrenches of the judged samples; shape (n, 6); N, N m.
+            calibrations: Calibrations that are judged, for the loads that they were fitted to.
+            moved: The same about their means in each of several recordings; shape (n, 6); about one mean if left out.
+
+        Returns:
+            Their size and movement.
+        """
+        moving = np.sqrt((reference if moved is None else moved).var(axis=0))
+        load = np.sqrt((reference**2).mean(axis=0))
+        fitted = [calibration.validity.reference_deviation for calibration in calibrations]
+        force, moment = (
+            (float(np.linalg.norm(moving[part])), max(float(np.linalg.norm(one[part])) for one in (load, *fitted)))
+            for part in FORCE_AND_MOMENT
+        )
+        return cls(force=force[0], moment=moment[0], load_force=force[1], load_moment=moment[1])
+
+    @property
+    def words(self) -> str | None:
+        """That the loads hardly moved, in words; None where they moved."""
+        return still_words(self.force, self.load_force, self.moment, self.load_moment)
+
+
+def still_words(force: float, load_force: float, moment: float, load_moment: float) -> str | None:
+    """Say that loads hardly moved while errors were measured.
+
+    Args:
+        force: Standard deviation of the force; N.
+        load_force: Size of the force; N.
+        moment: Standard deviation of the moment; N m.
+        load_moment: Size of the moment; N m.
+
+    Returns:
+        Words; None where both moved.
+    """
+    kinds = {"forces": (force, load_force, "N"), "moments": (moment, load_moment, "N m")}
+    still = {kind: sizes for kind, sizes in kinds.items() if hardly_moved(sizes[0], sizes[1])}
+    if not still:
+        return None
+    of = ", ".join(f"{moved:.2g} {unit} of {load:.2g} {unit}" for moved, load, unit in still.values())
+    what = "loads" if len(still) == len(kinds) else next(iter(still))
+    wrong = "a wrong matrix" if what == "loads" else f"a matrix that is wrong for {what}"
+    return f"the {what} hardly moved in the judged samples ({of}): {wrong} would show nothing"
+
+
+def hardly_moved(moved: float, load: float) -> bool:
+    """Tell whether a load moved so little that a wrong matrix would show nothing.
+
+    Args:
+        moved: Standard deviation of the load.
+        load: Size of loads, in the same unit.
+
+    Returns:
+        Whether it did.
+    """
+    return moved <= HARDLY * load
+
+
+def fewest_independent(error: FloatArray, time_s: FloatArray) -> float | None:
+    """Count the independent samples that errors are worth, of the component that is worth the fewest.
+
+    Args:
+        error: Errors in the order of time; shape (n, 6); N, N m; NaN in gaps.
+        time_s: Instants of the samples, not falling; shape (n,); s.
+
+    Returns:
+        The number; None where no component changes.
+    """
+    counts = [autocorrelation(component, time_s).effective_count for component in error.T]
+    return min((count for count in counts if np.isfinite(count)), default=None)
+
+
+Quantity = Literal["force", "moment"]
+
+OFFSET_WORDS = {
+    Offset.FITTED: "its own offset",
+    Offset.FIRST_SECOND: "the offset of the first second",
+    Offset.JUDGED_MEAN: "the mean of the judged samples taken off",
+    Offset.NONE: "no offset removed",
+}
+"""The offsets in sentences."""
+
+_WIDEST = 10.0
+"""Upper over lower end of an interval beyond which it is said in words."""
+
+
+class ErrorComparison(Row):
+    """Errors of a candidate over those of another on the same samples, as norms."""
+
+    candidate: Annotated[str, Shown("candidate", file=True)]
+    """The calibration file, or the prior."""
+    offset: Annotated[Offset, Shown("offset")]
+    """Which offset they are judged with."""
+    quantity: Annotated[Quantity, Shown("error of")]
+    """What the errors are of."""
+    unit: Annotated[Literal["N", "N m"], Shown("unit")]
+    """Unit of the errors."""
+    samples: int
+    """Number of judged samples."""
+    mean: Annotated[float, Shown("mean", digits=3)]
+    """Mean norm of the error with the candidate."""
+    ratio: Annotated[float, Shown("ratio", digits=2)]
+    """Root mean square error of the candidate over that of the other, geometric mean over the stretches."""
+    ratio_low: Annotated[float | None, Shown("at least", digits=2)]
+    """Lower end of its 95 % interval; none where too few stretches do not give one."""
+    ratio_high: Annotated[float | None, Shown("at most", digits=2)]
+    """Upper end."""
+    stretches: Annotated[int, Shown("stretches")]
+    """Independent stretches of time that the interval comes from."""
+    judgement: Annotated[Judgement, Shown("judgement")]
+    """What the interval says of the candidate."""
+
+    def against(self, other_mean: float, other: str) -> str:
+        """Say what the test says.
+
+        Args:
+            other_mean: Mean norm of the error with the other; N or N m.
+            other: The other, in words.
+
+        Returns:
+            Both means, the judgement, and its interval where it says something.
+        """
+        digits = 2 if self.quantity == "force" else 3
+        means = f"{self.mean:.{digits}f} {self.unit} against {other_mean:.{digits}f} {self.unit} with {other}"
+        return f"{means} ({self.judgement}: {self._interval()})"
+
+    def _interval(self) -> str:
+        stretches = f"{self.stretches} stretch{'' if self.stretches == 1 else 'es'}"
+        if self.ratio_low == self.ratio_high == 1.0:
+            return "the same in every sample"
+        if self.ratio_low is None or self.ratio_high is None:
+            return f"the errors repeat themselves, and are worth {stretches} only"
+        if self.judgement == "not told apart" and self.ratio_high > _WIDEST * self.ratio_low:
+            return f"{stretches} are too few, or too unlike"
+        return f"{self.ratio:.2f} of it, {self.ratio_low:.2f} to {self.ratio_high:.2f} over {stretches}"
+
+
+def ratio_fields(ratio: ErrorRatio) -> dict[str, Any]:
+    """Give a ratio as fields of a row.
+
+    Args:
+        ratio: The ratio.
+
+    Returns:
+        Fields of `ErrorComparison`.
+    """
+    known = finite_or_none(ratio.high) is not None
+    return {
+        "ratio": ratio.ratio,
+        "ratio_low": ratio.low if known else None,
+        "ratio_high": ratio.high if known else None,
+        "stretches": ratio.stretches,
+        "judgement": ratio.judgement,
+    }
+
+
+class Independence(Row):
+    """How many independent samples the errors of a candidate are worth; neighbours repeat each other."""
+
+    candidate: Annotated[str, Shown("candidate", file=True)]
+    """The calibration file, or the prior."""
+    samples: Annotated[int, Shown("samples")]
+    """Number of judged samples."""
+    independent: Annotated[tuple[float | None, ...], ShownWrench(digits=0, counts=True)]
+    """Effective number of independent samples per component; none where the error does not change."""
+
+
+class PriorComparison(ErrorComparison):
+    """A calibration against its prior."""
+
+    sensor: str
+    """Sensor."""
+    prior: Annotated[str, Shown("prior", file=True)]
+    """Its prior, as the evaluation names it."""
+    prior_mean: Annotated[float, Shown("of the prior", digits=3)]
+    """Mean norm of the error with its prior."""
+    constant: Annotated[float, Shown("constant", digits=3)]
+    """Norm of the mean error vector: the part that another offset would take away."""
+
+
+def comparison_sentence(name: str, rows: Sequence[PriorComparison]) -> str:
+    """Say how a calibration does against its prior, the same wherever it is said.
+
+    Args:
+        name: The calibration.
+        rows: Its comparisons with one offset, force and moment.
+
+    Returns:
+        A sentence.
+    """
+    words = "; ".join(f"{row.quantity} error {row.against(row.prior_mean, 'the prior')}" for row in rows)
+    constant = f"; {rows[0].constant:.2f} N is constant" if rows[0].offset is Offset.FITTED else ""
+    offset, samples = OFFSET_WORDS[rows[0].offset], rows[0].samples
+    return f"{name} with {offset}, {samples} samples that were not fitted: {words}{constant}"
+
+
+def independence(judged: JudgedWrenches) -> tuple[Independence, ...]:
+    """Count how many independent samples the errors of every candidate are worth.
+
+    Args:
+        judged: Wrenches on data that was not fitted.
+
+    Returns:
+        A row per candidate.
+    """
+    return tuple(
+        Independence(
+            candidate=name,
+            samples=len(judged.time_s),
+            independent=tuple(
+                finite_or_none(autocorrelation(error, judged.time_s).effective_count)
+                for error in (wrench - judged.reference).T
+            ),
+        )
+        for name, wrench in judged.measured
+    )
+
+
+def compare_with_prior(runs: Runs, calibrations: Mapping[str, Calibration]) -> tuple[PriorComparison, ...]:
+    """Compare every calibration with its own prior on the validation intervals.
+
+    Args:
+        runs: The sensor in one recording, or in several, which are pooled.
+        calibrations: Its calibrations by name.
+
+    Returns:
+        Two rows, force and moment, per calibration that has a prior and offset.
+    """
+    campaign = Campaign.of(runs)
+    recordings = [run.judged(calibrations) for run in campaign.runs_with(Use.VALIDATION)]
+    return prior_comparisons(campaign.sensor.name, recordings)
+
+
+def prior_comparisons(sensor: str, recordings: Sequence[JudgedWrenches]) -> tuple[PriorComparison, ...]:
+    """Compare every calibration with its own prior by what they measure.
+
+    Args:
+        sensor: Name of the sensor.
+        recordings: Wrenches on data that was not fitted, by the same candidates in every recording.
+
+    Returns:
+        Two rows, force and moment, per calibration that has a prior and offset, pooled over the recordings.
+    """
+    # a calibration may be called `prior` too
+    measured = [
+        {
+            (candidate.name, candidate.prior is None, offset): wrench
+            for candidate, offset, wrench in judged.with_either_offset()
+        }
+        for judged in recordings
+    ]
+    return tuple(
+        row
+        for name, prior in recordings[0].priors.items()
+        for offset in (Offset.FITTED, Offset.JUDGED_MEAN)
+        for row in _compared(
+            {"sensor": sensor, "candidate": name, "prior": prior, "offset": offset},
+            [
+                PairedErrors.of(wrenches[name, False, offset], wrenches[prior, True, offset], judged.reference)
+                for wrenches, judged in zip(measured, recordings, strict=True)
+            ],
+        )
+    )
+
+
+def _compared(names: Mapping[str, Any], pairs: Sequence[PairedErrors]) -> Iterator[PriorComparison]:
+    comparison = compare_errors(pairs)
+    new, old = (np.concatenate(errors) for errors in zip(*((pair.first, pair.second) for pair in pairs), strict=True))
+    quantities: tuple[tuple[Quantity, Literal["N", "N m"], slice, ErrorRatio], ...] = (
+        ("force", "N", FORCE, comparison.force),
+        ("moment", "N m", MOMENT, comparison.moment),
+    )
+    for quantity, unit, axes, ratio in quantities:
+        mean, prior_mean = (float(np.linalg.norm(error[:, axes], axis=1).mean()) for error in (new, old))
+        yield PriorComparison(
+            **names,
+            quantity=quantity,
+            unit=unit,
+            samples=comparison.count,
+            mean=mean,
+            prior_mean=prior_mean,
+            constant=float(np.linalg.norm(new[:, axes].mean(axis=0))),
+            **ratio_fields(ratio),
+        )

@@ -1,0 +1,396 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrations under test of a sensor, priors first, with errors on validation data per axis and magnitude."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.errors import ExperimentError, ShapeError
+from forcetorque.base.noise.means import mean_error
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.sensor_reading import Correction
+from forcetorque.experiment.validation_offset import Offset, mean_offset
+from forcetorque.recording.alignment import seconds_since
+from forcetorque.recording.recording import Use
+from forcetorque.results.table import Row, Shown
+
+if TYPE_CHECKING:
+    from forcetorque.experiment.sensor_run import SensorRun
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WrenchErrors:
+    """Statistics of n errors, pooled before anything is averaged."""
+
+    count: int
+    """Number of samples."""
+    bias: FloatArray
+    """Mean error per component; shape (6,); N, N m."""
+    rmse: FloatArray
+    """Root mean square error per component; shape (6,); N, N m."""
+    largest: FloatArray
+    """Largest absolute error per component; shape (6,); N, N m."""
+    mean_absolute: FloatArray
+    """Mean absolute error per component; shape (6,); N, N m."""
+    mean_absolute_error: FloatArray
+    """Standard error of these means (`noise.mean_error`); shape (6,); N, N m."""
+    force_mean: float
+    """Mean norm of the force error; N."""
+    force_mean_error: float
+    """Standard error of that mean; N; NaN for one sample."""
+    force_mean_half_width: float
+    """Half-width of its 95 % interval; N; infinite where it cannot be told."""
+    force_largest: float
+    """Largest norm of the force error; N."""
+    moment_mean: float
+    """Mean norm of the moment error; N m."""
+    moment_mean_error: float
+    """Standard error of that mean; N m; NaN for one sample."""
+    moment_mean_half_width: float
+    """Half-width of its 95 % interval; N m; infinite where it cannot be told."""
+    moment_largest: float
+    """Largest norm of the moment error; N m."""
+
+    def __post_init__(self) -> None:
+        for field in ("bias", "rmse", "largest", "mean_absolute", "mean_absolute_error"):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
+
+
+def wrench_errors(measured: Any, reference: Any, time_s: Any) -> WrenchErrors:
+    """Compare measured with reference wrenches.
+
+    Args:
+        measured: Wrenches of the sensor, in the order of time; shape (n, 6), n at least 1; N, N m.
+        reference: Wrenches that mechanics demands; shape (n, 6); N, N m.
+        time_s: Instants of the samples, not falling; shape (n,); s.
+
+    Returns:
+        Statistics of measured minus reference.
+
+    Raises:
+        ShapeError: If the shapes are not these.
+        FitError: If time falls.
+    """
+    first, second = np.asarray(measured, dtype=np.float64), np.asarray(reference, dtype=np.float64)
+    if first.ndim != 2 or first.shape[1] != 6 or first.shape != second.shape or not len(first):
+        raise ShapeError(f"expected measured and reference of one shape (n, 6), got {first.shape} and {second.shape}")
+    error = first - second
+    absolute = np.abs(error)
+    force, moment = np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)
+    known = mean_error(np.column_stack([absolute, force, moment]), time_s)
+    return WrenchErrors(
+        count=len(error),
+        bias=error.mean(axis=0),
+        rmse=np.sqrt((error**2).mean(axis=0)),
+        largest=absolute.max(axis=0),
+        mean_absolute=absolute.mean(axis=0),
+        mean_absolute_error=known.standard_error[:6],
+        force_mean=float(force.mean()),
+        force_mean_error=float(known.standard_error[6]),
+        force_mean_half_width=float(known.half_width[6]),
+        force_largest=float(force.max()),
+        moment_mean=float(moment.mean()),
+        moment_mean_error=float(known.standard_error[7]),
+        moment_mean_half_width=float(known.half_width[7]),
+        moment_largest=float(moment.max()),
+    )
+
+
+def errors_from_zero(wrenches: Any, time_s: Any) -> WrenchErrors:
+    """Sum up wrenches that should be zero, such as those of contacts where nothing touches.
+
+    Args:
+        wrenches: Wrenches in the order of time; shape (n, 6); N, N m; samples with a gap (NaN) are left out.
+        time_s: Instants of the samples, not falling; shape (n,); s.
+
+    Returns:
+        Their statistics.
+
+    Raises:
+        ShapeError: If the shape is another, or every sample has a gap.
+    """
+    samples = np.asarray(wrenches, dtype=np.float64)
+    require_shape(samples, name="wrenches", shape=(None, 6))
+    time = np.asarray(time_s, dtype=np.float64)
+    require_shape(time, name="time_s", shape=(len(samples),))
+    complete = ~np.isnan(samples).any(axis=1)
+    if not complete.any():
+        raise ShapeError(f"wrenches: expected at least one sample without a gap, got none among {len(samples)}")
+    return wrench_errors(samples[complete], np.zeros((int(complete.sum()), 6)), time[complete])
+
+
+def offset_removed(measured: Any, reference: Any) -> FloatArray:
+    """Re-estimate the offset on the judged samples themselves: what is left is the matrix's doing.
+
+    Args:
+        measured: Wrenches of the sensor; shape (n, 6); N, N m.
+        reference: Wrenches that mechanics demands; shape (n, 6); N, N m.
+
+    Returns:
+        Measured wrenches moved by one constant so that their mean error is zero; shape (n, 6).
+    """
+    first = np.asarray(measured, dtype=np.float64)
+    return first + mean_offset(np.asarray(reference, dtype=np.float64) - first)
+
+
+PRIOR = "prior"
+"""Name of the prior, or of the logged wrench, among the candidates."""
+
+_SAME_OFFSET = 1e-9
+"""Offsets of one prior on the same data differ by less than this; N, N m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class JudgedCandidate:
+    """One candidate: a calibration, or a prior."""
+
+    name: str
+    """Name of the calibration, or of its prior: `prior`, and `prior of NAME` among several calibrations."""
+    correction: Correction
+    """How it reads the sensor."""
+    prior: str | None
+    """Name of the prior that a calibration is to be compared with; None for a prior, and where it has none."""
+
+    def offset(self, offset: Offset) -> Offset:
+        """Name the offset that it is really judged with.
+
+        Args:
+            offset: The offset that is asked for.
+
+        Returns:
+            The same, or none for the fitted one of a candidate that no data gave an offset.
+        """
+        return Offset.NONE if offset is Offset.FITTED and not self.correction.removes_offset else offset
+
+    def offset_source(self, offset: Offset) -> str:
+        """Tell where an offset comes from.
+
+        Args:
+            offset: Which offset it is judged with.
+
+        Returns:
+            The origin, in words.
+        """
+        return {
+            Offset.FIRST_SECOND: "the first second of every judged interval",
+            Offset.JUDGED_MEAN: "the judged samples themselves",
+        }.get(offset, self.correction.source)
+
+
+class JudgedRow(Row):
+    """What every line about a judged candidate says first: of which sensor, which candidate, with which offset."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    candidate: Annotated[str, Shown("candidate", file=True)]
+    """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
+    offset: Annotated[Offset, Shown("offset")]
+    """Which offset it is judged with."""
+    offset_source: str
+    """Where that offset comes from, in words."""
+    prior: str | None
+    """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
+
+
+def judged_candidates(run: SensorRun, calibrations: Mapping[str, Calibration]) -> tuple[JudgedCandidate, ...]:
+    """Decide by what a judged sensor is read in turn.
+
+    The prior of a calibration has the offset that the calibration carries for it, that of the fitted data.
+
+    Args:
+        run: The sensor.
+        calibrations: Its calibrations by name; without any it is read by the prior of the experiment, or the logged
+            wrench, with the offset that the calibration intervals give.
+
+    Returns:
+        The candidates, priors first; a prior that several calibrations share comes once.
+
+    Raises:
+        SerialNumberError: If a calibration is of another sensor.
+        ExperimentError: If a calibration may not be applied, or raw counts have neither calibration nor prior.
+    """
+    if not calibrations:
+        return (JudgedCandidate(name=PRIOR, correction=run.uncalibrated(), prior=None),)
+    for name, calibration in calibrations.items():
+        run.require_fit(name, calibration)
+    priors: list[JudgedCandidate] = []
+    fitted: list[JudgedCandidate] = []
+    for name, calibration in calibrations.items():
+        prior = calibration.prior
+        read = None if prior is None else Correction.of_prior(name, prior, calibration.sessions)
+        shared = None if read is None else next((one for one in priors if _same(read, one.correction)), None)
+        if read is not None and shared is None:
+            label = PRIOR if len(calibrations) == 1 else f"{PRIOR} of {name}"
+            shared = JudgedCandidate(name=label, correction=read, prior=None)
+            priors.append(shared)
+        correction = Correction.of(name, calibration)
+        fitted.append(JudgedCandidate(name=name, correction=correction, prior=shared.name if shared else None))
+    return (*priors, *fitted)
+
+
+def uncalibrated(run: SensorRun) -> Correction:
+    """Read a sensor by the prior of the experiment, or take the logged wrench.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        The correction, with the offset that the calibration intervals give; without any no offset is removed.
+
+    Raises:
+        ExperimentError: If raw counts have no prior.
+    """
+    bare = Correction.without_offset(run.sensor)
+    if not any(interval.use is Use.CALIBRATION for interval in run.experiment.recording.intervals):
+        return bare
+    parts = run.samples(Use.CALIBRATION)
+    # the mean over all samples at once: its last bits depend on how it is summed
+    wrench = np.concatenate([part.samples.reading.values for part in parts])
+    wrench = wrench if bare.of_wrench else wrench @ bare.model.matrix.T
+    offset = mean_offset(np.concatenate([part.samples.reference for part in parts]) - wrench)
+    labels = ", ".join(repr(part.interval.label) for part in parts)
+    return bare.with_offset(offset, f"over {labels} ({len(wrench)} samples)")
+
+
+def _same(one: Correction, other: Correction) -> bool:
+    if one.sessions.keys() != other.sessions.keys() or not np.array_equal(one.model.matrix, other.model.matrix):
+        return False
+    # the last bits of a mean depend on where its numbers lie in memory
+    pairs = [(one.model.offset, other.model.offset), *((one.sessions[k], other.sessions[k]) for k in one.sessions)]
+    return all(np.allclose(*pair, rtol=0.0, atol=_SAME_OFFSET) for pair in pairs)
+
+
+Calibrations = Calibration | Mapping[str, Calibration]
+"""One calibration, or several by name."""
+
+NEW = "calibration"
+"""Name of a calibration that is given without one."""
+
+
+def named(calibrations: Calibrations | None) -> dict[str, Calibration]:
+    """Give calibrations their names.
+
+    Args:
+        calibrations: One, several by name, or none.
+
+    Returns:
+        Them by name; one alone is called `calibration`.
+
+    Raises:
+        ExperimentError: If they are anything else, such as the file of one.
+    """
+    if calibrations is None:
+        return {}
+    if isinstance(calibrations, Calibration):
+        return {NEW: calibrations}
+    if not isinstance(calibrations, Mapping):
+        raise ExperimentError(f"calibrations: expected a Calibration, or several by name, {_got(calibrations)}")
+    return {name: _calibration(f"calibrations[{name!r}]", given) for name, given in calibrations.items()}
+
+
+def one_named(calibration: Calibration | None) -> tuple[str | None, Calibration | None]:
+    """Give the calibration by which a sensor is read its name.
+
+    Args:
+        calibration: The calibration; None for none.
+
+    Returns:
+        Its name and the calibration; None twice for none.
+
+    Raises:
+        ExperimentError: If it is anything else, such as the file of one.
+    """
+    return (None, None) if calibration is None else (NEW, _calibration("calibration", calibration))
+
+
+def _calibration(place: str, given: Any) -> Calibration:
+    if not isinstance(given, Calibration):
+        raise ExperimentError(f"{place}: expected a Calibration, {_got(given)}")
+    return given
+
+
+def _got(given: Any) -> str:
+    if isinstance(given, str | Path):
+        return f"got {str(given)!r}; read_calibration({str(given)!r}) reads a file"
+    return f"got a {type(given).__name__}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class JudgedWrenches:
+    """Wrenches of every candidate at the same n instants, intervals in the order of time."""
+
+    time_s: FloatArray
+    """Instants since the start of the recording; shape (n,); s."""
+    reference: FloatArray
+    """What mechanics demands, in the sensor's frame and direction; shape (n, 6); N, N m."""
+    measured: tuple[tuple[str, FloatArray], ...]
+    """Name of every candidate, and what it measures with the offset of the fitted data; shape (n, 6); N, N m.
+
+    Pairs, because a calibration may be called `prior` too.
+    """
+    intervals: tuple[tuple[str, slice], ...]
+    """Label of every interval, and which of the instants are its."""
+    candidates: tuple[JudgedCandidate, ...]
+    """The same candidates: how each reads the sensor, and which prior it is to be compared with."""
+
+    @property
+    def priors(self) -> dict[str, str]:
+        """Name of the prior that each calibration is to be compared with, also one that it shares with others."""
+        return {candidate.name: candidate.prior for candidate in self.candidates if candidate.prior is not None}
+
+    def with_either_offset(self) -> Iterator[tuple[JudgedCandidate, Offset, FloatArray]]:
+        """Give what every candidate measures, with its own offset and with that of the judged samples.
+
+        Yields:
+            Candidate, offset and wrenches; shape (n, 6); N, N m.
+        """
+        for candidate, (_, wrench) in zip(self.candidates, self.measured, strict=True):
+            yield candidate, candidate.offset(Offset.FITTED), wrench
+            yield candidate, Offset.JUDGED_MEAN, offset_removed(wrench, self.reference)
+
+
+def judged_wrenches(run: SensorRun, calibrations: Mapping[str, Calibration]) -> JudgedWrenches:
+    """Read a sensor by every calibration, and by their priors, on the validation intervals.
+
+    Without a calibration it is read by the prior of the experiment, with the offset that the calibration intervals
+    give.
+
+    Args:
+        run: The sensor.
+        calibrations: Its calibrations by name.
+
+    Returns:
+        Wrenches on the samples that have all variables which any of the calibrations needs; a prior that several
+        calibrations share comes once.
+
+    Raises:
+        SerialNumberError: If a calibration is of another sensor.
+        ExperimentError: If the robot now reads the sensor in another frame or sign.
+        ShapeError: If a matrix does not have one column per channel of the sensor.
+    """
+    candidates = run.candidates(calibrations)
+    needed = {name for candidate in candidates for name in candidate.correction.variables}
+    parts = [run.interval_samples(interval, variables=needed) for interval in run.intervals(Use.VALIDATION)]
+    spans = [(part.interval, part.readings) for part in parts]
+    for candidate in candidates:
+        matrix = candidate.correction.model.matrix
+        require_shape(matrix, name=f"{candidate.name}: matrix", shape=(6, run.channels))
+    stamps = np.concatenate([part.samples.stamp_ns for part in parts])
+    ends = np.cumsum([len(part.samples.stamp_ns) for part in parts]).tolist()
+    return JudgedWrenches(
+        time_s=seconds_since(stamps, run.experiment.recording.start_ns),
+        reference=np.concatenate([part.samples.reference for part in parts]),
+        measured=tuple((candidate.name, run.read(spans, candidate.correction)) for candidate in candidates),
+        intervals=tuple(
+            (part.interval.label, slice(start, end)) for part, start, end in zip(parts, [0, *ends], ends, strict=False)
+        ),
+        candidates=candidates,
+    )

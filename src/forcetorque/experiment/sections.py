@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sections of the experiment file: sensors with their priors, filters, derivatives, clocks and frames."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import (
+    BeforeValidator,
+    Discriminator,
+    Field,
+    Tag,
+    model_validator,
+)
+from pydantic_core import PydanticCustomError
+
+from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.base.toml_file import Finite, Positive, Table, Text, word_or_table
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.recording.smoothing import SavitzkyGolay
+from forcetorque.robot.mechanics.samples import Processing
+from forcetorque.robot.model import SensorFrame
+
+_AXES = 6
+
+
+def _of_six_axes(values: Any) -> Any:
+    if isinstance(values, list | tuple) and len(values) != _AXES:
+        raise PydanticCustomError("six_axes", "expected six numbers, of fx, fy, fz in N and of tx, ty, tz in N m")
+    return values
+
+
+SixPositive = Annotated[tuple[Positive, ...], Field(min_length=_AXES, max_length=_AXES), BeforeValidator(_of_six_axes)]
+"""Of forces in N, then of moments in N m."""
+
+
+class Variable(Table):
+    """Something beside the load that moves the reading of a sensor, such as its temperature."""
+
+    name: Text
+    """Name, unique for the sensor."""
+    stream: Text | None = None
+    """Stream that holds it; that of the sensor if left out."""
+    quantity: Text = "temperature"
+    """Quantity of the stream."""
+    column: Text | None = None
+    """Column of the quantity; needed where it has several."""
+    reference_value: Finite | None = None
+    """Value at which it contributes nothing; that of the first fitted sample if left out."""
+    prior_coefficients: Annotated[FloatArray, ArrayField((6,))] | None = None
+    """Coefficients that are expected; N, N m per unit; about none if left out, and not penalised by a thesis' type."""
+    prior_deviation: Annotated[tuple[Positive, ...], Field(min_length=6, max_length=6)] | None = None
+    """How far they may be from these; N, N m per unit; if left out 0.5 % of full scale per degree, and for another unit
+    one full scale over the range that was seen."""
+
+
+class PriorTable(Table):
+    """A file with a calibration, and what it does not say itself."""
+
+    path: Path
+    """The file."""
+    force_unit: Text | None = None
+    """Unit of the forces of a plain table, such as N."""
+    moment_unit: Text | None = None
+    """Unit of the moments of a plain table, such as N m."""
+    volts_per_count: Positive | None = None
+    """Of a matrix per volt, what one count of the log is worth: span of the converter over its steps; 1 for a log in
+    volts."""
+
+
+class Sensor(Table):
+    """A force-torque sensor to calibrate or evaluate."""
+
+    name: Text
+    """Name of the URDF's sensor tag; with `joint`, the name to give a sensor that has no tag."""
+    stream: Text
+    """Stream of the recording that holds its reading."""
+    serial: Text
+    """Serial number."""
+    prior: (
+        Annotated[
+            Annotated[PriorTable, Tag("table")] | Annotated[Literal["identity"] | Path, Tag("word")],
+            Discriminator(word_or_table),
+        ]
+        | None
+    ) = None
+    """File of the calibration that the sensor came with, and whose counts a calibrated stream recovers: a matrix file
+    of iCub, .dat of FirmwareUpdater, .cal of ATI, or a plain table; `identity` if that matrix is not known: the
+    calibrated reading then takes the place of counts."""
+    limit_counts: Positive = 32767.0
+    """Largest magnitude of a raw reading; counts."""
+    full_scale: SixPositive | None = None
+    """Full scale of fx, fy, fz, tx, ty, tz; N, N m; needed with the prior `identity`, which says nothing of sizes."""
+    reading_noise: SixPositive | None = None
+    """Standard deviation by which a reading differs from sample to sample; N, N m; for `estimate --fuse`."""
+    reading_deviation: SixPositive | None = None
+    """Standard deviation of what a reading is off all along, such as by its offset; N, N m; for `estimate --fuse`."""
+    amplifier_gain: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
+    """Gain of the amplifier of each channel while it was recorded, for `forcetorque gains`."""
+    allowed_gains: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
+    """Gains that its amplifiers can be set to."""
+    variable: tuple[Variable, ...] = ()
+    """Linear variables that may be fitted with the matrix."""
+    joint: Text | None = None
+    """Fixed joint of a sensor without a tag."""
+    measure_direction: MeasureDirection | None = None
+    """Who acts on whom, for a sensor without a tag."""
+    frame: SensorFrame | None = None
+    """`child` or `parent`, for a sensor without a tag; child if left out."""
+
+    @model_validator(mode="after")
+    def _untagged_is_complete(self) -> Sensor:
+        if self.joint is None and (self.measure_direction or self.frame):
+            raise PydanticCustomError(
+                "tag_rules", "measure_direction and frame are for a sensor without a URDF tag, which also needs joint"
+            )
+        if self.joint is not None and self.measure_direction is None:
+            raise PydanticCustomError(
+                "direction_missing",
+                "a sensor without a URDF tag needs measure_direction, child_to_parent or parent_to_child; "
+                "it is never guessed",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _allowed_gains_need_the_present_ones(self) -> Sensor:
+        if self.allowed_gains is not None and self.amplifier_gain is None:
+            raise PydanticCustomError(
+                "gain_missing", "allowed_gains needs amplifier_gain, the gains with which the recording was made"
+            )
+        return self
+
+
+class Smoothing(Table):
+    """A Savitzky-Golay filter."""
+
+    window_s: Positive
+    """Length of the window; s."""
+    order: Annotated[int, Field(ge=0, strict=True)]
+    """Order of the polynomial."""
+
+
+class ProcessingTable(Table):
+    """How logged samples become reading and reference."""
+
+    derivatives: Annotated[
+        Annotated[Smoothing, Tag("table")] | Annotated[Literal["logged"], Tag("word")],
+        Discriminator(word_or_table),
+    ] = Smoothing(window_s=0.3, order=3)
+    """Filter that differentiates joint positions, or `logged` to take velocity and acceleration from the log."""
+    smoothing: Smoothing | None = None
+    """Filter of reading and reference alike inside each interval, against vibration; none if left out."""
+
+
+class PoseTable(Table):
+    """Where a frame is in another, as `<origin>` of a URDF states it."""
+
+    rpy_rad: Annotated[FloatArray, ArrayField((3,))]
+    """Roll, pitch, yaw about fixed axes; rad."""
+    position_m: Annotated[FloatArray, ArrayField((3,))] | None = None
+    """Its origin; left out where the moment is about the sensor's origin already."""
+
+
+class TransformTable(Table):
+    """A wrench that the log gives along the axes of another frame, moved into the sensor's."""
+
+    stream: Text
+    """Stream with the wrench; its signal's `frame` is the one along whose axes it is given."""
+    to: Text
+    """Frame of the sensor."""
+    moment_about: Literal["sensor", "own_frame", "point"]
+    """About which point the log gives moments: the origin of the sensor's frame, that of the wrench's own frame, or a
+    point that moves with the sensor, such as that of a tool."""
+    point_m: Annotated[FloatArray, ArrayField((3,))] | None = None
+    """That point, along the axes of the sensor's frame from its origin; m."""
+    orientation: Text | None = None
+    """Stream with the orientation of the sensor's frame; the wrench is along the axes of its world. With moments about
+    the origin of that world it has the translation of the sensor's frame too."""
+    pose: PoseTable | None = None
+    """In place of an orientation: pose of the wrench's frame in the sensor's, where that does not change."""
+
+    @model_validator(mode="after")
+    def _moment_has_a_place(self) -> TransformTable:
+        if (self.orientation is None) == (self.pose is None):
+            raise PydanticCustomError(
+                "transform_pose", "expected orientation, a stream, or pose, where it does not change: one of them"
+            )
+        if self.pose is not None and (self.moment_about == "own_frame") != (self.pose.position_m is not None):
+            raise PydanticCustomError(
+                "transform_point",
+                'position_m of pose is needed where moment_about = "own_frame", and moves nothing elsewhere',
+            )
+        if (self.moment_about == "point") != (self.point_m is not None):
+            raise PydanticCustomError(
+                "transform_point", 'point_m is needed where moment_about = "point", and moves nothing elsewhere'
+            )
+        return self
+
+
+class ClockTable(Table):
+    """Streams of a clock that differs from that of another stream, to which they are brought."""
+
+    stream: Text | Annotated[tuple[Text, ...], Field(min_length=1)]
+    """Stream that is brought to the clock; of several, which have one clock, the first is compared."""
+    to: Text
+    """Stream whose clock stays."""
+    delay_s: Finite | Literal["estimate"]
+    """By how much its stamps are later than those of the other for what happens at once, in the middle of the stream;
+    `estimate` to find that in what both show."""
+    drift: Finite | Literal["estimate"] = 0.0
+    """Seconds by which the delay grows in a second; to be estimated with the delay only."""
+    around_s: Finite | None = None
+    """Delay around which it is looked for; 0 if left out."""
+    within_s: Positive | None = None
+    """How far from there it is looked for; s; 0.5 if left out."""
+
+    @model_validator(mode="after")
+    def _estimated_or_stated(self) -> ClockTable:
+        if self.to in self.streams:
+            raise PydanticCustomError("clock_itself", "expected to, another stream, got the same one")
+        estimated = self.delay_s == "estimate"
+        if self.drift == "estimate" and not estimated:
+            raise PydanticCustomError("clock_drift", 'drift = "estimate" needs delay_s = "estimate"')
+        if estimated and self.drift not in ("estimate", 0.0):
+            raise PydanticCustomError(
+                "clock_drift",
+                'with delay_s = "estimate" drift is left out, or "estimate": a stated one needs a stated delay',
+            )
+        if not estimated and (self.around_s is not None or self.within_s is not None):
+            raise PydanticCustomError("clock_search", 'around_s and within_s are for delay_s = "estimate"')
+        return self
+
+    @property
+    def streams(self) -> tuple[str, ...]:
+        """Streams that are brought to the clock."""
+        return (self.stream,) if isinstance(self.stream, str) else self.stream
+
+    @property
+    def near_s(self) -> float:
+        """The stated delay, or the one around which it is looked for; s."""
+        return (self.around_s or 0.0) if isinstance(self.delay_s, str) else self.delay_s
+
+
+def processing_of(table: ProcessingTable, *, gravity: float) -> Processing:
+    """Settle how samples are processed.
+
+    Args:
+        table: What the file says.
+        gravity: Magnitude of gravity; m/s2.
+
+    Returns:
+        Filters and gravity.
+    """
+    derivatives, smoothing = table.derivatives, table.smoothing
+    default = Processing()
+    return Processing(
+        derivative_window=default.derivative_window
+        if derivatives == "logged"
+        else SavitzkyGolay(window_s=derivatives.window_s, order=derivatives.order),
+        logged_derivatives=derivatives == "logged",
+        smoothing=None if smoothing is None else SavitzkyGolay(window_s=smoothing.window_s, order=smoothing.order),
+        gravity=gravity,
+    )

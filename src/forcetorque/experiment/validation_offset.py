@@ -1,0 +1,293 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the offset of a validated sensor comes from, and the first second of an interval that gives it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any, Final, Self
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.errors import ExperimentError, FitError, ShapeError, known_names
+from forcetorque.base.noise.means import mean_error
+from forcetorque.recording.recording import Interval
+from forcetorque.robot.mechanics.samples import PaddedSamples
+
+
+class Offset(StrEnum):
+    """Where the offset of a sensor comes from."""
+
+    FIRST_SECOND = "first-second"
+    """From the first second of every judged interval, which is then not judged: the matrix is judged, as on a robot
+    that starts (thesis Table 5.5)."""
+    FITTED = "fitted"
+    """That of the fitted data: matrix and offset are judged (Table 5.6)."""
+    JUDGED_MEAN = "judged-mean"
+    """Mean of the judged samples themselves: what is left when nothing constant counts; nobody has it beforehand."""
+    NONE = "none"
+    """None was removed: whatever the sensor has is in the error."""
+    TARE = "tare"
+    """From an interval at rest, in which the sensor is to read what the model says of the load beyond it."""
+    ONE_LINK_IMU = "one-link-imu"
+    """From the still seconds of an interval in which the world touches one link alone, be it the foot that the robot
+    stands on or the link that it hangs from; an IMU tells gravity (thesis 5.6)."""
+    ONE_LINK_FIXED_FRAME = "one-link-fixed-frame"
+    """The same with gravity as it is stated for that link, such as along the normal of the sole (thesis 5.6)."""
+
+
+KNOWN_BEFORE = (Offset.FIRST_SECOND, Offset.FITTED)
+"""Offsets that are known when the judging begins."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class OffsetEstimate:
+    """The offset with which readings are in the mean what is demanded of them."""
+
+    value: FloatArray
+    """To be added to the readings; shape (6,); N, N m."""
+    half_width: FloatArray
+    """Half-width of its 95 % interval, of noise that is white and slow; shape (6,); N, N m; infinite where it cannot
+    be told. Errors of matrix and model are not in it."""
+    count: int
+    """Number of samples."""
+
+    def __post_init__(self) -> None:
+        for field in ("value", "half_width"):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
+
+    @classmethod
+    def of(cls, lacking: Any, time_s: Any) -> OffsetEstimate:
+        """Estimate the offset from what readings lack.
+
+        Args:
+            lacking: What is demanded, less what is read without an offset; shape (n, 6); N, N m; all finite.
+            time_s: Instants of the samples, not falling; shape (n,); s.
+
+        Returns:
+            The offset with its interval.
+
+        Raises:
+            ShapeError: If the shapes are not these, or there is no sample.
+        """
+        samples = np.asarray(lacking, dtype=np.float64)
+        require_shape(samples, name="lacking", shape=(None, 6))
+        if not len(samples):
+            raise ShapeError("lacking: expected at least one sample to take an offset from, got none")
+        half_width = mean_error(samples, time_s).half_width
+        return cls(value=mean_offset(samples), half_width=half_width, count=len(samples))
+
+
+def mean_offset(lacking: Any) -> FloatArray:
+    """Give the offset with which readings are in the mean what is demanded of them.
+
+    Args:
+        lacking: What is demanded, less what is read without it; shape (n, k); a sample with a gap (NaN) is left out.
+
+    Returns:
+        To be added to the readings; shape (k,); NaN where every sample has a gap.
+    """
+    samples = np.asarray(lacking, dtype=np.float64)
+    require_shape(samples, name="lacking", shape=(None, None))
+    whole = samples[~np.isnan(samples).any(axis=1)]
+    return whole.mean(axis=0) if len(whole) else np.full(samples.shape[1], np.nan)
+
+
+OF_ONE_LINK: Final = (Offset.ONE_LINK_IMU, Offset.ONE_LINK_FIXED_FRAME)
+"""Offsets from still seconds in which one link alone is touched."""
+OF_INTERVAL: Final = (*OF_ONE_LINK, Offset.TARE)
+"""Offsets that come from an interval, which must be named."""
+
+
+@dataclass(frozen=True, slots=True)
+class OffsetPolicy:
+    """Where the offset of the sensors is to come from."""
+
+    offset: Offset
+    """The way."""
+    interval: str | None = None
+    """Label of the interval that gives it, for the ways that take one."""
+
+    def __post_init__(self) -> None:
+        needed = self.offset in OF_INTERVAL
+        if needed is (self.interval is None):
+            expected = f"{self.offset}:LABEL, of the interval that gives it" if needed else f"{self.offset} alone"
+            raise ExperimentError(f"offset: expected {expected}, got {self}")
+
+    @classmethod
+    def of(cls, words: str) -> Self:
+        """Understand a policy as the command line has it, such as `none` or `one-link-imu:hanging`.
+
+        Args:
+            words: The way, and for some ways a colon and the label of an interval.
+
+        Returns:
+            The policy.
+
+        Raises:
+            ExperimentError: If there is no such way, or an interval is missing or too much.
+        """
+        name, _, label = words.partition(":")
+        if name not in tuple(Offset):
+            raise ExperimentError(f"offset: no way is called {name!r}; {known_names(name, Offset)}")
+        return cls(Offset(name), label or None)
+
+    def __str__(self) -> str:
+        return self.offset.value if self.interval is None else f"{self.offset}:{self.interval}"
+
+
+OFFSET_S = 1.0
+"""Length of the stretch at the start of an interval from which an offset is taken, as on a robot that begins; s."""
+
+_FEWEST = 10
+"""Least number of samples of that stretch, and of the rest."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ValidationSet:
+    """Readings and reference of one stretch of time that was not fitted."""
+
+    label: str
+    """Label of the interval."""
+    session: str
+    """Session that it is of."""
+    time_s: FloatArray
+    """Time of every sample since the start of the recording; shape (n,); s."""
+    raw: FloatArray
+    """Raw readings; shape (n, c); counts."""
+    reference: FloatArray
+    """Wrench that the sensor must read where nothing touches; shape (n, 6); N, N m."""
+    variables: FloatArray
+    """Linear variables; shape (n, v)."""
+
+    def __post_init__(self) -> None:
+        n = len(np.asarray(self.time_s))
+        for name, shape in (
+            ("time_s", (n,)),
+            ("raw", (n, None)),
+            ("reference", (n, 6)),
+            ("variables", (n, None)),
+        ):
+            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=shape))
+
+    def for_offset(self) -> BoolArray:
+        """Mark the first second, from which an offset is taken.
+
+        Returns:
+            Whether a sample is of it; shape (n,).
+
+        Raises:
+            FitError: If there are too few samples to take an offset from, or to judge.
+        """
+        first: BoolArray = self.time_s < self.time_s[0] + OFFSET_S
+        count, rest = int(first.sum()), int((~first).sum())
+        if min(count, rest) < _FEWEST:
+            raise FitError(
+                f"validation interval {self.label!r}: expected at least {_FEWEST} samples in its first {OFFSET_S:g} s, "
+                f"for the offset, and as many after it, to judge, got {count} and {rest}"
+            )
+        return first
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class JudgedInstants:
+    """Instants of one interval: filters, and tells its first second from what is judged."""
+
+    samples: PaddedSamples
+    """Instants of the interval, with those around it that the filter of all that is judged takes."""
+
+    @property
+    def at_ns(self) -> IntArray:
+        """Instants at which errors are wanted, also those around the interval; shape (n,); ns."""
+        return self.samples.stamp_ns
+
+    @property
+    def first(self) -> BoolArray:
+        """Samples of the first second of the interval, which give an offset and are not judged; shape (m,)."""
+        stamps = self.at_ns[self.samples.inside]
+        return stamps < stamps[0] + round(OFFSET_S * 1e9)
+
+    @property
+    def judged_ns(self) -> IntArray:
+        """Instants of the later samples, which are judged; shape (m,); ns."""
+        return self.at_ns[self.samples.inside][~self.first]
+
+    def with_offset(self, error: FloatArray, source: Offset) -> FloatArray:
+        """Take off the mean error of the first second where the offset is to come from there.
+
+        Args:
+            error: Errors, not filtered; shape (n, k); NaN in gaps.
+            source: Which offset is wanted.
+
+        Returns:
+            Errors, not filtered; all NaN where every sample of the first second has a gap: the offset is not known.
+        """
+        if source is Offset.FITTED:
+            return error
+        return error + self._offset(self.samples.smoothed(error))
+
+    def judged(self, error: FloatArray) -> FloatArray:
+        """Filter errors as readings and references are elsewhere, and leave out the first second.
+
+        Args:
+            error: Errors, not filtered; shape (n, k).
+
+        Returns:
+            Filtered errors of the later samples; shape (m, k).
+        """
+        return self.samples.smoothed(error)[~self.first]
+
+    def judged_with_both(self, error: FloatArray) -> dict[Offset, FloatArray]:
+        """Give what is judged with either offset.
+
+        Args:
+            error: Errors with the fitted offset, not filtered; shape (n, k).
+
+        Returns:
+            Filtered errors of the later samples by offset; shape (m, k).
+        """
+        filtered = self.samples.smoothed(error)
+        later = filtered[~self.first]
+        return {Offset.FITTED: later, Offset.FIRST_SECOND: later + self._offset(filtered)}
+
+    def _offset(self, filtered: FloatArray) -> FloatArray:
+        return mean_offset(-filtered[self.first])
+
+
+def nothing_left(instants: JudgedInstants, interval: Interval) -> str | None:
+    """Tell whether an interval is too short to be judged.
+
+    Args:
+        instants: Its instants.
+        interval: The interval.
+
+    Returns:
+        What is left out, in words; None where there are samples to judge.
+    """
+    if not instants.first.all():
+        return None
+    return f"interval {interval.label!r}: it ends within its first {OFFSET_S:g} s, after which it would be judged"
+
+
+def gap_words(what: str, interval: Interval, judged: Mapping[Offset, FloatArray]) -> str | None:
+    """Tell whether gaps leave nothing to judge in an interval, with either offset or with that of the first second.
+
+    Args:
+        what: What is judged, in words.
+        interval: The interval.
+        judged: Errors with either offset; shape (m,) or (m, k); a sample with a NaN is not judged.
+
+    Returns:
+        What is left out, in words; None where both can be judged.
+    """
+    unknown = [
+        offset for offset, errors in judged.items() if np.isnan(errors.reshape(len(errors), -1)).any(axis=1).all()
+    ]
+    if Offset.FITTED in unknown:
+        return f"{what} over {interval.label!r}: every judged sample has a gap"
+    if unknown:
+        offset = Offset.FIRST_SECOND.value
+        return f"{what} over {interval.label!r}, offset {offset}: every sample of its first second has a gap"
+    return None

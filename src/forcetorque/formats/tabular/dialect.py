@@ -1,0 +1,339 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How a text holds a table that nobody has declared, and why a text cannot be read as one."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from forcetorque.formats.headings import headings_of, named_columns, repeated_words
+from forcetorque.formats.tabular.numbers import is_date
+from forcetorque.formats.tabular.table_layout import cells_of, open_text
+
+LOOKED_AT = 1 << 20
+"""Bytes from the beginning of a text that are looked at; lines are counted in all of it."""
+PROBED_LINES = 4
+"""Lines of which the first ones of a table are."""
+DELIMITERS = ("\t", ";", ",", " ")
+"""What may stand between columns, the surest first."""
+MOST_COLUMNS = 10_000
+"""More columns are not looked at."""
+_MOST_SKIPPED = 64
+"""Lines in front of a table that are looked through."""
+_FEWEST_BELOW = 8
+"""Rows below such lines, so that no prose with a few numbers is a table."""
+_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
+_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
+"""What may be a number of four to six digits as well."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Form:
+    """How a text holds a table."""
+
+    delimiter: str
+    """Character between columns."""
+    decimal: str
+    """Character in front of decimals."""
+    names: tuple[str, ...]
+    """Names of the columns, or their numbers."""
+    has_headings: bool
+    """Whether a line has the names."""
+    skipped: tuple[str, ...] = ()
+    """Lines in front."""
+    names_apart: bool = False
+    """Whether the last two of those have names and units."""
+
+    @property
+    def lines_above(self) -> int:
+        """Lines in front of the first row."""
+        return len(self.skipped) + int(self.has_headings and not self.names_apart)
+
+    def is_bare(self, column: int) -> bool:
+        """Tell whether a column lacks a heading where others have one.
+
+        Args:
+            column: Its place.
+
+        Returns:
+            Whether it is called by its number.
+        """
+        return self.has_headings and self.names[column] == str(column + 1)
+
+    def cells(self, line: str) -> list[str]:
+        """Take a line apart.
+
+        Args:
+            line: The line.
+
+        Returns:
+            Its cells, those with numbers as Python writes them.
+        """
+        return _with_points(cells_of(line, self.delimiter), self.decimal)
+
+
+def beginning(path: Path) -> str:
+    """Read the first lines.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The text, without the last line where it may be cut; empty where it is no text.
+    """
+    with open_text(path) as file:
+        data = file.read(LOOKED_AT)
+        if file.read(4):
+            data = data[: data.rfind(b"\n") + 1]
+    if b"\0" in data:
+        return ""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return ""
+
+
+def form_of(text: str) -> Form | None:
+    """Find how a text holds a table, from its first line on or below lines of something else.
+
+    Args:
+        text: The first lines.
+
+    Returns:
+        The form; None where it holds none, or one whose headings come twice or are one too few.
+    """
+    lines = text.splitlines()
+    probed = [line for line in lines if line.strip()][:PROBED_LINES]
+    form = _form_of(probed)
+    if form is not None or repeated_headings(probed) or lacks_last_heading(probed):
+        return form
+    for count in range(1, min(len(lines), _MOST_SKIPPED + 1)):
+        form = _form_of(lines[count : count + PROBED_LINES])
+        if form is None:
+            continue
+        first = count + int(form.has_headings)
+        if _is_below(form, lines[:first], lines[first:]):
+            return _with_units(replace(form, skipped=tuple(lines[:count])), lines)
+    return None
+
+
+def repeated_headings(lines: Sequence[str]) -> tuple[str, ...]:
+    """Give the headings of some lines where one comes twice.
+
+    Args:
+        lines: The first lines of a text, none of them empty.
+
+    Returns:
+        All headings; none where each comes once, or the first line is not one of headings above rows.
+    """
+    for delimiter in DELIMITERS:
+        rows = [cells_of(line, delimiter) for line in lines]
+        if rows and len(rows[0]) > 1 and len({len(row) for row in rows}) == 1:
+            first, *others = rows
+            names = [cell for cell in first if not is_value_or_empty(cell)]
+            if len(names) > len(first) / 2 and are_rows([_with_points(row, _decimal(others)) for row in others]):
+                return tuple(first) if len(set(names)) < len(names) else ()
+    return ()
+
+
+def lacks_last_heading(lines: Sequence[str]) -> bool:
+    """Tell whether rows end with a delimiter that their headings end without.
+
+    Args:
+        lines: The first lines of a text, none of them empty.
+
+    Returns:
+        Whether the first line has one cell less than the others, none of it a number, and the others nothing in it.
+    """
+    for delimiter in DELIMITERS:
+        first, *others = ([cells_of(line, delimiter) for line in lines]) or [[]]
+        if len(first) > 1 and not any(map(is_value_or_empty, first)) and are_rows(others):
+            return all(len(row) == len(first) + 1 and not row[-1] for row in others)
+    return False
+
+
+def _with_units(form: Form, lines: Sequence[str]) -> Form:
+    """The same with names and units of two lines, where these are what stands above."""
+    first = form.lines_above
+    names, units = (form.cells(line) for line in lines[first - 2 : first]) if first > 1 else ((), ())
+    headings = headings_of(names, units)
+    if headings is None:
+        return form
+    return replace(form, names=headings, has_headings=True, skipped=tuple(lines[:first]), names_apart=True)
+
+
+def _form_of(lines: Sequence[str]) -> Form | None:
+    for delimiter in DELIMITERS:
+        texts = [cells_of(line, delimiter) for line in lines]
+        if not texts or not 2 <= len(texts[0]) <= MOST_COLUMNS or len({len(row) for row in texts}) > 1:
+            continue
+        decimal = _decimal(texts[1:])
+        first, *others = rows = [_with_points(row, decimal) for row in texts]
+        if all(map(is_value_or_empty, first)):
+            names = tuple(str(k) for k in range(1, len(first) + 1))
+            if not are_rows(rows):
+                return None
+            return Form(delimiter=delimiter, decimal=decimal, names=names, has_headings=False)
+        if are_rows(others) and _are_headings(texts[0], others):
+            return Form(delimiter=delimiter, decimal=decimal, names=named_columns(texts[0]), has_headings=True)
+    return None
+
+
+def _are_headings(cells: Sequence[str], rows: Sequence[Sequence[str]]) -> bool:
+    """Whether each comes once; a column without one is empty, but for the first, which may count the rows."""
+    bare = [k for k, cell in enumerate(cells) if k and not cell and any(row[k] for row in rows)]
+    names = named_columns(cells)
+    return len(set(names)) == len(names) and not bare
+
+
+def _is_below(form: Form, above: Sequence[str], below: Sequence[str]) -> bool:
+    """Whether lines are rows of a table, enough of them, and none above them is."""
+    rows, others = ([form.cells(line) for line in lines if line.strip()] for lines in (below, above))
+    width = len(form.names)
+    return (
+        len(rows) >= _FEWEST_BELOW
+        and {len(row) for row in rows} == {width}
+        and are_rows(rows)
+        and not any(len(row) == width and are_rows([row]) for row in others)
+    )
+
+
+def are_rows(rows: Sequence[Sequence[str]]) -> bool:
+    """Tell whether each has two numbers or dates, and none begins with another text, as lines of prose do.
+
+    Args:
+        rows: Cells of lines.
+
+    Returns:
+        Whether there are rows, and all are such.
+    """
+    return bool(rows) and all(sum(map(_is_value, row)) >= 2 and is_value_or_empty(row[0]) for row in rows)
+
+
+def is_value_or_empty(cell: str) -> bool:
+    """Tell whether a cell may be one of numbers or dates.
+
+    Args:
+        cell: The cell.
+
+    Returns:
+        Whether it is empty, a number with a decimal point, or a date with a time of day.
+    """
+    return not cell or _is_value(cell)
+
+
+def has_decimal_comma(cell: str) -> bool:
+    """Tell whether a cell is a number if its comma stands in front of decimals.
+
+    Args:
+        cell: The cell.
+
+    Returns:
+        Whether it is; it may have digits by thousands as well.
+    """
+    return _COMMA.fullmatch(cell) is not None
+
+
+def _is_value(cell: str) -> bool:
+    return _is_number(cell) or is_date(cell)
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return "_" not in cell
+
+
+def _decimal(rows: Sequence[Sequence[str]]) -> str:
+    """A comma where one stands in numbers, not all of which may be thousands, and a point in none."""
+    cells = [cell for row in rows for cell in row]
+    commas = [cell for cell in cells if has_decimal_comma(cell)]
+    is_comma = any(not _THOUSANDS.fullmatch(cell) for cell in commas)
+    return "," if is_comma and not any("." in cell and _is_number(cell) for cell in cells) else "."
+
+
+def _with_points(cells: list[str], decimal: str) -> list[str]:
+    if decimal == ".":
+        return cells
+    return [cell.replace(",", ".") if has_decimal_comma(cell) else cell for cell in cells]
+
+
+_DATE = re.compile(r"'?\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4}([T ]|$)|'?\d{1,2}:\d{2}(:|$)")
+_TABLES = {".csv", ".tsv"}
+"""Endings of files of which one line alone is that of headings."""
+_SHOWN = 40
+"""Characters of a cell that are shown."""
+
+
+def hindrance(path: Path) -> str | None:
+    """Say what keeps a file from being read as a table.
+
+    Args:
+        path: A file that is not recognised as one.
+
+    Returns:
+        Where, what was expected, what is there, and what to do; None where it is nothing like a table.
+    """
+    text = beginning(path)
+    if not text.strip():
+        return _of_encoding(path)
+    lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()][:PROBED_LINES]
+    repeated = repeated_headings([line for _, line in lines])
+    if repeated:
+        return repeated_words(path, lines[0][0], repeated)
+    if len(lines) == 1 and path.suffix.lower() in _TABLES:
+        return f"{path}:{lines[0][0]}: expected rows of numbers below the headings, got none"
+    numbers = [number for number, _ in lines]
+    for delimiter in DELIMITERS:
+        rows = [cells_of(line, delimiter) for _, line in lines]
+        words = None if min(map(len, rows), default=0) < 2 else _of_rows(rows, numbers, delimiter)
+        if words is not None:
+            return f"{path}:{words}"
+    return None
+
+
+def _of_encoding(path: Path) -> str | None:
+    with path.open("rb") as file:
+        data = file.read(LOOKED_AT)
+    if not data.strip():
+        return f"{path}: expected a log, got an empty file; was the recording stopped before it began?"
+    for name, code in (("UTF-16", "utf-16-le"), ("UTF-16", "utf-16-be"), ("another encoding than UTF-8", "cp1252")):
+        text = data[: len(data) // 2 * 2].decode(code, errors="replace")
+        if "\0" not in text and form_of(text[: text.rfind("\n") + 1]) is not None:
+            return (
+                f"{path}: expected a table in UTF-8, or in UTF-16 with a byte-order mark, got {name}; save it as UTF-8"
+            )
+    return None
+
+
+def _of_rows(rows: Sequence[Sequence[str]], numbers: Sequence[int], delimiter: str) -> str | None:
+    """What keeps lines from being a table with a delimiter, from the number of the line on."""
+    headings, below = rows[0], rows[1:]
+    if len({len(row) for row in below}) != 1:
+        return None
+    plain = [["0" if _DATE.match(cell) or has_decimal_comma(cell) else cell for cell in row] for row in below]
+    if all(map(is_value_or_empty, headings)) or not are_rows(plain):
+        return None
+    if len(headings) != len(below[0]):
+        got = f"{len(headings)} headings and {len(below[0])} columns in line {numbers[1]}"
+        if not any(row[-1] for row in below):
+            got += f": a {delimiter!r} ends each row"
+        return (
+            f"{numbers[0]}: expected a heading for every column, got {got}; make the first line as long as the others"
+        )
+    for k, cell in enumerate(below[0], start=1):
+        if _DATE.match(cell) and not is_date(cell):
+            return (
+                f"{numbers[1]}: expected the time as a number, or as 2026-11-23T10:05:03.123, got {cell[:_SHOWN]!r} in "
+                f"column {k}; write it so, or as seconds, or delete the column"
+            )
+        if has_decimal_comma(cell):
+            return (
+                f"{numbers[1]}: expected decimals behind points, or behind commas throughout, got {cell[:_SHOWN]!r} in "
+                f"column {k}, whose comma may stand behind thousands; write its numbers with points"
+            )
+    return None

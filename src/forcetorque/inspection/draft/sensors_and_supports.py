@@ -1,0 +1,391 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The `[[sensor]]` tables of a log, the loads beyond sensors, and the links that stand still."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from forcetorque.inspection.draft.gravity import LIGHT_KG, Hanging, mass_beyond
+from forcetorque.inspection.draft.streams import DraftedStream
+from forcetorque.inspection.draft.toml_lines import line, listed, question
+from forcetorque.robot.model import Joint, RobotModel
+
+_OF_SENSORS = {
+    "ft",
+    "fts",
+    "sensor",
+    "force",
+    "torque",
+    "wrench",
+    "analog",
+    "measures",
+    "o",
+    "i",
+    "filtered",
+    "raw",
+    "data",
+}
+"""Words that tell no sensor from another."""
+_MOST_CANDIDATES = 12
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DraftedSensor:
+    """A sensor of the experiment."""
+
+    name: str
+    """Its name; `?` where the robot has several and none is called like the stream."""
+    stream: str
+    """Stream of its reading."""
+    is_raw: bool
+    """Whether that is of raw channels."""
+    tags: tuple[str, ...] = ()
+    """Sensors of the robot's file that it may be, where its name is open."""
+    joints: tuple[str, ...] = ()
+    """Fixed joints that it may sit in, the likeliest first; none where the robot's file has a tag."""
+    joint: str | None = None
+    """The joint, where a name tells it."""
+    evidence: Mapping[str, Hanging] = field(default_factory=dict)
+    """What the reading says of each joint."""
+
+
+def draft_sensors(streams: Sequence[DraftedStream], model: RobotModel | None) -> tuple[DraftedSensor, ...]:
+    """Match streams that read loads to the robot.
+
+    Args:
+        streams: Streams of the log.
+        model: The robot; None for a wrist sensor without one.
+
+    Returns:
+        A sensor for each.
+    """
+    reading = [stream for stream in streams if stream.reads_load]
+    if model is None:
+        return tuple(
+            DraftedSensor(name=_name_of(stream, reading), stream=stream.name, is_raw=_is_raw(stream))
+            for stream in reading[:1]
+        )
+    return tuple(_matched(stream, reading, model) for stream in reading)
+
+
+def sensor_joints(sensor: DraftedSensor, model: RobotModel) -> tuple[str, ...]:
+    """Name the fixed joints that a sensor may sit in.
+
+    Args:
+        sensor: The sensor.
+        model: The robot.
+
+    Returns:
+        One where its name or a tag of the robot's file tells it; else the likeliest first.
+    """
+    if sensor.name in model.sensors:
+        return (model.sensors[sensor.name].joint,)
+    return (sensor.joint,) if sensor.joint else sensor.joints
+
+
+def sensor_lines(sensor: DraftedSensor, *, on_robot: bool) -> list[str]:
+    """Write a `[[sensor]]` table.
+
+    Args:
+        sensor: The sensor.
+        on_robot: Whether there is a robot, in one of whose joints it sits.
+
+    Returns:
+        Its lines.
+    """
+    lines = ["", "[[sensor]]"]
+    if sensor.tags:
+        lines.append(question("name", f"sensor of the URDF that the stream is of: {listed(sensor.tags)}"))
+    else:
+        lines.append(line("name", sensor.name))
+    lines.append(line("stream", sensor.stream))
+    lines.append(question("serial", "its serial number, or another mark that tells it from others"))
+    if sensor.is_raw:
+        lines.append(
+            question("prior", "file of the maker's calibration: a matrix file of iCub, .dat, .cal, or a table")
+        )
+    else:
+        words = "the reading itself takes the place of counts; the file of the matrix that made it is better"
+        lines.append(line("prior", "identity", words))
+        words = "of fx fy fz in N and tx ty tz in N m, of its data sheet, as [300, 300, 300, 30, 30, 30]"
+        lines.append(question("full_scale", words))
+    if on_robot and not sensor.tags and (sensor.joint or sensor.joints):
+        lines += _place_lines(sensor)
+    return lines
+
+
+def weight_words(hanging: Hanging) -> str:
+    """Say what a reading tells of gravity.
+
+    Args:
+        hanging: How it goes with the orientation.
+
+    Returns:
+        Words for the question of the direction of gravity.
+    """
+    size = float((hanging.weight**2).sum() ** 0.5)
+    along = ", ".join(f"{value:+.2f}" for value in hanging.weight / size)
+    return (
+        f"the force turns with the sensor as a weight of {size:.3g} N along [{along}] would: gravity points there if "
+        "child_to_parent, else the other way"
+    )
+
+
+def _place_lines(sensor: DraftedSensor) -> list[str]:
+    if sensor.joint is not None:
+        joint = line("joint", sensor.joint, "by its name")
+    else:
+        candidates = sorted(sensor.evidence, key=lambda name: sensor.evidence[name].typical)
+        left = [f"{name} ({_left(sensor.evidence[name])})" for name in candidates]
+        others = [name for name in sensor.joints if name not in sensor.evidence]
+        words = "fixed joint of the URDF that it sits in, whose child link has the axes of the sensor"
+        evidence = "; what the orientation of that link leaves of the force: " if left else ": "
+        joint = question("joint", f"{words}{evidence}{listed([*left, *others], _MOST_CANDIDATES)}")
+    words = "child_to_parent if it reads what the outer part does to the inner one, so that a hanging load reads down; "
+    words += "parent_to_child if the opposite"
+    directions = {hanging.direction for hanging in sensor.evidence.values()} - {None}
+    if len(directions) == 1:
+        words += f"; the accelerations in the log say {directions.pop()}"
+    return [joint, question("measure_direction", words)]
+
+
+def _left(hanging: Hanging) -> str:
+    free = hanging.left[hanging.is_free]
+    rms = float((free**2).mean() ** 0.5) if len(free) else float((hanging.left**2).mean() ** 0.5)
+    return f"{rms:.2g} N of {hanging.turned:.2g} N in {100 * hanging.share_free:.0f} % of the time"
+
+
+def _matched(stream: DraftedStream, reading: Sequence[DraftedStream], model: RobotModel) -> DraftedSensor:
+    tags = _tags_of(stream, model)
+    rivals = [other for other in reading if other is not stream and set(tags) & set(_tags_of(other, model))]
+    raw = _is_raw(stream)
+    if len(tags) == 1 and not rivals:
+        return DraftedSensor(name=tags[0], stream=stream.name, is_raw=raw)
+    if model.sensors:
+        if len(model.sensors) == len(reading) == 1:
+            return DraftedSensor(name=next(iter(model.sensors)), stream=stream.name, is_raw=raw)
+        return DraftedSensor(name=_name_of(stream, reading), stream=stream.name, is_raw=raw, tags=tuple(model.sensors))
+    fixed = _fixed_joints(model)
+    named = [
+        name
+        for name in fixed
+        if stream.frame == model.joints[name].child
+        or _plain(stream.name) in (_plain(name), _plain(model.joints[name].child))
+    ]
+    return DraftedSensor(
+        name=_name_of(stream, reading),
+        stream=stream.name,
+        is_raw=raw,
+        joints=tuple(fixed),
+        joint=named[0] if len(named) == 1 else None,
+    )
+
+
+def _tags_of(stream: DraftedStream, model: RobotModel) -> list[str]:
+    """Tags whose words stand in the name of the stream, a first letter for a whole word: `r_leg` is `right_leg`."""
+    words = _words(stream.name)
+    return [
+        name
+        for name, sensor in model.sensors.items()
+        if any(_stand_in(_words(alias), words) for alias in (name, *sensor.aliases))
+    ]
+
+
+def _words(name: str) -> list[str]:
+    return [word for word in re.split(r"[^a-z0-9]+", name.lower()) if word and word not in _OF_SENSORS]
+
+
+def _stand_in(wanted: Sequence[str], words: Sequence[str]) -> bool:
+    size = len(wanted)
+    return size > 0 and any(
+        all(
+            short == long or (len(short) == 1 and long.startswith(short))
+            for short, long in zip(wanted, run, strict=True)
+        )
+        for run in (words[k : k + size] for k in range(len(words) - size + 1))
+    )
+
+
+def _fixed_joints(model: RobotModel) -> list[str]:
+    """Fixed joints with a moving one inward of them, the outermost first: nothing is felt at the base's own."""
+    inward = {joint.child: joint for joint in model.joints.values()}
+    depth: dict[str, int] = {}
+    for name, joint in model.joints.items():
+        if joint.type.moves:
+            continue
+        above, here = 0, joint
+        while (here_above := inward.get(here.parent)) is not None:
+            above += here_above.type.moves
+            here = here_above
+        if above:
+            depth[name] = above
+    return sorted(depth, key=lambda name: -depth[name])
+
+
+def _is_raw(stream: DraftedStream) -> bool:
+    return "raw" in stream.quantities
+
+
+def _name_of(stream: DraftedStream, reading: Sequence[DraftedStream]) -> str:
+    """The only one in tables has a name that other recordings of it get too: tables are called after the day."""
+    return "ft_sensor" if stream.table is not None and len(reading) == 1 else _plain(stream.name)
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_") or "sensor"
+
+
+_STANDS = ("sole", "foot", "feet", "toe", "base", "ground")
+"""Words in the names of links that robots stand on, the likeliest first."""
+_SENSES = {"acc", "imu", "gyro", "skin", "taxel", "ft", "sensor"}
+"""Words in the names of frames of sensors, which are ends of the robot too."""
+_MOST_SUPPORTS = 12
+
+
+def base_of_arm(model: RobotModel) -> str | None:
+    """Give the link that an arm is bolted down by.
+
+    Args:
+        model: The robot.
+
+    Returns:
+        Its root, or the first link with a mass behind it, which fixed joints hold there; None for a robot with several
+        limbs, which may stand on any of them.
+    """
+    moving = [joint for joint in model.joints.values() if joint.type.moves and joint.mimic is None]
+    inward = {joint.child: joint for joint in model.joints.values()}
+    first_of: set[str] = set()
+    for joint in moving:
+        here = joint
+        while (above := _next_moving(here.parent, inward)) is not None:
+            here = above
+        first_of.add(here.name)
+    if len(first_of) != 1:
+        return None
+    (first,) = first_of
+    return model.joints[first].parent
+
+
+def ends_of_robot(model: RobotModel) -> tuple[str, ...]:
+    """Name the links without another beyond them that moving joints lead to.
+
+    Args:
+        model: The robot.
+
+    Returns:
+        The links that are called like soles first, then feet, bases, and the others in the order of the model, its root
+        last of each.
+    """
+    parents = {joint.parent for joint in model.joints.values()}
+    inward = {joint.child: joint for joint in model.joints.values()}
+    ends = [
+        link
+        for link in model.links
+        if link not in parents
+        and link in inward
+        and (inward[link].type.moves or _next_moving(inward[link].parent, inward))
+    ]
+    return tuple(sorted((*ends, model.root_link), key=_unlikely_to_stand))
+
+
+def has_no_tool(sensor: DraftedSensor, model: RobotModel) -> bool:
+    """Tell whether the robot's model has nothing that a sensor could feel.
+
+    Args:
+        sensor: The sensor.
+        model: The robot.
+
+    Returns:
+        Whether all joints that it may sit in have no mass beyond them.
+    """
+    joints = sensor_joints(sensor, model)
+    return bool(joints) and all(mass_beyond(model, joint) < LIGHT_KG for joint in joints)
+
+
+def support_lines(
+    base: str | None, model: RobotModel, imu_streams: Sequence[str], hanging: Hanging | None
+) -> list[str]:
+    """Write the `[[support]]` table.
+
+    Args:
+        base: The link that an arm is bolted down by; None where any may stand.
+        model: The robot.
+        imu_streams: Streams of inertial sensors.
+        hanging: What a reading says of the direction of gravity there; None for nothing.
+
+    Returns:
+        Its lines.
+    """
+    lines = ["", "[[support]]"]
+    if base is None:
+        ends = ends_of_robot(model)
+        likely = [link for link in ends if _unlikely_to_stand(link) < len(_STANDS)] or list(ends)
+        others = f", or one of {len(ends) - len(likely)} other ends of it" if len(likely) < len(ends) else ""
+        words = f"link that stands still and alone touches the world: {listed(likely, _MOST_SUPPORTS)}{others}"
+        lines.append(question("frame", words))
+    else:
+        lines.append(line("frame", base, "it stands still: the link that the arm moves from"))
+    words = (
+        f"direction in which things fall, in the axes of {base or 'that link'}, as [0.0, 0.0, -1.0] where z points up"
+    )
+    if imu_streams:
+        words += f"; a robot that moves has imu = [{', '.join(map(repr, imu_streams))}] in place of this line"
+    if hanging is not None:
+        words += f"; {weight_words(hanging)}"
+    return [*lines, question("gravity_direction", words)]
+
+
+def load_lines(sensor: DraftedSensor, model: RobotModel) -> list[str]:
+    """Write the `[[load]]` of an arm whose model ends at the sensor.
+
+    Args:
+        sensor: The sensor.
+        model: The robot.
+
+    Returns:
+        Its lines.
+    """
+    joint = model.sensors[sensor.name].joint if sensor.name in model.sensors else sensor.joint
+    lines = ["", "# what hangs on the sensor: the URDF has no mass there", "[[load]]"]
+    lines.append(question("name", "a name for the tool; in another recording the same name is the same tool"))
+    if joint is not None:
+        lines.append(line("link", model.joints[joint].child))
+    else:
+        lines.append(question("link", "link of the URDF that it hangs on: the child link of the sensor's joint"))
+    return [
+        *lines,
+        "# mass_kg = 1.0                        # state both if the tool was weighed; without, it is estimated, and",
+        "# centre_of_mass_m = [0.0, 0.0, 0.05]  # the scale of the matrix stays that of the prior; in the link's frame",
+    ]
+
+
+def interval_support(base: str | None) -> str:
+    """Write the support of an interval.
+
+    Args:
+        base: The link that an arm is bolted down by; None where it is a question.
+
+    Returns:
+        The line.
+    """
+    return question("support", "frame of the [[support]]") if base is None else line("support", base)
+
+
+def _unlikely_to_stand(link: str) -> int:
+    """Place of the word in its name by which a link may stand on the ground; the number of words for none."""
+    name = link.lower()
+    if _SENSES & set(re.split("[^a-z]+", name)):
+        return len(_STANDS)
+    return next((k for k, word in enumerate(_STANDS) if word in name), len(_STANDS))
+
+
+def _next_moving(link: str, inward: Mapping[str, Joint]) -> Joint | None:
+    """The moving joint that carries a link; None for what is fixed to the root."""
+    while link in inward:
+        joint = inward[link]
+        if joint.type.moves:
+            return joint
+        link = joint.parent
+    return None

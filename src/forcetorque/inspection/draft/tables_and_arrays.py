@@ -1,0 +1,386 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The `[recording]` of tables and of files of arrays: columns by heading, name and width, else questions."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+from forcetorque.base.toml_file import OPEN
+from forcetorque.formats.headings import Heading, read_heading
+from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_sentence
+from forcetorque.formats.tabular.numbers import ISO8601
+from forcetorque.inspection.draft.joints import joints_question
+from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream, Likeness, likenesses, relative, time_column
+from forcetorque.inspection.draft.toml_lines import (
+    RATE_LINES,
+    TIME_UNITS,
+    USUAL_UNITS,
+    Asked,
+    axes_line,
+    likeliest_time,
+    likeliest_units,
+    line,
+    listed,
+    question,
+    remark,
+    time_words,
+    toml_value,
+)
+from forcetorque.recording.frames import OrientationForm
+from forcetorque.recording.stream import QUANTITIES, Labels
+from forcetorque.robot.model import RobotModel
+
+_SHOWN = 60
+"""Characters that are shown of a line in front of a table."""
+_FEW = 9
+"""Units that are written out in a question."""
+_SENSE = "sensor_to_world where it turns vectors along the frame's axes to the world's, else world_to_sensor"
+_EULER_LINES = (
+    "",
+    "[recording.stream.signal.orientation]",
+    line("form", "euler"),
+    question("axes", 'axes in the order of the columns: "xyz" where roll turns about x, pitch y and yaw z', "xyz"),
+    question(
+        "about", "fixed for R = Rz(yaw) Ry(pitch) Rx(roll), as URDF and ROS; moving if each turns the next", "fixed"
+    ),
+    question("sense", _SENSE, "sensor_to_world"),
+)
+"""How angles are an orientation."""
+
+
+def table_streams(sketches: Sequence[LogSketch], joints: Sequence[str]) -> tuple[DraftedStream, ...]:
+    """Group the columns of tables by what they look like.
+
+    Args:
+        sketches: The tables.
+        joints: Joints of the robot that move.
+
+    Returns:
+        A stream for each table.
+    """
+    streams = []
+    for sketch in sketches:
+        groups = _groups(sketch, joints)
+        streams.append(
+            DraftedStream(
+                name=_stream_name(sketch.path, sketches),
+                quantities=tuple(group.quantity for group in groups),
+                joints=tuple(joint for group in groups if group.quantity == "position" for joint in group.names or ()),
+                table=sketch,
+                groups=groups,
+            )
+        )
+    return tuple(streams)
+
+
+def _stream_name(path: Path, sketches: Sequence[LogSketch]) -> str:
+    stems = [sketch.path.stem for sketch in sketches]
+    return path.stem if stems.count(path.stem) == 1 else path.name
+
+
+def _headings(sketch: LogSketch) -> list[Heading]:
+    return [read_heading(column.name) for column in sketch.columns]
+
+
+def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[Likeness, ...]:
+    """Groups of columns, each quantity once; an orientation rules over what may be gravity, which follows from it."""
+    if not sketch.has_headings:
+        return ()
+    groups: dict[str, Likeness] = {}
+    for group in likenesses(_headings(sketch), joints):
+        groups.setdefault(group.quantity, group)
+    if "position" in groups:  # which tell the pose
+        groups = {name: group for name, group in groups.items() if group.form is not OrientationForm.EULER}
+    if "orientation" in groups:
+        groups.pop("gravity", None)
+        groups.pop(OPEN, None)
+    return tuple(groups.values())
+
+
+def table_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames: Mapping[str, str]) -> list[str]:
+    """Write the `[recording]` table.
+
+    Args:
+        log: The log.
+        folder: Folder of the experiment file, from which paths count.
+        model: The robot; None for a wrist sensor without one.
+        frames: Frame of the wrench of a stream, by the stream.
+
+    Returns:
+        Its lines.
+    """
+    root = Path(os.path.commonpath([path.resolve().parent for path in log.paths]))
+    lines = ["[recording]", line("format", "tabular"), line("path", relative(root, folder))]
+    for stream in log.streams:
+        sketch = stream.table
+        if sketch is not None:
+            lines += ["", "[[recording.stream]]", line("name", stream.name)]
+            lines.append(line("file", sketch.path.resolve().relative_to(root).as_posix()))
+            lines += [*_form_lines(sketch), *_stamp_lines(sketch)]
+            lines += _signal_lines(stream, sketch, model, frames)
+    return lines
+
+
+def _form_lines(sketch: LogSketch) -> list[str]:
+    lines = [] if sketch.delimiter in (None, ",") else [line("delimiter", sketch.delimiter)]
+    if sketch.decimal != ".":
+        lines.append(line("decimal", sketch.decimal, "its numbers have a decimal comma"))
+    if sketch.skipped:
+        top = next((text for text in sketch.skipped if text.strip()), "")
+        lines.append(line("skip_rows", len(sketch.skipped), f"lines that are not of the table: {top[:_SHOWN]}"))
+    if sketch.names_apart:
+        lines.append(
+            line("column_names", [column.name for column in sketch.columns], "of a line of names and one of units")
+        )
+    if not sketch.has_headings:
+        words = f"the file has no line of headings: a name for each of its {len(sketch.columns)} columns"
+        for first in sketch.quaternion:
+            words += f", of which {first + 1} to {first + 4} have norm 1 as quaternions do"
+        lines.append(question("column_names", f'{words}, as ["t", "fx", ...]'))
+    return lines
+
+
+def _stamp_lines(sketch: LogSketch) -> list[str]:
+    place = time_column(_headings(sketch), [column.step for column in sketch.columns])
+    if place is None:
+        words = 'no column rises as a time does: "row" for poses that are still, whose rows are then a second apart'
+        choice = f'{words}; or {{ column = "...", unit = "..." }}; or the two lines below in its place'
+        return [question("stamp", choice), *RATE_LINES]
+    column = sketch.columns[place]
+    name = column.name
+    if column.unit in (*TIME_UNITS, ISO8601):
+        return [line("stamp", {"column": name, "unit": column.unit})]
+    likeliest = likeliest_time(column)
+    asked = Asked(
+        f"stamp = {toml_value({'column': name, 'unit': OPEN})}  {remark(time_words(column))}",
+        None if likeliest is None else line("stamp", {"column": name, "unit": likeliest}),
+    )
+    return [asked]
+
+
+def _signal_lines(
+    stream: DraftedStream, sketch: LogSketch, model: RobotModel | None, frames: Mapping[str, str]
+) -> list[str]:
+    lines: list[str] = []
+    for group in stream.groups:
+        lines += ["", "[[recording.stream.signal]]", *_group_lines(group, sketch, model, stream.name, frames)]
+    used = {k for group in stream.groups for k in group.columns}
+    used.add(-1 if (time := time_column(_headings(sketch), [c.step for c in sketch.columns])) is None else time)
+    rest = [column.name for k, column in enumerate(sketch.columns) if k not in used]
+    if not stream.groups:
+        lines += ["", "[[recording.stream.signal]]"]
+        names = "" if not sketch.has_headings else f", by the headings {listed(rest)}"
+        lines += [
+            question("quantity", f"one of {listed(QUANTITIES, 99)}"),
+            question("columns", f"names of its columns in the order of the quantity{names}"),
+            question("units", "unit of each column"),
+        ]
+    elif rest:
+        lines += ["", remark(f"not read: {listed(rest)}")]
+    return lines
+
+
+def _group_lines(
+    group: Likeness, sketch: LogSketch, model: RobotModel | None, stream: str, frames: Mapping[str, str]
+) -> list[str]:
+    names = [sketch.columns[k].name for k in group.columns]
+    units = [read_heading(name).unit for name in names]
+    quantity = QUANTITIES.get(group.quantity)
+    lines = [
+        question("quantity", group.words) if quantity is None else line("quantity", group.quantity),
+        line("columns", names),
+    ]
+    if group.form not in (None, OrientationForm.EULER):
+        units = ["1"] * len(names)
+    if all(units):
+        lines.append(line("units", units))
+    else:
+        usual = USUAL_UNITS.get(group.quantity, "")
+        extent = _range_words(sketch, group)
+        likeliest = likeliest_units(group.quantity, len(names), _largest(sketch, group))
+        shown = "" if likeliest is None else f", as {_repeated(likeliest)}"
+        choice = f" ({usual})" if " or " in usual else ""
+        if group.quantity == "wrench" and likeliest is None:
+            shown = ', with a factor in front of counts, as "1e-6 N" where 1000000 are a newton'
+        example = f"{shown}{choice}"
+        lines.append(question("units", f"unit of each column{example}{extent}", likeliest))
+    if quantity is not None and quantity.labels is Labels.JOINTS:
+        if group.names is None:
+            lines.append(joints_question(len(names), "", model, key="names"))
+        elif list(group.names) != names:
+            lines.append(line("names", group.names))
+    if quantity is None or quantity.has_frame:
+        lines.append(axes_line(group.quantity, stream, frames))
+    if group.form is OrientationForm.EULER:
+        lines += _EULER_LINES
+    elif group.form is not None:
+        stated = {"form": str(group.form), "sense": OPEN}
+        likeliest_sense = line("orientation", {**stated, "sense": "sensor_to_world"})
+        lines.append(Asked(f"orientation = {toml_value(stated)}  {remark(_SENSE)}", likeliest_sense))
+    return lines
+
+
+def _repeated(units: Sequence[str]) -> str:
+    return toml_value(units) if len(units) <= _FEW else f"[{toml_value(units[0])}, ...]"
+
+
+def _largest(sketch: LogSketch, group: Likeness) -> float | None:
+    columns = (sketch.columns[k] for k in group.columns)
+    ends = [abs(end) for column in columns for end in (column.smallest, column.largest) if end is not None]
+    return max(ends, default=None)
+
+
+def _range_words(sketch: LogSketch, group: Likeness) -> str:
+    if group.quantity != "wrench":
+        extent = _extent(sketch, group.columns)
+        return f"; they run {extent}{sketch.range_words}" if extent else ""
+    force, moment = (_extent(sketch, places) for places in (group.columns[:3], group.columns[3:]))
+    return f"; forces run {force}, moments {moment}{sketch.range_words}" if force and moment else ""
+
+
+def _extent(sketch: LogSketch, places: Sequence[int]) -> str:
+    values = [sketch.columns[k] for k in places]
+    low = [column.smallest for column in values if column.smallest is not None]
+    high = [column.largest for column in values if column.largest is not None]
+    return f"from {min(low):.4g} to {max(high):.4g}" if low and high else ""
+
+
+_ARRAY_WORDS = {
+    "wrench": ("wrench", "ft", "force_torque", "forcetorque"),
+    "position": ("pos", "position", "positions", "q"),
+    "velocity": ("vel", "velocity", "velocities", "dq", "qd"),
+    "acceleration": ("accelerations", "ddq", "qdd"),
+    "torque": ("torque", "torques", "tau", "effort"),
+    "proper_acceleration": ("acc", "accel", "accelerometer", "acceleration"),
+    "angular_velocity": ("gyro", "omega", "gyroscope", "angular"),
+    "temperature": ("temp", "temperature"),
+}
+_WIDTHS = {"wrench": 6, "proper_acceleration": 3, "angular_velocity": 3, "temperature": 1}
+
+
+def array_streams(sketch: LogSketch, joints: Sequence[str]) -> tuple[DraftedStream, ...]:
+    """Arrays with the same number of rows are one stream, as far as they look like something."""
+    streams: list[DraftedStream] = []
+    for rows in dict.fromkeys(column.rows for column in sketch.columns):
+        members = [column for column in sketch.columns if column.rows == rows]
+        groups = tuple(array_groups(members, joints))
+        if rows > 1 and groups:
+            streams.append(
+                DraftedStream(
+                    name="log" if not streams else f"log_{rows}",
+                    quantities=tuple(group.quantity for group in groups),
+                    table=LogSketch(path=sketch.path, columns=tuple(members)),
+                    groups=groups,
+                )
+            )
+    return tuple(streams)
+
+
+def array_groups(members: Sequence[SketchedColumns], joints: Sequence[str]) -> Iterable[Likeness]:
+    """Say what arrays look like by the words in their names, as far as their width fits; each quantity once.
+
+    Args:
+        members: Arrays with the same number of rows.
+        joints: Joints of the robot that move; none if it is not known.
+
+    Yields:
+        What they look like.
+    """
+    quantities: set[str] = set()
+    for k, array in enumerate(members):
+        words = set(_words(array.name))
+        for quantity, likely in _ARRAY_WORDS.items():
+            width = _WIDTHS.get(quantity)
+            fits = array.columns == width if width else 1 < array.columns <= max(len(joints), 64)
+            joint_like = width or "joint" in words or "joints" in words or array.columns == len(joints)
+            if quantity not in quantities and fits and joint_like and words & set(likely):
+                quantities.add(quantity)
+                yield Likeness(quantity=quantity, columns=(k,))
+                break
+
+
+def _words(name: str) -> list[str]:
+    apart = "".join(f" {c.lower()}" if c.isupper() else c if c.isalnum() else " " for c in name)
+    return apart.split()
+
+
+def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames: Mapping[str, str]) -> list[str]:
+    """Write the `[recording]` table.
+
+    Args:
+        log: The log.
+        folder: Folder of the experiment file, from which paths count.
+        model: The robot; None for a wrist sensor without one.
+        frames: Frame of the wrench of a stream, by the stream.
+
+    Returns:
+        Its lines.
+    """
+    lines = ["[recording]", line("format", log.format), line("path", relative(log.paths[0], folder))]
+    for stream in log.streams:
+        sketch = stream.table
+        if sketch is None:
+            continue
+        names = [column.name for column in sketch.columns]
+        lines += ["", "[[recording.stream]]", line("name", stream.name)]
+        lines.append(line("variable", names[stream.groups[0].columns[0]]))
+        lines += _time_lines(sketch)
+        for group in stream.groups:
+            lines += _array_signal(group, sketch.columns[group.columns[0]], model, stream.name, frames)
+        used = {names[k] for group in stream.groups for k in group.columns}
+        rest = [f"{c.name} ({c.rows} x {c.columns})" for c in sketch.columns if c.name not in used and c.step is None]
+        if rest:
+            lines += ["", remark(f"not read: {listed(rest)}")]
+    if log.skipped_arrays:
+        lines += ["", remark(not_read_sentence(log.skipped_arrays))]
+    if not log.streams:
+        arrays = listed([f"{one.name} ({one.rows} x {one.columns})" for one in log.arrays])
+        lines += ["", "[[recording.stream]]", line("name", "log")]
+        lines.append(question("variable", f"array with what is read: {arrays}"))
+        words = 'array or column of the time: { variable = "...", unit = "s" }; or the two lines below in its place'
+        lines += [question("time", words), *RATE_LINES]
+        lines += ["", "[[recording.stream.signal]]", question("quantity", f"one of {listed(QUANTITIES, 99)}")]
+        lines += [question("columns", "first and last column, from 1"), question("unit", "its unit")]
+    return lines
+
+
+def array_time(columns: Sequence[SketchedColumns]) -> SketchedColumns | None:
+    """Find the array that looks like the time.
+
+    Args:
+        columns: Arrays.
+
+    Returns:
+        One that rises as times do, the first that is called so if any is; None for none.
+    """
+    rising = [column for column in columns if column.step is not None]
+    named = [
+        column for column in rising if {"time", "stamp", "timestamps", "timestamp", "t"} & set(_words(column.name))
+    ]
+    return next(iter([*named, *rising]), None)
+
+
+def _time_lines(sketch: LogSketch) -> list[str]:
+    chosen = array_time(sketch.columns)
+    if chosen is None:
+        words = 'no array rises as a time does: { variable = "...", unit = "s" }'
+        choice = f'{words}, or {{ column = 1, unit = "s" }} of the array; or the two lines below in its place'
+        return [question("time", choice), *RATE_LINES]
+    return [f"time = {toml_value({'variable': chosen.name, 'unit': OPEN})}  {remark(time_words(chosen))}"]
+
+
+def _array_signal(
+    group: Likeness, array: SketchedColumns, model: RobotModel | None, stream: str, frames: Mapping[str, str]
+) -> list[str]:
+    quantity = QUANTITIES[group.quantity]
+    usual = USUAL_UNITS.get(group.quantity, "")
+    lines = ["", "[[recording.stream.signal]]", line("quantity", group.quantity), line("variable", array.name)]
+    lines.append(line("columns", [1, array.columns]))
+    lines.append(question("unit", f"unit of all, or a list: {usual}"))
+    if quantity.labels is Labels.JOINTS:
+        lines.append(joints_question(array.columns, "", model, key="names"))
+    if quantity.has_frame:
+        lines.append(axes_line(group.quantity, stream, frames))
+    return lines

@@ -1,0 +1,305 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What files hold: streams and clocks of a recording, calibrations, and columns that nobody declared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Annotated
+
+import numpy as np
+
+from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.formats.log_format import LogSketch, SketchedColumns
+from forcetorque.formats.prior.prior_file import PriorFile
+from forcetorque.formats.tabular.numbers import ISO8601
+from forcetorque.recording.alignment import ClockShift
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.results.table import Row, Shown, Table, Values
+
+_MOST_SHOWN = 60
+"""Letters of what a stream holds in the table; JSON has all."""
+
+
+class StreamRow(Row):
+    """One stream."""
+
+    samples: int
+    """How many."""
+    rate_hz: float | None
+    """By the median time between samples; None for fewer than two."""
+    longest_gap_s: float | None
+    """Longest time between samples; None for fewer than two."""
+    clock: str
+    """Clock that stamped them; only streams of one clock are combined."""
+    holds: tuple[str, ...]
+    """Its signals: quantity, number of columns, units, frame."""
+
+
+def stream_rows(streams: Mapping[str, Stream]) -> dict[str, StreamRow]:
+    """Describe streams.
+
+    Args:
+        streams: Streams by name.
+
+    Returns:
+        A row for each, by name.
+    """
+    return {name: _stream_record(stream) for name, stream in streams.items()}
+
+
+def stream_table(rows: Mapping[str, StreamRow], caption: str) -> Table:
+    """Put streams into a table.
+
+    Args:
+        rows: Streams by name.
+        caption: What was inspected.
+
+    Returns:
+        A line per stream.
+    """
+    return Table(
+        caption=caption,
+        headings=("stream", "samples", "rate, Hz", "longest gap, s", "clock", "holds"),
+        rows=tuple(
+            (name, str(row.samples), _shown(row.rate_hz), _shown(row.longest_gap_s), row.clock, _short(row.holds))
+            for name, row in rows.items()
+        ),
+    )
+
+
+def _stream_record(stream: Stream) -> StreamRow:
+    steps = np.diff(stream.stamp_ns) * 1e-9
+    period = float(np.median(steps)) if len(steps) else 0.0
+    return StreamRow(
+        samples=len(stream),
+        rate_hz=1.0 / period if period > 0.0 else None,
+        longest_gap_s=float(steps.max()) if len(steps) else None,
+        clock=stream.clock,
+        holds=tuple(map(_held, stream.signals.values())),
+    )
+
+
+def _held(signal: Signal) -> str:
+    units = ", ".join(dict.fromkeys(signal.units))
+    return f"{signal.quantity} x {len(signal.units)}, {units}" + (
+        f" in {signal.frame}" if signal.frame is not None else ""
+    )
+
+
+def _shown(number: float | None) -> str:
+    return "" if number is None else f"{number:.3g}"
+
+
+def _short(holds: tuple[str, ...]) -> str:
+    text = "; ".join(holds)
+    return text if len(text) <= _MOST_SHOWN else f"{text[: _MOST_SHOWN - 3]}..."
+
+
+class ClockRow(Row):
+    """One `[[clock]]` of the experiment file."""
+
+    stream: str
+    """Stream that is brought to the other's clock; of several that share one, the first."""
+    to: str
+    """Stream whose clock stays."""
+    estimated: bool
+    """Whether the delay was to be estimated; else it was stated."""
+    delay_s: float | None
+    """By how much its stamps are later, in the middle of the stream; None where the recording does not tell it."""
+    delay_half_width_95_s: float | None
+    """Half of its 95 % interval; None where it was stated, or is not told."""
+    drift: float | None
+    """Seconds by which the delay grows in a second; None where it is not told."""
+    drift_half_width_95: float | None
+    """Half of its 95 % interval; None where it was not estimated."""
+    unasked_drift: float | None
+    """Drift that the recording tells though none was asked for; None for none."""
+    shown_by: str | None
+    """What both streams show, by which the delay was estimated; None where it was stated, or is not told."""
+    explained: float | None
+    """Share of its movement that the one explains of the other; None likewise."""
+    untold: str | None
+    """Why the recording does not tell the delay; None where it does, or it was stated."""
+
+
+def clock_rows(clocks: Iterable[ClockShift]) -> tuple[ClockRow, ...]:
+    """Put clocks into rows.
+
+    Args:
+        clocks: How stamps differ, in the order of the file.
+
+    Returns:
+        A row for each.
+    """
+    return tuple(map(_clock_record, clocks))
+
+
+def _clock_record(shift: ClockShift) -> ClockRow:
+    is_told = shift.untold is None
+    return ClockRow(
+        stream=shift.stream,
+        to=shift.to,
+        estimated=not is_told or shift.shown_by is not None,
+        delay_s=shift.delay_s if is_told else None,
+        delay_half_width_95_s=shift.delay_half_width_s,
+        drift=shift.drift if is_told else None,
+        drift_half_width_95=shift.drift_half_width,
+        unasked_drift=shift.unasked_drift,
+        shown_by=shift.shown_by,
+        explained=shift.explained,
+        untold=shift.untold,
+    )
+
+
+class MatrixRow(Row):
+    """One component of the matrix that a sensor came with."""
+
+    component: str
+    """fx to tz."""
+    unit: str
+    """N or N m."""
+    full_scale: float | None
+    """Full scale, in the unit; None where the file states none."""
+    coefficients: Values
+    """Coefficient of every channel, in the unit per raw unit."""
+
+    def by_channel(self) -> dict[str, object]:
+        """Give the row as one line of a table of numbers: six channels are no wrench.
+
+        Returns:
+            Values by key, `channel_0` and so on among them.
+        """
+        channels = {f"channel_{k}": value for k, value in enumerate(self.coefficients.tolist())}
+        return {"component": self.component, "unit": self.unit, "full_scale": self.full_scale, **channels}
+
+
+class SeenCalibration(Row):
+    """The calibration that a sensor came with."""
+
+    form: str
+    """What the file is."""
+    serial: str | None
+    """Serial number; None where the file has none."""
+    date: str | None
+    """When it was calibrated, as the file writes it; None where it does not."""
+    raw_unit: str
+    """Unit of the channels."""
+    rows: tuple[MatrixRow, ...]
+    """Its matrix."""
+    notes: tuple[str, ...]
+    """What else is to be known of it."""
+
+    def table(self, caption: str) -> Table:
+        """Put the matrix into a table.
+
+        Args:
+            caption: Name of the file.
+
+        Returns:
+            A line per component.
+        """
+        channels = len(self.rows[0].coefficients)
+        per = "" if self.raw_unit == "N, N m" else f" per {self.raw_unit.removesuffix('s')}"
+        return Table(
+            caption=f"{caption}: {self.form}, serial number {self.serial or 'not stated'}, {self.date or 'no date'}",
+            headings=("component", "unit", "full scale", *(f"channel {k}{per}" for k in range(channels))),
+            rows=tuple(
+                (
+                    row.component,
+                    row.unit,
+                    "" if row.full_scale is None else f"{row.full_scale:g}",
+                    *(f"{value:.5g}" for value in row.coefficients),
+                )
+                for row in self.rows
+            ),
+        )
+
+
+class ColumnRow(Row):
+    """A column of a table, or an array, that nobody declared."""
+
+    column: Annotated[str, Shown("column or array")]
+    """Its name."""
+    rows: Annotated[int, Shown("rows")]
+    """How many rows it has."""
+    columns: Annotated[int, Shown("columns")]
+    """How many columns; 1 in a table."""
+    unit: Annotated[str | None, Shown("unit")]
+    """Unit that its heading states; None for none."""
+    smallest: Annotated[float | None, Shown("smallest", digits=4)]
+    """Smallest of its numbers; None where none was read."""
+    largest: Annotated[float | None, Shown("largest", digits=4)]
+    """Largest of its numbers; None where none was read."""
+    mean: Annotated[float | None, Shown("mean", digits=4)]
+    """Mean of its numbers; None where none was read."""
+    looks_like: Annotated[str | None, Shown("looks like")]
+    """What it looks like by its name; None for nothing. Nothing is read by that."""
+
+
+def calibration_row(file: PriorFile) -> SeenCalibration:
+    """Describe the calibration that a sensor came with.
+
+    Args:
+        file: What its file says.
+
+    Returns:
+        The same as rows.
+    """
+    full_scale = [None] * 6 if file.full_scale is None else file.full_scale.tolist()
+    return SeenCalibration(
+        form=file.form,
+        serial=file.serial,
+        date=file.date,
+        raw_unit=file.raw_unit.value,
+        rows=tuple(
+            MatrixRow(component=component, unit=unit, full_scale=scale, coefficients=coefficients)
+            for component, unit, scale, coefficients in zip(
+                WRENCH_COMPONENTS, WRENCH_UNITS, full_scale, file.matrix, strict=True
+            )
+        ),
+        notes=file.notes,
+    )
+
+
+def column_rows(sketch: LogSketch, likeness: dict[int, str]) -> tuple[ColumnRow, ...]:
+    """Describe columns.
+
+    Args:
+        sketch: The log.
+        likeness: What columns look like, by their places.
+
+    Returns:
+        A row for each.
+    """
+    return tuple(_column_row(column, likeness.get(k)) for k, column in enumerate(sketch.columns))
+
+
+def sketch_words(rows: Iterable[ColumnRow], source: str) -> str:
+    """Say what to do with a log that does not say what it holds.
+
+    Args:
+        rows: Its columns.
+        source: The log.
+
+    Returns:
+        A sentence.
+    """
+    stated = sum(row.unit is not None for row in rows)
+    units = f"the headings state {stated} unit(s)" if stated else "it states no unit"
+    return (
+        f"nothing of it is read until an experiment file says what it is, for {units}: `forcetorque init {source}` "
+        "begins one, with a question for each thing that nobody can tell"
+    )
+
+
+def _column_row(column: SketchedColumns, looks_like: str | None) -> ColumnRow:
+    return ColumnRow(
+        column=column.name,
+        rows=column.rows,
+        columns=column.columns,
+        unit=column.unit,
+        smallest=column.smallest,
+        largest=column.largest,
+        mean=column.mean,
+        looks_like=looks_like if column.is_number or column.unit == ISO8601 else "a text",
+    )

@@ -1,0 +1,400 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How a robot moves: whether it oscillates, how long it takes to settle, how well it tracks (thesis 8.3)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, RecordingError
+from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.locomotion.logged_signals import MotionSignal
+from forcetorque.locomotion.oscillation.oscillation import OscillationSearch, find_oscillations
+from forcetorque.locomotion.oscillation.settling import Settling, command_steps, settlings, tracking_error
+from forcetorque.locomotion.oscillation.spectrum import EvenedSignal, evened
+from forcetorque.results.result import Result
+from forcetorque.results.table import FloatOrNull, Row, Shown, Table, Values, table_of
+
+
+class OscillationRow(Row):
+    """One oscillation of a column, or that it has none; half-widths are of 95 % intervals."""
+
+    interval: Annotated[str, Shown("interval")]
+    """Label of the interval."""
+    column: Annotated[str, Shown("column")]
+    """Name of the column; `A - B` is a tracking error."""
+    oscillates: Annotated[bool, Shown("oscillates")]
+    """Whether a swing stands out of the noise; if not, numbers of it are null."""
+    frequency_hz: Annotated[float | None, Shown("frequency", "Hz", digits=4, error="frequency_half_width_95_hz")]
+    """Its frequency."""
+    frequency_half_width_95_hz: float | None
+    """Half-width of that."""
+    amplitude: Annotated[float | None, Shown("amplitude", digits=5, error="amplitude_half_width_95")]
+    """Half of peak to peak of a steady swing with its mean square, in `unit`."""
+    amplitude_half_width_95: float | None
+    """Half-width of that."""
+    unit: Annotated[str, Shown("unit")]
+    """Unit of the column."""
+    damping: Annotated[float | None, Shown("damping", digits=4, error="damping_half_width_95")]
+    """Damping ratio; about 0 of a swing that stays, below 0 of one that grows; null of one that does not keep its
+    phase."""
+    damping_half_width_95: float | None
+    """Half-width of that."""
+    phase_kept_s: Annotated[float | None, Shown("phase kept", "s", digits=1)]
+    """Time over which it keeps its phase: that of the interval, or of a part of it."""
+    seen_amplitude: Annotated[FloatOrNull, Shown("seen from", digits=5)]
+    """Amplitude from which on a further steady swing of that frequency would be seen in 95 % of such records; where
+    nothing swings, one of any frequency that was looked at."""
+    seen_amplitude_middle: float
+    """The same at the geometric middle of the frequencies that were looked at: slow drift hides slow swings most."""
+    lowest_hz: float
+    """Lowest frequency that was looked at."""
+    highest_hz: float
+    """Highest frequency that was looked at."""
+    samples: int
+    """Samples of the interval."""
+    duration_s: float
+    """How long it lasts."""
+
+
+class SettlingRow(Row):
+    """What a column did after one step."""
+
+    interval: Annotated[str, Shown("interval")]
+    """Label of the interval."""
+    column: Annotated[str, Shown("column")]
+    """Name of the column."""
+    step_at_s: Annotated[float, Shown("step at", "s", digits=3)]
+    """Instant of the step, from the start of the recording."""
+    step: Annotated[float, Shown("step", digits=5)]
+    """How far it went, in `unit`."""
+    unit: Annotated[str, Shown("unit")]
+    """Unit of the column."""
+    settling_s: Annotated[float | None, Shown("settles in", "s", digits=3)]
+    """Time after which it stays within the band; null if it does not before the next step."""
+    earliest_s: Annotated[float, Shown("from", "s", digits=3)]
+    """Lower end of its 95 % interval."""
+    latest_s: Annotated[float | None, Shown("to", "s", digits=3)]
+    """Upper end; null if noise may hide that it has not settled."""
+    band: float
+    """Half of the band about the end, in `unit`."""
+    overshoot_percent: Annotated[float, Shown("overshoot", "%", digits=1)]
+    """How far it went beyond its end, of the step."""
+    left_error: Annotated[float | None, Shown("left error", digits=5)]
+    """Where it ended less what was wanted there, in `unit`; null where nothing says what was wanted."""
+
+
+class TrackingRow(Row):
+    """How far a column is from what was wanted of it."""
+
+    interval: Annotated[str, Shown("interval")]
+    """Label of the interval."""
+    column: Annotated[str, Shown("column")]
+    """Name of the column."""
+    desired: Annotated[str, Shown("desired")]
+    """Column of what was wanted."""
+    rms: Annotated[float, Shown("RMS error", digits=5)]
+    """Root mean square of the difference, in `unit`."""
+    rms_lower_95: Annotated[float, Shown("from", digits=5)]
+    """Lower end of its 95 % interval."""
+    rms_upper_95: Annotated[float, Shown("to", digits=5)]
+    """Upper end."""
+    mean_error: Annotated[float, Shown("mean error", digits=5)]
+    """Mean of the difference."""
+    unit: Annotated[str, Shown("unit")]
+    """Unit of both."""
+    samples: Annotated[int, Shown("samples")]
+    """Samples with both."""
+    effective_samples: Annotated[float, Shown("worth", digits=0)]
+    """Independent samples with a mean as well known."""
+
+
+class MotionCurve(Row):
+    """A column with the swings that were told of it, for the figure."""
+
+    title: str
+    """Interval and column."""
+    unit: str
+    """Unit of the column."""
+    time_s: Values
+    """Instants; shape (n,); s."""
+    values: Values
+    """The column; shape (n,)."""
+    swing: Values | None
+    """Mean, trend and all swings; shape (n,); null where it does not oscillate."""
+
+
+BAND_SHARE = 0.05
+"""Half of the band of settling over the step."""
+NEAR_LIMIT = 1.25
+"""Times the amplitude that would be seen below which an amplitude is doubted: a smaller one is only seen when noise
+adds to it."""
+
+
+class Motion(Result):
+    """What columns of a motion do."""
+
+    schema_name: Literal["forcetorque/motion/1"] = Field(default="forcetorque/motion/1", alias="schema")
+    """Form of the result."""
+    oscillations: tuple[OscillationRow, ...]
+    """Swings of every interval and column, the largest first; one row that says so where there is none."""
+    settling: tuple[SettlingRow, ...]
+    """A row for every step."""
+    tracking: tuple[TrackingRow, ...]
+    """A row for every column of which something was wanted."""
+    band_percent: float
+    """Half of the band of settling, of the step."""
+    figure: str | None = None
+    """File of the figure."""
+    curves: tuple[MotionCurve, ...] = Field(default=(), exclude=True, repr=False)
+    """Columns with their swings, for the figure."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give tables of oscillations, settling times and tracking errors.
+
+        Yields:
+            Tables and sentences.
+        """
+        yield table_of(self.oscillations, "oscillations; ±: half a 95 % interval")
+        for row in self.oscillations:
+            if not row.oscillates:
+                middle_hz = math.sqrt(row.lowest_hz * row.highest_hz)
+                yield (
+                    f"{row.interval}: {row.column}: no oscillation from {row.lowest_hz:.3g} to {row.highest_hz:.4g} "
+                    f"Hz; a steady one of {row.seen_amplitude:.3g} {row.unit} or more would be seen, at "
+                    f"{middle_hz:.2g} Hz one of {row.seen_amplitude_middle:.2g} {row.unit}"
+                )
+        if self.settling:
+            yield table_of(
+                self.settling, f"after steps: when it stays within {self.band_percent:g} % of the step; 95 % intervals"
+            )
+        if self.tracking:
+            yield table_of(self.tracking, "tracking errors; 95 % intervals that count how long errors go on")
+        if self.figure is not None:
+            yield f"drawn to {self.figure}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give oscillations, settling times and tracking errors as flat lines.
+
+        Returns:
+            One line per row, with its kind.
+        """
+        kinds = (("oscillation", self.oscillations), ("settling", self.settling), ("tracking", self.tracking))
+        return [{"kind": kind, **row.flat()} for kind, rows in kinds for row in rows]
+
+
+@with_recording_notes
+def motion(signals: Sequence[MotionSignal], *, steps_s: Sequence[float] = (), band_share: float = BAND_SHARE) -> Motion:
+    """Say how columns move: `motion(motion_signals("walk.toml", ["com.y"]))`.
+
+    Of a column of which something was wanted the difference is looked at too: a command that swings is no oscillation
+    of the robot.
+
+    Args:
+        signals: Columns, of a log (`motion_signals`) or of arrays (`motion_signals_of_arrays`).
+        steps_s: Instants of steps, from the start of the recording; those of what was wanted, where that goes in steps,
+            if none is named; s.
+        band_share: Half of the band of settling over the step.
+
+    Returns:
+        Oscillations, which may be none, settling times and tracking errors, all with intervals.
+
+    Raises:
+        ExperimentError: If there is no signal, or a step lies in no interval.
+        RecordingError: If a column never changes, or is too short for a period.
+    """
+    if not signals:
+        raise ExperimentError("expected a column at least, got none")
+    if not 0.0 < band_share < 1.0:
+        raise ExperimentError(f"band: expected more than 0 and less than 100 % of the step, got {100 * band_share:g} %")
+    for step in steps_s:
+        if not any(len(one.time_s) and one.time_s[0] <= step <= one.time_s[-1] for one in signals):
+            raise ExperimentError(
+                f"step at {step:g} s: expected an instant within an interval, from the first sample on"
+            )
+    answers = [_Answer.of(signal, sorted(steps_s), band_share) for signal in signals]
+    return Motion(
+        oscillations=tuple(row for answer in answers for row in answer.oscillations),
+        settling=tuple(row for answer in answers for row in answer.settling),
+        tracking=tuple(answer.tracking for answer in answers if answer.tracking is not None),
+        band_percent=100.0 * band_share,
+        curves=tuple(curve for answer in answers for curve in answer.curves),
+        warnings=(
+            *dict.fromkeys(doubt for answer in answers for doubt in answer.doubts),
+            *dict.fromkeys(sentence for signal in signals for sentence in signal.added),
+        ),
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Answer:
+    """What one signal does."""
+
+    oscillations: tuple[OscillationRow, ...]
+    settling: tuple[SettlingRow, ...]
+    tracking: TrackingRow | None
+    curves: tuple[MotionCurve, ...]
+    doubts: tuple[str, ...]
+
+    @classmethod
+    def of(cls, signal: MotionSignal, steps_s: Sequence[float], band_share: float) -> _Answer:
+        own = evened(signal.time_s, signal.values, name=signal.name)
+        searched = [(signal.column, own, find_oscillations(own, name=signal.name))]
+        desired = signal.desired_values
+        if desired is not None:
+            error = signal.values - desired
+            if np.nanmax(error, initial=-math.inf) > np.nanmin(error, initial=math.inf):
+                name = f"{signal.column} - {signal.desired}"
+                left = evened(signal.time_s, error, name=f"{signal.interval}: {name}")
+                searched.append((name, left, find_oscillations(left, name=f"{signal.interval}: {name}")))
+        settling, untold = _settled(signal, own, steps_s, band_share)
+        return cls(
+            oscillations=tuple(row for name, even, search in searched for row in _rows(signal, name, even, search)),
+            settling=tuple(_settling(signal, row) for row in settling),
+            tracking=None if desired is None else _tracking(signal, desired),
+            curves=tuple(_curve(signal, name, even, search) for name, even, search in searched),
+            doubts=(*(doubt for entry in searched for doubt in _doubts(signal, *entry)), *untold),
+        )
+
+
+def _settled(
+    signal: MotionSignal, even: EvenedSignal, steps_s: Sequence[float], band_share: float
+) -> tuple[list[Settling], list[str]]:
+    """What it did after each step, or why that is not told."""
+    try:
+        return settlings(even, _steps(signal, steps_s), band_share=band_share, name=signal.name), []
+    except RecordingError as error:
+        return [], [f"no settling time: {error}"]
+
+
+def _steps(signal: MotionSignal, steps_s: Sequence[float]) -> list[float]:
+    """Instants of steps in the interval: those that are stated, else those of what was wanted."""
+    if steps_s:
+        return [step for step in steps_s if signal.time_s[0] <= step <= signal.time_s[-1]]
+    if signal.desired_values is None:
+        return []
+    known = np.isfinite(signal.desired_values)
+    name = f"{signal.interval}: {signal.desired}"
+    return [float(at) for at in command_steps(signal.time_s[known], signal.desired_values[known], name=name)]
+
+
+def _rows(signal: MotionSignal, name: str, even: EvenedSignal, search: OscillationSearch) -> Iterator[OscillationRow]:
+    nothing = OscillationRow(
+        interval=signal.interval,
+        column=name,
+        oscillates=False,
+        frequency_hz=None,
+        frequency_half_width_95_hz=None,
+        amplitude=None,
+        amplitude_half_width_95=None,
+        unit=signal.unit,
+        damping=None,
+        damping_half_width_95=None,
+        phase_kept_s=None,
+        seen_amplitude=float(search.sensitivity.amplitude.max()),
+        seen_amplitude_middle=search.seen_amplitude(math.sqrt(search.lowest_hz * search.highest_hz)),
+        lowest_hz=search.lowest_hz,
+        highest_hz=search.highest_hz,
+        samples=len(signal.values),
+        duration_s=even.duration_s,
+    )
+    if not search.oscillations:
+        yield nothing
+    for one in search.oscillations:
+        frequency, amplitude, damping = one.half_width.tolist()
+        steady = math.isfinite(one.damping)
+        yield nothing.model_copy(
+            update={
+                "oscillates": True,
+                "frequency_hz": one.frequency_hz,
+                "frequency_half_width_95_hz": frequency,
+                "amplitude": one.amplitude,
+                "amplitude_half_width_95": amplitude,
+                "damping": one.damping if steady else None,
+                "damping_half_width_95": damping if steady else None,
+                "phase_kept_s": one.coherence_s,
+                "seen_amplitude": search.seen_amplitude(one.frequency_hz),
+            }
+        )
+
+
+def _settling(signal: MotionSignal, row: Settling) -> SettlingRow:
+    desired = signal.desired_values
+    wanted = None
+    if desired is not None:
+        held = np.isfinite(desired) & (signal.time_s >= row.time_s)
+        wanted = float(desired[held][_before_next(desired[held])]) if held.any() else None
+    return SettlingRow(
+        interval=signal.interval,
+        column=signal.column,
+        step_at_s=row.time_s,
+        step=row.step,
+        unit=signal.unit,
+        settling_s=row.settling_s,
+        earliest_s=row.earliest_s,
+        latest_s=row.latest_s if math.isfinite(row.latest_s) else None,
+        band=row.band,
+        overshoot_percent=100.0 * row.overshoot,
+        left_error=None if wanted is None else row.end - wanted,
+    )
+
+
+def _before_next(command: FloatArray) -> int:
+    """Index of the value that a command holds after a step: the one that stays longest before it changes again."""
+    changes = np.flatnonzero(np.diff(command) != 0.0)
+    edges = np.concatenate([[-1], changes, [len(command) - 1]])
+    held = np.diff(edges)
+    return int(edges[1 + int((held > 1).argmax())])
+
+
+def _tracking(signal: MotionSignal, desired: FloatArray) -> TrackingRow:
+    error = tracking_error(signal.time_s, desired, signal.values, name=signal.name)
+    return TrackingRow(
+        interval=signal.interval,
+        column=signal.column,
+        desired=signal.desired or "",
+        rms=error.rms,
+        rms_lower_95=error.lower,
+        rms_upper_95=error.upper,
+        mean_error=error.mean,
+        unit=signal.unit,
+        samples=error.count,
+        effective_samples=error.effective_count,
+    )
+
+
+def _curve(signal: MotionSignal, name: str, even: EvenedSignal, search: OscillationSearch) -> MotionCurve:
+    swing = None
+    if search.oscillations:
+        line = np.polynomial.Polynomial.fit(even.time_s, even.values, 1)
+        swing = line(even.time_s) + np.sum([one.fitted for one in search.oscillations], axis=0)
+    return MotionCurve(
+        title=f"{signal.interval}: {name}", unit=signal.unit, time_s=even.time_s, values=even.values, swing=swing
+    )
+
+
+def _doubts(signal: MotionSignal, name: str, even: EvenedSignal, search: OscillationSearch) -> Iterator[str]:
+    where = f"{signal.interval}: {name}"
+    if not even.even:
+        yield (
+            f"{where}: the clock is uneven, with up to {even.longest_step_s:.3g} s between samples: only swings of up "
+            f"to {even.highest_hz:.3g} Hz are looked at; log without pauses to see faster ones"
+        )
+    for one in search.oscillations:
+        if not math.isfinite(one.damping):
+            yield (
+                f"{where}: the swing of {one.frequency_hz:.4g} Hz keeps its phase for some {one.coherence_s:.3g} s "
+                "only, or comes and goes: no damping is told, and its amplitude is that of what keeps its phase so "
+                "long; choose a shorter interval to see more"
+            )
+        elif one.amplitude < NEAR_LIMIT * search.seen_amplitude(one.frequency_hz):
+            yield (
+                f"{where}: the swing of {one.frequency_hz:.4g} Hz hardly stands out of the noise: what is seen at that "
+                "limit is larger than it is, as a smaller one would not have been seen; record longer"
+            )

@@ -1,0 +1,380 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Means of measurements and motion under loads, of a wrist sensor and of loads on links of a robot.
+
+The expected wrench of a sensor is linear in mass, first moment and inertia of a load on a link: robots that weigh
+nothing but one of the ten give what each adds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.inertia import Inertia
+from forcetorque.base.noise.means import means_over, window_for
+from forcetorque.base.wrench import reading_sign
+from forcetorque.experiment.calibration.assumptions import FLATTENED
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.sample_quality import sample_quality
+from forcetorque.payload.identification.load_problem import Load, LoadProblem, LoadRows
+from forcetorque.payload.identification.parameters import inertia_of
+from forcetorque.recording.alignment import interpolate, seconds_since
+from forcetorque.recording.recording import Interval, Recording, Use
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.root_motion import support_motion_at
+from forcetorque.robot.mechanics.samples import Processing, robot_motion_at
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.tree import build_tree
+
+if TYPE_CHECKING:
+    from forcetorque.payload.wrist_load import WristLoads
+
+
+MOST_ROWS = 3600
+"""Means of an interval, at most: an hour has means of 1 s, a day of half a minute."""
+
+
+def weighing_readings(
+    experiment: Experiment, sensor: ExperimentSensor, interval: Interval
+) -> tuple[IntArray, FloatArray]:
+    """Read a sensor in an interval, without samples that say nothing of its load or lie in an ignored interval.
+
+    Args:
+        experiment: The experiment, of which the recording is used.
+        sensor: The sensor; raw counts are read by its prior.
+        interval: The interval.
+
+    Returns:
+        Instants, shape (n,), ns; and wrenches, NaN in gaps, shape (n, 6), N, N m.
+
+    Raises:
+        ExperimentError: If there are raw counts and no prior.
+    """
+    stream = experiment.recording.stream(sensor.stream)
+    inside = interval.holds(stream.stamp_ns) & ~sample_quality(experiment, sensor).unusable
+    for other in experiment.recording.intervals:
+        if other.use is Use.IGNORE:
+            inside &= ~other.holds(stream.stamp_ns)
+    reading = stream.signal(sensor.quantity).values[inside]
+    if sensor.quantity == "raw":
+        if sensor.prior is None:
+            raise ExperimentError(
+                f"sensor {sensor.name!r}: expected prior, a matrix that reads it roughly, without which nobody tells "
+                "loads and matrix apart; or state mass_kg and centre_of_mass_m of every [[load]]"
+            )
+        reading = reading @ sensor.prior.T
+    return stream.stamp_ns[inside], reading
+
+
+def weighing_means(time_s: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Average the samples of an interval over windows in which noise is nearly white, and that are not too many.
+
+    Args:
+        time_s: Times; shape (n,); s.
+        values: What is averaged; shape (n, k).
+
+    Returns:
+        Middles of the windows, shape (w,), s; means, shape (w, k); and the number of samples of each, shape (w,).
+    """
+    length = float(time_s[-1] - time_s[0]) if len(time_s) else 0.0
+    return means_over(time_s, values, max(window_for(time_s), length / MOST_ROWS))
+
+
+_ENDS = np.cumsum([6, 3, 3, 9, 9])
+"""Last columns of wrench, proper acceleration, angular acceleration, products of the angular velocity, orientation."""
+_MOTION_END = int(_ENDS[3])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _WristInterval:
+    """Rows of one interval."""
+
+    interval: Interval
+    time_s: FloatArray
+    means: FloatArray  # columns that end at `_ENDS`, then variables
+    counts: IntArray
+    names: tuple[str, ...]
+
+
+def load_problem(experiment: Experiment, wrist: WristLoads, *, use: Use = Use.CALIBRATION) -> LoadProblem:
+    """Ask what intervals tell of the loads on a wrist sensor, and of its bias in every session.
+
+    Args:
+        experiment: The experiment, of which the recording and its intervals are used.
+        wrist: Loads and sensor.
+        use: Use of the intervals.
+
+    Returns:
+        The problem; samples that lack something, or lie in an ignored interval, are left out.
+
+    Raises:
+        ExperimentError: If there is no such interval, the sensor has raw readings and no prior, or nothing is left.
+    """
+    intervals = sorted(experiment.intervals(use), key=lambda interval: interval.start_ns)
+    spans = [_wrist_interval(experiment, wrist.sensor, interval) for interval in intervals]
+    if not sum(len(span.time_s) for span in spans):
+        raise ExperimentError(
+            f'sensor {wrist.sensor.name!r}: expected samples in an interval with use = "{use}", with a reading and a '
+            "motion; the streams have gaps or missing values all over it"
+        )
+    names = [experiment.session_names(interval.label)[-1] for interval in intervals]
+    sessions = tuple(dict.fromkeys(names))
+    lengths = [len(span.time_s) for span in spans]
+    means = np.concatenate([span.means for span in spans])
+    wrench, acceleration, turning, products, turned, values = np.split(means, _ENDS, axis=1)
+    variables = tuple(f"{one.linear.name} ({one.linear.unit})" for one in wrist.sensor.variables)
+    turns = bool(turning.any() or products.any())
+    usual = np.median(np.concatenate([span.counts for span in spans]))
+    rows = LoadRows(
+        wrench=wrench,
+        proper_acceleration=acceleration,
+        angular_velocity_products=products.reshape(-1, 3, 3) if turns else None,
+        angular_acceleration=turning if turns else None,
+        time_s=np.concatenate([span.time_s for span in spans]),
+        session=np.repeat([sessions.index(name) for name in names], lengths),
+        block=np.repeat(np.arange(len(spans)), lengths),
+        load=np.repeat([wrist.number_of(interval.support) for interval in intervals], lengths),
+        share=np.concatenate([span.counts for span in spans]) / usual,
+        variables=values if variables else None,
+        orientation=turned.reshape(-1, 3, 3) if np.isfinite(turned).all() else None,
+        names=tuple(name for span in spans for name in span.names),
+    )
+    return LoadProblem(
+        rows=rows,
+        loads=wrist.loads,
+        sessions=sessions,
+        blocks=tuple(interval.label for interval in intervals),
+        direction=wrist.direction,
+        drift=wrist.table.drift,
+        mount=wrist.table.mount is not None,
+        tilt=wrist.table.tilt is not None,
+        variables=variables,
+    )
+
+
+def samples_left_out(experiment: Experiment, wrist: WristLoads) -> int:
+    """Count samples of the calibration intervals that lack a finite reading or motion.
+
+    Args:
+        experiment: The experiment.
+        wrist: Loads and sensor.
+
+    Returns:
+        Their number.
+    """
+    return sum(
+        int((~np.isfinite(_columns(experiment, wrist.sensor, interval)[1][:, :_MOTION_END]).all(axis=1)).sum())
+        for interval in experiment.intervals(Use.CALIBRATION)
+    )
+
+
+def _wrist_interval(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> _WristInterval:
+    stamps, columns = _columns(experiment, sensor, interval)
+    numbers = np.searchsorted(experiment.recording.stream(sensor.stream).stamp_ns, stamps)
+    needed = np.r_[0:_MOTION_END, _ENDS[-1] : columns.shape[1]]
+    complete = np.isfinite(columns[:, needed]).all(axis=1)
+    time = seconds_since(stamps[complete], experiment.recording.start_ns)
+    middle, means, counts = weighing_means(time, np.nan_to_num(columns[complete]))
+    if not np.isfinite(columns[complete]).all():
+        means[:, _MOTION_END : _ENDS[-1]] = np.nan
+    single = counts.max(initial=1) == 1
+    names = (
+        tuple(f"{sensor.stream} {number + 1}" for number in numbers[complete])
+        if single
+        else tuple(f"{interval.label} at {instant:.2f} s" for instant in middle)
+    )
+    return _WristInterval(interval=interval, time_s=middle, means=means, counts=counts, names=names)
+
+
+def _columns(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> tuple[IntArray, FloatArray]:
+    """Instants of the samples of an interval, and all that is needed at them; shape (n,), (n, 30 + variables)."""
+    recording = experiment.recording
+    at_ns, reading = weighing_readings(experiment, sensor, interval)
+    if interval.support is None:
+        raise ExperimentError(f"interval {interval.label!r}: expected a load")
+    window = experiment.processing.derivative_window
+    motion, longer = (
+        support_motion_at(
+            experiment.model,
+            recording,
+            interval.support,
+            JointMotion.at_rest((), np.empty((len(at_ns), 0))),
+            at_ns,
+            window=replace(window, window_s=length),
+            gravity=0.0,
+        )
+        for length in (window.window_s, 2.0 * window.window_s)
+    )
+    velocity = np.broadcast_to(motion.angular_velocity, (len(at_ns), 3))
+    turning = np.broadcast_to(motion.angular_acceleration, (len(at_ns), 3))
+    # a window flattens a first derivative by this power of its length; near the ends of a log the longer has no room
+    power = 2 * ((window.order + 1) // 2)
+    turning = turning + np.nan_to_num(turning - longer.angular_acceleration) / (2.0**power - 1.0)
+    products = (velocity[:, :, None] * velocity[:, None, :]).reshape(-1, 9)
+    variables = [one.source.at(recording, at_ns)[:, None] for one in sensor.variables]
+    orientation = _orientation(recording, interval, at_ns)
+    return at_ns, np.hstack([reading, motion.proper_acceleration, turning, products, orientation, *variables])
+
+
+def _orientation(recording: Recording, interval: Interval, at_ns: IntArray) -> FloatArray:
+    """`world_R_sensor` row by row, where a motion stream has it; shape (n, 9); NaN where none has."""
+    names: Sequence[str] = getattr(interval.support, "motion_streams", ())
+    for stream in (recording.stream(name) for name in names):
+        if "orientation" in stream.signals:
+            return interpolate(stream, stream.signals["orientation"].values, at_ns)
+    return np.full((len(at_ns), 9), np.nan)
+
+
+_PARAMETERS = 10
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class HungInterval:
+    """An interval, and what hangs on the robot then."""
+
+    interval: Interval
+    """The interval, with a support."""
+    number: int
+    """Number of the load among those of the problem."""
+    link: str | None
+    """Link that it is fastened to; None where the URDF is all there is."""
+
+
+def link_load_problem(
+    experiment: Experiment,
+    sensor: ExperimentSensor,
+    intervals: Sequence[HungInterval],
+    loads: Sequence[Load],
+    *,
+    sessions: Sequence[str],
+) -> tuple[LoadProblem, int]:
+    """Ask what intervals tell of the loads on a robot, and of the offset of a sensor in every session.
+
+    Args:
+        experiment: The experiment, of which the recording and the processing are used.
+        sensor: Sensor that the loads are beyond.
+        intervals: Intervals, in the order of time.
+        loads: The loads, in the frames of their links.
+        sessions: Session of each interval.
+
+    Returns:
+        The problem, with constant offsets unless the file lets them drift, and the number of samples that are left out
+        because they lack something; those in an ignored interval are not asked for.
+
+    Raises:
+        ExperimentError: If the sensor has raw readings and no prior, or nothing is left.
+    """
+    spans = [_link_interval(experiment, sensor, one) for one in intervals]
+    if not sum(len(span.time_s) for span in spans):
+        raise ExperimentError(
+            f"sensor {sensor.name!r}: expected samples with a reading and the position of all joints that it needs, "
+            "got none in the calibration intervals; the streams have gaps or missing values all over them"
+        )
+    names = tuple(dict.fromkeys(sessions))
+    lengths = [len(span.time_s) for span in spans]
+    means, counts = (np.concatenate(parts) for parts in zip(*((s.means, s.counts) for s in spans), strict=True))
+    ends = np.cumsum([6, 6 * _PARAMETERS, 6])
+    wrench, columns, known, variables = np.split(means, ends, axis=1)
+    columns = columns.reshape(-1, 6, _PARAMETERS)
+    labels = [one.interval.label for one in intervals]
+    rows = LoadRows(
+        wrench=wrench,
+        proper_acceleration=columns[:, :3, 0],
+        columns=columns,
+        known=known,
+        time_s=np.concatenate([span.time_s for span in spans]),
+        session=np.repeat([names.index(session) for session in sessions], lengths),
+        block=np.repeat(np.arange(len(spans)), lengths),
+        load=np.repeat([one.number for one in intervals], lengths),
+        share=counts / np.median(counts),
+        variables=variables if variables.shape[1] else None,
+        names=tuple(f"{label} at {at:.2f} s" for label, span in zip(labels, spans, strict=True) for at in span.time_s),
+    )
+    problem = LoadProblem(
+        rows=rows,
+        loads=tuple(loads),
+        sessions=names,
+        blocks=tuple(labels),
+        direction=experiment.model.sensor(sensor.name).direction,
+        drift=experiment.fit_options.drift,
+        variables=tuple(f"{one.linear.name} ({one.linear.unit})" for one in sensor.variables),
+    )
+    return problem, sum(span.left_out for span in spans)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _LinkInterval:
+    """Means of one interval: wrench, columns, known wrench, variables."""
+
+    time_s: FloatArray
+    means: FloatArray
+    counts: IntArray
+    left_out: int
+
+
+def _link_interval(experiment: Experiment, sensor: ExperimentSensor, hung: HungInterval) -> _LinkInterval:
+    recording = experiment.recording
+    at_ns, reading = weighing_readings(experiment, sensor, hung.interval)
+    columns, known = _expected(experiment, sensor, hung, at_ns)
+    variables = [one.source.at(recording, at_ns)[:, None] for one in sensor.variables]
+    values = np.hstack([reading, columns.reshape(len(at_ns), -1), known, *variables])
+    complete = np.isfinite(values).all(axis=1)
+    time = seconds_since(at_ns[complete], recording.start_ns)
+    middle, means, counts = weighing_means(time, values[complete])
+    return _LinkInterval(time_s=middle, means=means, counts=counts, left_out=int((~complete).sum()))
+
+
+def _expected(
+    experiment: Experiment, sensor: ExperimentSensor, hung: HungInterval, at_ns: IntArray
+) -> tuple[FloatArray, FloatArray]:
+    """What each parameter adds to the wrench that moves the load, (n, 6, 10), and what the URDF makes read, (n, 6)."""
+    bare = experiment.model
+    weightless = replace(bare, links=dict.fromkeys(bare.links, Inertia.zero()))
+    parameters = [] if hung.link is None else [_with(weightless, hung.link, k) for k in range(_PARAMETERS)]
+    sign = reading_sign(bare.sensor(sensor.name).direction, child_is_outboard=True)
+    columns = np.zeros((len(at_ns), 6, _PARAMETERS))
+    readings = _readings(experiment, sensor, hung.interval, [bare, *parameters], at_ns)
+    if parameters:
+        columns[:] = sign * np.stack(readings[1:], axis=2)
+    return columns, readings[0]
+
+
+def _with(weightless: RobotModel, link: str, parameter: int) -> RobotModel:
+    """A robot that has one inertial parameter, of one link."""
+    unit = np.eye(_PARAMETERS)[parameter]
+    inertia = Inertia(mass=float(unit[0]), first_moment=unit[1:4], second_moment=inertia_of(unit[4:]))
+    return replace(weightless, links={**weightless.links, link: inertia})
+
+
+def _readings(
+    experiment: Experiment, sensor: ExperimentSensor, interval: Interval, models: Sequence[RobotModel], at_ns: IntArray
+) -> list[FloatArray]:
+    """Expected readings of a sensor on several robots that move alike, unflattened as the calibration does it."""
+    support = interval.support
+    if support is None:
+        raise ExperimentError(f"interval {interval.label!r}: expected a support frame, got none")
+    name = experiment.model.sensor(sensor.name).name
+    questions = [Question(tree=build_tree(model, support.frame), expected=(name,), equations=()) for model in models]
+    needed = tuple(dict.fromkeys(joint for question in questions for joint in required_joints_of(question)))
+    stream = experiment.recording.stream(sensor.stream)
+
+    def expected(how: Processing) -> list[FloatArray]:
+        joints, root = robot_motion_at(
+            experiment.recording, experiment.model, support, needed, stream, at_ns, processing=how
+        )
+        return [estimate(question, joints, root).expected_of(name) for question in questions]
+
+    processing = experiment.processing
+    readings = expected(processing)
+    if processing.logged_derivatives:
+        return readings
+    window = processing.derivative_window
+    longer = expected(replace(processing, derivative_window=replace(window, window_s=2.0 * window.window_s)))
+    return [one + FLATTENED * np.nan_to_num(one - other) for one, other in zip(readings, longer, strict=True)]

@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Load parameters of ROS: ros2_control [1, 2], ft_tools_ros2 [3] and force_torque_tools of KTH [4].
+
+ros2_control: the broadcaster publishes `(reading + offset) * multiplier`, axis by axis. The gravity filter subtracts
+`mass * gravity_field`, turned into the sensor's frame, and its moment about the origin.
+
+ft_tools_ros2: `reading = mass [g; c x g] + offset`, g pointing down. Its comments write the model with minus signs,
+its code has none: g is signed, [0, 0, -9.81] in the base of the robot.
+
+force_torque_tools: `reading = mass [a; c x a] + bias`, a what an IMU at rest reads: up.
+
+References:
+[1] ros2_controllers, force_torque_sensor_broadcaster.
+[2] control_toolbox, control_filters/GravityCompensationWrench.
+[3] T. Poignonec, ft_tools_ros2, ft_tools/src/ft_calibration.cpp and ft_estimation.cpp.
+[4] F. Vina, force_torque_tools, force_torque_sensor_calib/src/ft_calib.cpp and gravity_compensation.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.base.errors import FormatError
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.payload.robot_files.plain_yaml import list_of, number, number_of, numbers, read_plain_yaml, word
+from forcetorque.payload.robot_files.robot_load import RobotLoad
+
+CONTROLLER = "force_torque_sensor_broadcaster"
+"""Name of the controller, as its examples have it; it is free."""
+
+
+def broadcaster_text(load: RobotLoad) -> str:
+    """Write the parameters of the broadcaster: without load the published wrench is then zero.
+
+    Args:
+        load: Sensor and bias; its matrix is diagonal.
+
+    Returns:
+        YAML.
+    """
+    factors = load.multiplier(where="ros2-broadcaster")
+    # matrix reading - bias = matrix (reading - matrix^-1 bias)
+    offset = -load.bias / factors
+    lines = [
+        f"{CONTROLLER}:",
+        "  ros__parameters:",
+        "    type: force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
+        f"    frame_id: {word(load.frame)}",
+        f"    sensor_name: {word(load.sensor)}",
+        "    # published: (reading + offset) * multiplier",
+    ]
+    for name, values in (("offset", offset), ("multiplier", factors)):
+        lines.append(f"    {name}:")
+        for part, three in (("force", values[:3]), ("torque", values[3:])):
+            axes = ", ".join(f"{axis}: {number(value)}" for axis, value in zip("xyz", three, strict=True))
+            lines.append(f"      {part}: {{{axes}}}")
+    return "\n".join(lines) + "\n"
+
+
+def gravity_filter_text(load: RobotLoad, *, world_frame: str | None) -> str:
+    """Write the parameters of the filter, for the chain of a broadcaster.
+
+    Args:
+        load: The load; the field points down where the sensor reads its weight, and up where it reads what holds it.
+        world_frame: Frame of tf whose z axis points up.
+
+    Returns:
+        YAML.
+
+    Raises:
+        FormatError: If no frame is given.
+    """
+    if not world_frame:
+        raise FormatError("gravity-filter: expected --world-frame, the frame of tf whose z axis points up, got none")
+    field = (0.0, 0.0, -load.weight_sign * STANDARD_GRAVITY)
+    return "\n".join(
+        [
+            "sensor_filter_chain:",
+            "  filter1:",
+            "    name: gravity_compensation",
+            "    type: control_filters/GravityCompensationWrench",
+            "    params:",
+            f"      world_frame: {word(world_frame)}",
+            f"      sensor_frame: {word(load.frame)}",
+            "      tool:",
+            f"        mass: {number(load.mass)}",
+            f"        CoG: {numbers(load.centre_of_mass)}",
+            f"        gravity_field: {numbers(field)}",
+            "",
+        ]
+    )
+
+
+FT_TOOLS_DIRECTION = MeasureDirection.CHILD_TO_PARENT
+"""Who acts on whom in its readings."""
+
+_FT_TOOLS_KEYS = ("mass", "sensor_frame_to_com", "force_offset", "torque_offset")
+
+
+def ft_tools_text(load: RobotLoad) -> str:
+    """Write the parameters.
+
+    Args:
+        load: The load.
+
+    Returns:
+        YAML.
+    """
+    load.require_direction(FT_TOOLS_DIRECTION, where="ft-tools")
+    vectors = zip(_FT_TOOLS_KEYS[1:], (load.centre_of_mass, load.bias[:3], load.bias[3:]), strict=True)
+    return "\n".join([f"mass: {number(load.mass)}", *(f"{key}: {numbers(values)}" for key, values in vectors), ""])
+
+
+def read_ft_tools(path: Path | str, *, sensor: str, frame: str) -> RobotLoad:
+    """Read the parameters.
+
+    Args:
+        path: The file.
+        sensor: Name of the sensor, which it does not hold.
+        frame: Name of the sensor's frame, which it does not hold.
+
+    Returns:
+        The load.
+    """
+    values = read_plain_yaml(path, _FT_TOOLS_KEYS)
+    centre, force, moment = (list_of(values, key, 3, where=str(path)) for key in _FT_TOOLS_KEYS[1:])
+    return RobotLoad(
+        sensor=sensor,
+        frame=frame,
+        direction=FT_TOOLS_DIRECTION,
+        mass=number_of(values, "mass", where=str(path)),
+        centre_of_mass=np.array(centre),
+        bias=np.array([*force, *moment]),
+    )
+
+
+FORCE_TORQUE_TOOLS_DIRECTION = MeasureDirection.PARENT_TO_CHILD
+"""Who acts on whom in its readings."""
+
+_FORCE_TORQUE_TOOLS_KEYS = ("bias", "gripper_com_frame_id", "gripper_com_pose", "gripper_mass")
+
+
+def force_torque_tools_text(load: RobotLoad) -> str:
+    """Write the parameters.
+
+    Args:
+        load: The load.
+
+    Returns:
+        YAML.
+    """
+    load.require_direction(FORCE_TORQUE_TOOLS_DIRECTION, where="force-torque-tools")
+    values = (
+        numbers(load.bias),
+        word(load.frame),
+        numbers([*load.centre_of_mass, 0.0, 0.0, 0.0]),
+        number(load.mass),
+    )
+    return "\n".join([*(f"{key}: {value}" for key, value in zip(_FORCE_TORQUE_TOOLS_KEYS, values, strict=True)), ""])
+
+
+def read_force_torque_tools(path: Path | str, *, sensor: str) -> RobotLoad:
+    """Read the parameters.
+
+    Args:
+        path: The file.
+        sensor: Name of the sensor, which it does not hold.
+
+    Returns:
+        The load, in the frame that the file names.
+
+    Raises:
+        FormatError: If the frame is no name.
+    """
+    values = read_plain_yaml(path, _FORCE_TORQUE_TOOLS_KEYS)
+    frame = values["gripper_com_frame_id"]
+    if not isinstance(frame, str) or not frame:
+        raise FormatError(f"{path}: gripper_com_frame_id: expected the name of a frame, got {frame!r}")
+    return RobotLoad(
+        sensor=sensor,
+        frame=frame,
+        direction=FORCE_TORQUE_TOOLS_DIRECTION,
+        mass=number_of(values, "gripper_mass", where=str(path)),
+        # how the frame of the centre of mass is turned does not matter
+        centre_of_mass=np.array(list_of(values, "gripper_com_pose", 6, where=str(path))[:3]),
+        bias=np.array(list_of(values, "bias", 6, where=str(path))),
+    )

@@ -1,0 +1,291 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Everything that is computed of one sensor, and what a recording holds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Annotated, TypeVar
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.calibration.summary import LearntDirection, learnt_directions
+from forcetorque.evaluation.acceptance.acceptance import accept
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
+from forcetorque.evaluation.acceptance.criteria import Criterion
+from forcetorque.evaluation.acceptance.static_checks import StaticChecks, check
+from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation, at_rest, judge_errors
+from forcetorque.evaluation.load_cases.validation_evidence import Independence, PriorComparison, independence
+from forcetorque.evaluation.sphere.result import SphereRow
+from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
+from forcetorque.evaluation.sphere.sphere import spheres
+from forcetorque.evaluation.validation.contact_forces import BestCandidate, ContactForceErrors, contact_forces
+from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, joint_torques
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibrations_under_test import PRIOR, JudgedWrenches
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.validity import ReadingsOutside, doubts_about_choice, require_unseen, sentences
+from forcetorque.recording.recording import Recording
+from forcetorque.report.verdict import VerdictLine, verdict
+from forcetorque.results.table import Row, Shown, short_names
+
+_Answer = TypeVar("_Answer")
+
+
+class Assessment(Row):
+    """Everything about one sensor; what could not be judged is empty and stands in `not_judged`."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    verdict: tuple[VerdictLine, ...] = ()
+    """What the rest comes to."""
+    evaluation: tuple[CandidateErrors, ...]
+    """Errors on data that was not fitted."""
+    comparisons: tuple[PriorComparison, ...]
+    """Calibrations against their priors."""
+    independence: tuple[Independence, ...]
+    """What these errors are worth."""
+    contact_forces: tuple[ContactForceErrors, ...]
+    """Contact wrenches where nothing touches."""
+    best: tuple[BestCandidate, ...]
+    """Best candidates by these."""
+    joint_torques: tuple[JointTorqueErrors, ...]
+    """Errors of the joint torques that are estimated from the sensor."""
+    spheres: tuple[SphereRow, ...]
+    """Sphere analyses."""
+    static: tuple[StaticChecks, ...]
+    """Static checks of every calibration, or of the prior."""
+    criteria: tuple[Criterion, ...]
+    """Criteria of the acceptance file."""
+    calibrations: dict[str, Calibration]
+    """Calibrations of the sensor, with their uncertainty, excitation and choice of lambda, by file."""
+    learnt: dict[str, tuple[LearntDirection, ...]] = Field(default_factory=dict)
+    """What the recordings taught each of those that are fitted by the generative model towards a prior, by file."""
+    smoothing: tuple[str, ...] = ()
+    """Whether reading and reference were smoothed, in words."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """How far the judged readings lie outside what each calibration was fitted on."""
+    warnings: tuple[str, ...]
+    """What makes a verdict flatter or doubtful."""
+    not_judged: dict[str, str]
+    """Reason by what could not be judged."""
+    left_out: tuple[str, ...] = ()
+    """What gaps, short intervals and missing joints leave out of contact forces and joint torques, in words."""
+    judged: JudgedWrenches | None = Field(default=None, exclude=True, repr=False)
+    """Wrenches on data that was not fitted, for figures."""
+    clouds: tuple[SensorSphere, ...] = Field(default=(), exclude=True, repr=False)
+    """Forces of the spheres, for figures."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Demands:
+    """What sensors are compared with beside the model."""
+
+    acceptance: AcceptanceFile | None = None
+    """Limits."""
+    population: Mapping[str, FloatArray] | None = None
+    """Matrices of other sensors by serial number."""
+
+
+@dataclass(slots=True)
+class _Attempts:
+    """Tries what not every experiment allows, and keeps the reason where it does not."""
+
+    reasons: dict[str, str] = field(default_factory=dict)
+
+    def attempt(self, what: str, answer: Callable[[], _Answer]) -> _Answer | None:
+        try:
+            return answer()
+        except ForceTorqueError as error:
+            self.reasons[what] = str(error)
+            return None
+
+    def passes(self, what: str, check: Callable[[], None]) -> bool:
+        self.attempt(what, check)
+        return what not in self.reasons
+
+
+def assess(
+    run: SensorRun,
+    calibrations: Mapping[str, Calibration],
+    *,
+    others: Mapping[str, Calibration] | None = None,
+    demands: Demands | None = None,
+) -> Assessment:
+    """Ask every question about a sensor, and say what the answers come to.
+
+    Args:
+        run: The sensor.
+        calibrations: Its calibrations by name of their file; without any its prior is judged.
+        others: Calibrations of the other sensors.
+        demands: Limits and other sensors.
+
+    Returns:
+        The answers, with the verdict.
+    """
+    tried, names = _Attempts(), short_names(calibrations)
+    unseen = {
+        file: calibration
+        for file, calibration in calibrations.items()
+        if tried.passes(f"errors of {names[file]}", partial(require_unseen, file, calibration, run))
+    }
+    evaluation = contacts = torques = counts = judged = None
+    # where every calibration has seen the judged data there is nothing to judge it on; without any, the prior is judged
+    if unseen or not calibrations:
+        evaluation = tried.attempt("evaluation", partial(judge_errors, run, unseen))
+        contacts = tried.attempt("contact forces", partial(contact_forces, run, unseen))
+        torques = tried.attempt("joint torques", partial(joint_torques, run, unseen))
+    clouds = tried.attempt("spheres", partial(spheres, run, calibrations))
+    if evaluation:
+        judged = run.judged(unseen)
+        counts = tried.attempt("independence", partial(independence, judged))
+    static, criteria = _checked(run, calibrations, others or {}, demands or Demands(), tried)
+    assessment = Assessment(
+        sensor=run.sensor.name,
+        serial=run.sensor.serial,
+        evaluation=evaluation.verdicts if evaluation else (),
+        comparisons=evaluation.comparisons if evaluation else (),
+        independence=counts or (),
+        contact_forces=contacts.verdicts if contacts else (),
+        best=contacts.best if contacts else (),
+        joint_torques=torques.verdicts if torques else (),
+        spheres=clouds.rows if clouds else (),
+        static=static,
+        criteria=criteria,
+        calibrations=dict(calibrations),
+        learnt={file: rows for file, one in calibrations.items() if (rows := learnt_directions(one)) is not None},
+        smoothing=evaluation.smoothing if evaluation else (),
+        validity=evaluation.validity if evaluation else (),
+        warnings=(
+            *at_rest(evaluation.verdicts if evaluation else ()),
+            *_outside(evaluation, names),
+            *_warnings(run, unseen, names, tried),
+        ),
+        not_judged=tried.reasons,
+        left_out=tuple(
+            dict.fromkeys([*(contacts.left_out if contacts else ()), *(torques.left_out if torques else ())])
+        ),
+        judged=judged,
+        clouds=clouds.analyses if clouds else (),
+    )
+    return assessment.model_copy(update={"verdict": verdict(assessment)})
+
+
+def _checked(
+    run: SensorRun,
+    calibrations: Mapping[str, Calibration],
+    others: Mapping[str, Calibration],
+    demands: Demands,
+    tried: _Attempts,
+) -> tuple[tuple[StaticChecks, ...], tuple[Criterion, ...]]:
+    """Static checks of every calibration, or of the prior, and the criteria of the acceptance file."""
+    names = short_names(calibrations)
+    static: list[StaticChecks] = []
+    criteria: list[Criterion] = []
+    candidates: list[tuple[str, Calibration] | None] = [*calibrations.items()] or [None]
+    for candidate in candidates:
+        name = PRIOR if candidate is None else names[candidate[0]]
+        accepted = None
+        if demands.acceptance is not None:
+            judge = partial(accept, run, demands.acceptance, candidate, others=others, population=demands.population)
+            accepted = tried.attempt(f"acceptance of {name}", judge)
+        if accepted is not None:
+            criteria += accepted.criteria
+            static += accepted.measured
+            continue
+        checks = tried.attempt(
+            f"static checks of {name}", partial(check, run, candidate, population=demands.population)
+        )
+        static += [] if checks is None else [checks]
+    return tuple(static), tuple(criteria)
+
+
+def _outside(evaluation: Evaluation | None, names: Mapping[str, str]) -> tuple[str, ...]:
+    rows = evaluation.validity if evaluation else ()
+    return sentences(row.model_copy(update={"candidate": names[row.candidate]}) for row in rows)
+
+
+def _warnings(
+    run: SensorRun, calibrations: Mapping[str, Calibration], names: Mapping[str, str], tried: _Attempts
+) -> tuple[str, ...]:
+    warnings: list[str] = []
+    for file, calibration in calibrations.items():
+        doubts = partial(doubts_about_choice, run, names[file], calibration)
+        warnings += tried.attempt(f"doubts about {names[file]}", doubts) or ()
+    return tuple(warnings)
+
+
+class StreamOverview(Row):
+    """A stream of the recording."""
+
+    stream: Annotated[str, Shown("stream")]
+    """Its name."""
+    samples: Annotated[int, Shown("samples")]
+    """Number of its samples."""
+    rate_hz: Annotated[float | None, Shown("rate", "Hz", digits=1)]
+    """Median rate; none for fewer than two samples."""
+    quantities: Annotated[tuple[str, ...], Shown("quantities")]
+    """Its quantities."""
+
+
+class IntervalOverview(Row):
+    """An interval of the recording."""
+
+    label: Annotated[str, Shown("interval")]
+    """Its label."""
+    use: Annotated[str, Shown("use")]
+    """What it is for."""
+    start_s: Annotated[float, Shown("from", "s", digits=2)]
+    """Start; s from the earliest stamp."""
+    end_s: Annotated[float, Shown("to", "s", digits=2)]
+    """End; s from the earliest stamp."""
+    support: Annotated[str | None, Shown("support")]
+    """Frame that touches the world."""
+
+
+def stream_overviews(recording: Recording) -> tuple[StreamOverview, ...]:
+    """Describe the streams of a recording.
+
+    Args:
+        recording: The recording.
+
+    Returns:
+        A row per stream.
+    """
+    rows = []
+    for name, stream in recording.streams.items():
+        steps = np.diff(stream.stamp_ns)
+        step = float(np.median(steps)) if len(steps) else 0.0
+        rate = 1e9 / step if step > 0.0 else None
+        rows.append(
+            StreamOverview(stream=name, samples=len(stream), rate_hz=rate, quantities=tuple(sorted(stream.signals)))
+        )
+    return tuple(rows)
+
+
+def interval_overviews(recording: Recording) -> tuple[IntervalOverview, ...]:
+    """Describe the intervals of a recording.
+
+    Args:
+        recording: The recording.
+
+    Returns:
+        A row per interval, in the order of the file.
+    """
+    start = recording.span_ns[0]
+    return tuple(
+        IntervalOverview(
+            label=interval.label,
+            use=interval.use.value,
+            start_s=(interval.start_ns - start) * 1e-9,
+            end_s=(interval.end_ns - start) * 1e-9,
+            support=None if interval.support is None else interval.support.frame,
+        )
+        for interval in recording.intervals
+    )

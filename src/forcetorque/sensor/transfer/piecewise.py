@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Transfer functions in sections: straight lines and cubic splines, and where to divide the range."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.errors import FitError, SensorError
+from forcetorque.sensor.transfer.transfer_function import TransferFunction, calibration_points, least_squares
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
+
+
+def knots_for(stimulus: FloatArray, sections: int) -> FloatArray:
+    """Divide the range so that each section holds about as many different stimuli.
+
+    Args:
+        stimulus: Known stimuli; shape (n,).
+        sections: Number of sections.
+
+    Returns:
+        Ends of the sections, ascending; shape (sections + 1,).
+
+    Raises:
+        FitError: If there are no sections, or fewer different stimuli than ends.
+    """
+    different = np.unique(stimulus)
+    if sections < 1 or len(different) < sections + 1:
+        raise FitError(
+            f"expected 1 to {len(different) - 1} sections for {len(different)} different stimuli, got {sections}"
+        )
+    return np.asarray(np.quantile(different, np.linspace(0.0, 1.0, sections + 1)), dtype=np.float64)
+
+
+def require_knots(knots: FloatArray, values: FloatArray, *, name: str, least: int) -> None:
+    """Check the knots of a function that is made of sections.
+
+    Args:
+        knots: Stimuli; shape (k,).
+        values: Outputs at the knots.
+        name: Kind of function, for the message.
+        least: Number of knots that it needs.
+
+    Raises:
+        SensorError: If the knots are too few, do not ascend, or do not have one finite value each.
+    """
+    fits = values.shape == knots.shape and len(knots) >= least
+    if not fits or not (np.isfinite(values).all() and np.isfinite(knots).all() and (np.diff(knots) > 0.0).all()):
+        raise SensorError(
+            f"{name}: expected at least {least} ascending knots with one finite value each, "
+            f"got {len(knots)} knots and {len(values)} values"
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PiecewiseLinear(TransferFunction):
+    """Straight lines between knots, thesis 3.1.4; beyond the outer knots the outer lines go on."""
+
+    knots: FloatArray
+    """Stimuli at the ends of the sections, ascending; shape (k,)."""
+    values: FloatArray
+    """Outputs at the knots; shape (k,)."""
+
+    def __post_init__(self) -> None:
+        TransferFunction.__post_init__(self)
+        for field in ("knots", "values"):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(None,)))
+        require_knots(self.knots, self.values, name="PiecewiseLinear", least=2)
+
+    def _output(self, stimulus: FloatArray) -> FloatArray:
+        return _along_lines(stimulus, self.knots, self.values)
+
+    def _stimulus(self, output: FloatArray) -> FloatArray:
+        # only lines within the range count, which may be narrower than the knots
+        inside = self.knots[(self.knots > self.lowest) & (self.knots < self.highest)]
+        knots = np.concatenate([[self.lowest], inside, [self.highest]])
+        values = self._output(knots)
+        order = slice(None) if values[-1] > values[0] else slice(None, None, -1)
+        return np.asarray(np.interp(output, values[order], knots[order]), dtype=np.float64)
+
+    def _turning_points(self) -> FloatArray:
+        inside = self.knots[(self.knots > self.lowest) & (self.knots < self.highest)]
+        directions = np.sign(np.diff(self._output(np.concatenate([[self.lowest], inside, [self.highest]]))))
+        # a level line is as bad as a turn: its output tells no single stimulus
+        is_turn = (directions[:-1] != directions[1:]) | (directions[1:] == 0.0)
+        return inside[is_turn]
+
+
+def _along_lines(stimulus: FloatArray, knots: FloatArray, values: FloatArray) -> FloatArray:
+    section = np.clip(np.searchsorted(knots, stimulus, side="right") - 1, 0, len(knots) - 2)
+    part = (stimulus - knots[section]) / np.diff(knots)[section]
+    return (1.0 - part) * values[section] + part * values[section + 1]
+
+
+def fit_piecewise_linear(stimulus: Any, output: Any, *, sections: int = 4) -> PiecewiseLinear:
+    """Fit connected straight lines by least squares of the output.
+
+    Args:
+        stimulus: Known stimuli; shape (n,).
+        output: Outputs of the sensor; shape (n,).
+        sections: Number of lines; each holds about as many different stimuli.
+
+    Returns:
+        The function, valid from the least to the greatest stimulus.
+
+    Raises:
+        ShapeError: If the points are not two series of one length.
+        FitError: If there are too few different stimuli.
+    """
+    stimuli, outputs = calibration_points(stimulus, output, parameters=sections + 1)
+    knots = knots_for(stimuli, sections)
+    # how much of the value at each knot a point has
+    design = np.column_stack([_along_lines(stimuli, knots, row) for row in np.eye(len(knots))])
+    return PiecewiseLinear(
+        lowest=float(knots[0]), highest=float(knots[-1]), knots=knots, values=least_squares(design, outputs)
+    )
+
+
+_LEAST_KNOTS = 4
+"""Knots that carry one cubic."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Spline(TransferFunction):
+    """Cubics between knots, with equal slope and curvature where they meet (not-a-knot ends), thesis 3.1.5."""
+
+    knots: FloatArray
+    """Stimuli where the cubics meet, ascending; shape (k,), k at least 4."""
+    values: FloatArray
+    """Outputs at the knots; shape (k,)."""
+
+    def __post_init__(self) -> None:
+        TransferFunction.__post_init__(self)
+        for field in ("knots", "values"):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(None,)))
+        require_knots(self.knots, self.values, name="Spline", least=_LEAST_KNOTS)
+
+    def _curve(self) -> CubicSpline:
+        from scipy.interpolate import CubicSpline  # here because importing it takes longer than most fits
+
+        return CubicSpline(self.knots, self.values)
+
+    def _output(self, stimulus: FloatArray) -> FloatArray:
+        return np.asarray(self._curve()(stimulus), dtype=np.float64)
+
+    def _turning_points(self) -> FloatArray:
+        slope = self._curve().derivative()
+        # where the slope is zero all over a section, SciPy marks the rest of it with NaN
+        roots = np.asarray(slope.roots(), dtype=np.float64)
+        inside = np.unique(roots[(roots > self.lowest) & (roots < self.highest)])
+        edges = np.concatenate([[self.lowest], inside, [self.highest]])
+        signs = np.sign(slope(0.5 * (edges[:-1] + edges[1:])))
+        return inside[(signs[:-1] != signs[1:]) | (signs[1:] == 0.0)]
+
+
+def fit_spline(stimulus: Any, output: Any, *, sections: int = 4) -> Spline:
+    """Fit a cubic spline by least squares of the output.
+
+    Args:
+        stimulus: Known stimuli; shape (n,).
+        output: Outputs of the sensor; shape (n,).
+        sections: Number of cubics, at least 3; each holds about as many different stimuli.
+
+    Returns:
+        The function, valid from the least to the greatest stimulus.
+
+    Raises:
+        ShapeError: If the points are not two series of one length.
+        FitError: If there are too few sections or different stimuli.
+    """
+    from scipy.interpolate import CubicSpline
+
+    if sections < _LEAST_KNOTS - 1:
+        raise FitError(f"spline: expected at least {_LEAST_KNOTS - 1} sections, got {sections}")
+    stimuli, outputs = calibration_points(stimulus, output, parameters=sections + 1)
+    knots = knots_for(stimuli, sections)
+    # a spline is linear in its values at the knots
+    design = np.asarray(CubicSpline(knots, np.eye(len(knots)))(stimuli), dtype=np.float64)
+    return Spline(lowest=float(knots[0]), highest=float(knots[-1]), knots=knots, values=least_squares(design, outputs))

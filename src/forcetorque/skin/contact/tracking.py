@@ -1,0 +1,366 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A patch from frame to frame: baselines under heat, released contacts, and identities of contacts."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Final
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
+from forcetorque.skin.contact.pressure_frame import WAKING, PatchReader, PressureFrame
+from forcetorque.skin.temperature.gains import HeatGains, TaxelDrift
+from forcetorque.skin.temperature.pad_lags import PadFilter
+from forcetorque.skin.wrench.patch import SkinPatch
+
+RELEASED_SHARE: Final = 0.5
+"""Share of its force that a contact loses at once when it is let go; drift takes minutes for that."""
+WITHIN_S: Final = 4.0
+"""Time within which it does."""
+SETTLED_S: Final = 1.0
+"""Time for which it then stays as it is."""
+SETTLED_SHARE: Final = 0.1
+"""Share of the force before by which it may still change in that time."""
+
+
+_FEWEST: Final = 5
+"""Frames that tell a release, where they are longer than a second."""
+_JUST: Final = 1e-9
+"""Less than the time between frames; s."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Release:
+    """A contact that was let go."""
+
+    time_s: float
+    """When it had settled; s."""
+    held_s: float
+    """For how long it was held; s."""
+    force_N: float
+    """Force before."""
+    left_N: float
+    """Force that its taxels read after; heat, or what still touches them."""
+    drift_limit_N: float
+    """How much heat may have added by then; NaN if not known."""
+    touched: BoolArray
+    """Taxels that it touched; shape (n,)."""
+    re_tared: bool = False
+    """Whether what is left was taken as rest."""
+
+    @property
+    def may_be_heat(self) -> bool:
+        """Whether heat explains all that is left."""
+        return 0.0 < self.left_N <= self.drift_limit_N
+
+    def taken_as_rest(self) -> Release:
+        """Say that what is left was taken as rest.
+
+        Returns:
+            The same release.
+        """
+        return replace(self, re_tared=True)
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class _Touch:
+    """A contact that is followed from frame to frame; force and limit are those of all contacts on its taxels."""
+
+    begun_s: float
+    touched: BoolArray
+    course: deque[tuple[float, float, float]] = field(default_factory=deque)
+
+    def add(self, seconds: float, contacts: SkinContacts) -> None:
+        """Add what a frame says of its taxels."""
+        own = np.unique(contacts.contact[self.touched & (contacts.contact >= 0)])
+        force = float(np.linalg.norm(contacts.wrench[own, :3].sum(axis=0)))
+        self.course.append((seconds, force, float(contacts.drift_limit_N[own].sum())))
+        while len(self.course) > _FEWEST and self.course[0][0] < seconds - WITHIN_S:
+            self.course.popleft()
+
+    def release(self) -> Release | None:
+        """Tell whether it was let go and has settled."""
+        times, forces, limits = np.array(self.course).T
+        settled = times > min(times[-1] - SETTLED_S, times[-2:][0] - _JUST)
+        before = float(np.median(forces[: max(1, len(forces) // 4)]))
+        now = forces[settled]
+        steady = len(now) < len(forces) and np.ptp(now) <= SETTLED_SHARE * before
+        if not steady or now.mean() > (1.0 - RELEASED_SHARE) * before:
+            return None
+        return Release(
+            time_s=float(times[-1]),
+            held_s=float(times[-1]) - self.begun_s,
+            force_N=before,
+            left_N=float(now.mean()),
+            drift_limit_N=float(limits[-1]),
+            touched=self.touched,
+        )
+
+
+class TouchLog:
+    """Follows contacts, and says which are let go."""
+
+    def __init__(self) -> None:
+        self._touches: list[_Touch] = []
+
+    def released(self, seconds: float, contacts: SkinContacts) -> Iterator[Release]:
+        """Add a frame.
+
+        Args:
+            seconds: Its time; s.
+            contacts: Its contacts.
+
+        Yields:
+            Contacts that were let go and have settled.
+        """
+        for number in range(len(contacts)):
+            own = contacts.contact == number
+            known = next((touch for touch in self._touches if (touch.touched & own).any()), None)
+            if known is None:
+                self._touches.append(_Touch(begun_s=seconds, touched=own))
+            else:
+                known.touched = known.touched | own
+        for touch in list(self._touches):
+            touch.add(seconds, contacts)
+            release = touch.release()
+            if release is not None:
+                self._touches.remove(touch)
+                if release.force_N > 0.0:
+                    yield release
+
+
+BASELINE_S: Final = 30.0
+"""Time constant with which the baseline of an idle taxel follows it; a push that grows more slowly is eaten."""
+FASTER: Final = 2.0
+"""How much faster than in the warm-up heat may come, and what pads then leave of a taxel still wakes none."""
+RATE_S: Final = 60.0
+"""Time over which the rate of heat is taken, as in the warm-up; s."""
+_RATE_STEP_S: Final = 10.0
+
+
+class PatchFollower:
+    """Reads frames of one patch one after the other, and keeps what heat has done to it.
+
+    Pads tell heat from inside, by their gains and lags. What these leave is a baseline of every taxel, which follows it
+    while it is idle, and is frozen in a contact and one ring around it, so that no contact is eaten. Heat that comes
+    through a contact is told by neither: it is bounded by the time for which each taxel has been touched, times the
+    steepest rate of the warm-up, and what pads left unexplained there. A taxel that is let go cools as slowly as it was
+    heated.
+    """
+
+    def __init__(self, patch: SkinPatch, reader: PatchReader, heat: HeatGains, *, re_tare: bool = False) -> None:
+        """Begin at rest.
+
+        Args:
+            patch: The patch.
+            reader: Its reader, with rest and noise from this recording; its taxels must follow a pad to be live.
+            heat: How its taxels follow the pads that live in this recording.
+            re_tare: Whether to take what taxels read on a release as their rest.
+        """
+        self.patch = patch
+        self.reader = reader
+        self.heat = heat
+        self.re_tare = re_tare
+        self.baseline: FloatArray = np.zeros(len(patch.layout))
+        """Fall that neither pressure nor pads explain; shape (n,); counts."""
+        self.touched_s: FloatArray = np.zeros(len(patch.layout))
+        """Time for which each taxel has been touched; shape (n,); s."""
+        self.releases: list[Release] = []
+        """Contacts that were let go."""
+        self._touches = TouchLog()
+        self.heating = 0.0
+        """Steepest minute of heat that pads told, over that of the warm-up; median over taxels."""
+        self._pads = PadFilter(heat.lags)
+        self._told: deque[tuple[float, FloatArray]] = deque()
+        self._last_s: float | None = None
+
+    def frame(self, seconds: float, counts: FloatArray) -> tuple[PressureFrame, SkinContacts]:
+        """Read the next frame.
+
+        Args:
+            seconds: Its time, later than that of the frame before; s.
+            counts: Messages that are averaged; shape (k, columns); counts.
+
+        Returns:
+            Pressures and contacts.
+        """
+        passed = 0.0 if self._last_s is None else seconds - self._last_s
+        self._last_s = seconds
+        message = counts.mean(axis=0)
+        heat, heat_sd = self._heat(passed, message, len(counts))
+        self._take_rate(seconds, heat)
+        limit = self.heat.rates * self.touched_s + self.heat.unexplained
+        drift = TaxelDrift(fall=heat + self.baseline, sd=heat_sd, limit=limit)
+        frame = self.reader.frame(counts, drift=drift)
+        contacts = find_contacts(self.patch, frame)
+        left = self.reader.table.fall(message, self.reader.rest) - drift.fall
+        self._keep(passed, contacts.contact >= 0, left)
+        for release in self._touches.released(seconds, contacts):
+            self.releases.append(self._let_go(release, left))
+        return frame, contacts
+
+    def _heat(self, passed: float, message: FloatArray, number: int) -> tuple[FloatArray, FloatArray]:
+        """Fall of the taxels by heat, as the pads tell it, and its standard deviation; shape (n,) each; counts."""
+        pads = self.heat.pads
+        fall, sd = self.heat.fall(self._pads.follow(passed, self.reader.rest[pads] - message[pads]))
+        noise = self.heat.noise(self._pads.noise(passed, self.reader.noise[pads] / np.sqrt(number)))
+        return fall, np.sqrt(sd**2 + noise**2 + (FASTER * self.heat.unexplained / WAKING) ** 2)
+
+    def _take_rate(self, seconds: float, heat: FloatArray) -> None:
+        """Compare the heat of the last minute with the steepest one of the warm-up."""
+        if self._told and seconds - self._told[-1][0] < _RATE_STEP_S:
+            return
+        self._told.append((seconds, heat))
+        begun, before = self._told[0]
+        if seconds - begun >= RATE_S:
+            self._told.popleft()
+            known = self.reader.live & (self.heat.rates > 0.0)
+            if known.any():
+                rate = np.abs(heat - before)[known] / (seconds - begun)
+                self.heating = max(self.heating, float(np.median(rate / self.heat.rates[known])))
+
+    def _keep(self, passed: float, touched: BoolArray, left: FloatArray) -> None:
+        """Let idle taxels follow what they read, and count the time of the others."""
+        idle = ~self.patch.surface.with_ring(touched)
+        self.baseline[idle] += (1.0 - np.exp(-passed / BASELINE_S)) * left[idle]
+        self.touched_s = np.maximum(self.touched_s + np.where(touched, passed, -passed), 0.0)
+
+    def _let_go(self, release: Release, left: FloatArray) -> Release:
+        """Take what is left on the taxels of a contact as their rest, if that was asked for and heat can explain it."""
+        if not (self.re_tare and release.may_be_heat):
+            return release
+        near = self.patch.surface.with_ring(release.touched)
+        self.baseline[near] += left[near]
+        self.touched_s[near] = 0.0
+        return release.taken_as_rest()
+
+
+REACH_M: Final = 0.02
+"""How far a contact may have moved that shares no taxel with what it was: three taxels; m."""
+PAUSE_S: Final = 0.5
+"""How long a contact may be missed: where it is faint, single frames do not feel it; s."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactLife:
+    """One contact from its first frame to its last."""
+
+    identity: int
+    """Its number, from 1; never given again."""
+    begun_s: float
+    """Time of its first frame; s."""
+    seen_s: float
+    """Time of its last frame; s."""
+    split_from: int | None = None
+    """Contact that it was part of before."""
+    merged_into: int | None = None
+    """Contact that it is part of since."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Trace:
+    """A contact as it was last seen."""
+
+    identity: int
+    seen_s: float
+    place: FloatArray
+    taxels: BoolArray
+
+
+class ContactLives:
+    """Follows contacts from frame to frame.
+
+    Contacts are assigned to those of the frames before so that they share as many taxels as possible; where they share
+    none, by places up to `REACH_M` apart. Two contacts that become one go on as the one that shares more with it; the
+    other has merged into it. What comes off a contact is a new one that split from it: after a merger nobody can tell
+    which of both it was.
+    """
+
+    def __init__(self) -> None:
+        self._traces: list[_Trace] = []
+        self._lives: dict[int, ContactLife] = {}
+
+    @property
+    def lives(self) -> tuple[ContactLife, ...]:
+        """All contacts so far, in the order in which they began."""
+        return tuple(self._lives.values())
+
+    def follow(self, seconds: float, places: FloatArray, taxels: BoolArray) -> IntArray:
+        """Add a frame.
+
+        Args:
+            seconds: Its time, later than that of the frame before; s.
+            places: Where its contacts are; shape (c, 3); m.
+            taxels: Which taxels feel each; none where nobody says; shape (c, n).
+
+        Returns:
+            Identities of the contacts; shape (c,).
+        """
+        known = [trace for trace in self._traces if seconds - trace.seen_s <= PAUSE_S]
+        shared = np.array([[np.count_nonzero(trace.taxels & own) for own in taxels] for trace in known], dtype=float)
+        shared = shared.reshape(len(known), len(places))
+        owner = _assigned(known, places, shared)
+        identities = np.array([self._identity(seconds, known, shared, owner, k) for k in range(len(places))], dtype=int)
+        for row, trace in enumerate(known):
+            if row not in owner and shared[row].any():
+                heir = int(identities[shared[row].argmax()])
+                self._lives[trace.identity] = replace(self._lives[trace.identity], merged_into=heir)
+        paused = [trace for row, trace in enumerate(known) if row not in owner and not shared[row].any()]
+        present = [
+            _Trace(identity=int(identity), seen_s=seconds, place=place, taxels=own)
+            for identity, place, own in zip(identities, places, taxels, strict=True)
+        ]
+        self._traces = [*present, *paused]
+        return identities
+
+    def _identity(
+        self, seconds: float, known: list[_Trace], shared: FloatArray, owner: list[int | None], contact: int
+    ) -> int:
+        """Number of a contact, which is born if nobody owns it."""
+        row = owner[contact]
+        if row is not None:
+            identity = known[row].identity
+            self._lives[identity] = replace(self._lives[identity], seen_s=seconds)
+            return identity
+        identity, from_ = len(self._lives) + 1, None
+        if len(known) and shared[:, contact].any():
+            from_ = known[int(shared[:, contact].argmax())].identity
+        self._lives[identity] = ContactLife(identity=identity, begun_s=seconds, seen_s=seconds, split_from=from_)
+        return identity
+
+
+def followed_places(seconds: FloatArray, places: Sequence[FloatArray]) -> list[IntArray]:
+    """Number contacts of which only the places are known, as those of a skinManager, which numbers each message anew.
+
+    Args:
+        seconds: Times of the messages, increasing; shape (k,); s.
+        places: Places of the contacts of each; shape (c, 3); m.
+
+    Returns:
+        Identities of the contacts of each message; shape (c,).
+    """
+    lives = ContactLives()
+    return [
+        lives.follow(float(time), place, np.zeros((len(place), 0), dtype=np.bool_))
+        for time, place in zip(seconds, places, strict=True)
+    ]
+
+
+def _assigned(known: list[_Trace], places: FloatArray, shared: FloatArray) -> list[int | None]:
+    """Trace of each contact; None where it has none."""
+    owner: list[int | None] = [None] * len(places)
+    if not (known and len(places)):
+        return owner
+    from scipy.optimize import linear_sum_assignment
+
+    apart = np.linalg.norm(np.array([trace.place for trace in known])[:, None] - places, axis=2)
+    # nearness is less than one taxel: it decides only between those that share equally many
+    score = shared + np.clip(1.0 - apart / REACH_M, 0.0, 0.999)
+    for row, column in zip(*linear_sum_assignment(score, maximize=True), strict=True):
+        if score[row, column] > 0.0:
+            owner[int(column)] = int(row)
+    return owner

@@ -1,0 +1,366 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From an experiment, alone or with the calibrations of a report, to the scene of its whole log."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, Literal, Self
+
+from pydantic import BaseModel, Field, ValidationError
+
+from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError
+from forcetorque.base.run_files import declare_input
+from forcetorque.experiment.additions import added_to
+from forcetorque.experiment.applicability import by_sensor
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.file import parse_experiment
+from forcetorque.inspection.findings import inspect_experiment
+from forcetorque.payload.wrist_load import is_wrist_load
+from forcetorque.recording.alignment import seconds_since
+from forcetorque.recording.recording import Finding
+from forcetorque.recording.stream import Stream
+from forcetorque.results.result import Result
+from forcetorque.results.table import Table
+from forcetorque.skin.experiment import BESIDE_M, PATCHES, is_skin_alone
+from forcetorque.viewer.arrays import Block, Priors, SceneDraft, differentiated
+from forcetorque.viewer.contacts import scene_contacts, scene_parts
+from forcetorque.viewer.geometry import robot_geometry
+from forcetorque.viewer.posture import Posture, posture_at, root_poses, scene_joints, shown_stream
+from forcetorque.viewer.scene import Robot, Scene, SceneFinding, SceneInterval
+from forcetorque.viewer.sensor_wrenches import expected_readings, scene_sensor
+from forcetorque.viewer.skin import scene_skin, scene_skin_events
+
+_BESIDE = f"no [robot]: links with skin are drawn side by side, {BESIDE_M:g} m apart, not where they truly are"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class BuiltScene:
+    """A scene with its arrays."""
+
+    scene: Scene
+    """The header."""
+    block: bytes
+    """The arrays."""
+
+
+def build_scene(
+    experiment: Experiment,
+    calibrations: Mapping[str, Calibration],
+    *,
+    urdf: Path | None = None,
+    sensors: Sequence[str] | None = None,
+    mesh_folders: Sequence[Path] = (),
+    provenance: Sequence[str] = (),
+) -> BuiltScene:
+    """Collect everything that the viewer shows of an experiment.
+
+    The instants are the stamps of the first shown sensor, or of skin without any; other streams are interpolated at
+    them. What is absent becomes a note and not an error, but for calibrations that may not be applied. Values are not
+    smoothed.
+
+    Args:
+        experiment: The experiment.
+        calibrations: Calibrations by name.
+        urdf: File of the robot, for its looks; None for a load without one.
+        sensors: Sensors to show; all of the experiment if None.
+        mesh_folders: Folders with packages of meshes that are looked at first.
+        provenance: Lines to add to the list of inputs.
+
+    Returns:
+        The scene.
+
+    Raises:
+        ExperimentError: If the experiment has no sensor of a name, or a calibration may not be applied.
+        RecordingError: If there is no sample to show.
+    """
+    groups = by_sensor(experiment, calibrations)
+    names = dict.fromkeys(experiment.sensor(name).name for name in sensors or (s.name for s in experiment.sensors))
+    shown = [experiment.sensor(name) for name in names]
+    recording, model = experiment.recording, experiment.model
+    skin_alone = is_skin_alone(model)
+    clock = shown_stream(experiment, shown)
+    usable, notes = _without_empty(experiment, clock)
+    draft = SceneDraft(
+        notes=notes, sources=[*_inputs(experiment), *provenance, f"forcetorque {version('forcetorque')}"]
+    )
+    draft.notes.extend(added_to(experiment.recording))
+    draft.notes.extend(
+        f"calibrations of {name!r} are not shown: --sensor leaves it out" for name in groups if name not in names
+    )
+    posture = posture_at(recording, model, clock)
+    root = root_poses(recording, model, posture, recording.intervals, experiment.processing)
+    computed = differentiated(usable)
+    priors = Priors(computed)
+    expected, lacking = expected_readings(computed, tuple(names), posture)
+    draft.notes.extend([_BESIDE] if skin_alone else [*posture.notes, *root.notes, *lacking])
+    if experiment.processing.smoothing is not None:
+        draft.sources.append("the smoothing of the experiment file is not applied to what is shown")
+    series = [
+        scene_sensor(computed, one, groups.get(one.name, {}), expected[one.name], posture, priors, draft)
+        for one in shown
+    ]
+    contacts = () if skin_alone else scene_contacts(computed, groups, posture, priors, draft)
+    patches = computed.section(PATCHES)
+    skin = () if patches is None else scene_skin(patches, model.links, draft)
+    events = scene_skin_events(recording, posture.stream.clock, model.links, draft)
+    robot, missing = _robot(experiment, posture, urdf, draft.block, mesh_folders)
+    scene = Scene(
+        title=experiment.name,
+        samples=len(posture.stamp_ns),
+        start_ns=str(recording.start_ns),
+        end_s=(recording.span_ns[1] + 1 - recording.start_ns) * 1e-9,
+        time_s=draft.block.add(seconds_since(posture.stamp_ns, recording.start_ns), "float64"),
+        positions=draft.block.add(posture.position, "float32"),
+        coordinates=posture.names,
+        root=draft.block.add(root.values, "float32"),
+        robot=robot,
+        sensors=(*series, *scene_parts(computed, groups, posture, draft)),
+        contacts=contacts,
+        skin=skin,
+        skin_events=events,
+        intervals=_intervals(experiment),
+        findings=tuple(_finding(finding, recording.start_ns) for finding in inspect_experiment(usable)),
+        notes=tuple(draft.notes) if skin_alone else (*draft.notes, *missing),
+        provenance=tuple(draft.sources),
+        annotations_url=None,
+    )
+    return BuiltScene(scene=scene, block=draft.block.bytes())
+
+
+def _robot(
+    experiment: Experiment, posture: Posture, urdf: Path | None, block: Block, mesh_folders: Sequence[Path]
+) -> tuple[Robot, tuple[str, ...]]:
+    model = experiment.model
+    geometry = robot_geometry(model, urdf, block, mesh_folders=mesh_folders)
+    robot = Robot(
+        name=model.name,
+        root_link=model.root_link,
+        links=tuple(model.links),
+        joints=scene_joints(model, posture.names),
+        shapes=geometry.shapes,
+        meshes=geometry.meshes,
+    )
+    return robot, geometry.notes
+
+
+def _without_empty(experiment: Experiment, clock: Stream) -> tuple[Experiment, list[str]]:
+    """Leave out intervals that hold no sample of a stream, and say which."""
+    recording, stamps = experiment.recording, clock.stamp_ns
+    start, end = recording.span_ns
+    kept, notes = [], []
+    for interval in recording.intervals:
+        inside = interval.holds(stamps)
+        if inside.any() and start <= interval.start_ns and interval.end_ns <= end + 1:
+            kept.append(interval)
+        else:
+            notes.append(f"interval {interval.label!r} is left out: it holds no sample, or ends outside the log")
+    if notes:
+        experiment = replace(experiment, recording=recording.with_intervals(kept))
+    return experiment, notes
+
+
+def _inputs(experiment: Experiment) -> list[str]:
+    return [f"{name} sha256 {digest}" for name, digest in sorted(experiment.inputs_sha256.items())]
+
+
+def _intervals(experiment: Experiment) -> tuple[SceneInterval, ...]:
+    recording, model = experiment.recording, experiment.model
+    states_support = not (is_wrist_load(model) or is_skin_alone(model))
+    return tuple(
+        SceneInterval(
+            label=interval.label,
+            use=interval.use.value,
+            start_s=(interval.start_ns - recording.start_ns) * 1e-9,
+            end_s=(interval.end_ns - recording.start_ns) * 1e-9,
+            support=None if interval.support is None else interval.support.frame,
+            states_support=states_support,
+        )
+        for interval in recording.intervals
+    )
+
+
+def _finding(finding: Finding, start_ns: int) -> SceneFinding:
+    return SceneFinding(
+        stream=finding.stream,
+        kind=finding.kind,
+        message=finding.message,
+        start_s=None if finding.start_ns is None else (finding.start_ns - start_ns) * 1e-9,
+        end_s=None if finding.end_ns is None else (finding.end_ns - start_ns) * 1e-9,
+    )
+
+
+def scene_of(
+    path: Path,
+    experiment: Experiment,
+    calibrations: Mapping[str, Calibration],
+    *,
+    sensors: Sequence[str] | None = None,
+    mesh_folders: Sequence[Path] | None = None,
+) -> BuiltScene:
+    """Build the scene of an experiment.
+
+    Args:
+        path: Experiment file.
+        experiment: What it points to.
+        calibrations: Calibrations by their file; of a sensor any number.
+        sensors: Sensors to show; all if None.
+        mesh_folders: Folders with packages of meshes.
+
+    Returns:
+        The scene, which states the hashes of the calibrations.
+
+    Raises:
+        MissingFileError: If a folder does not exist.
+    """
+    for folder in mesh_folders or ():
+        if not folder.is_dir():
+            raise MissingFileError(f"--mesh-dir {folder}: expected a folder, there is none")
+    robot = parse_experiment(path).robot
+    return build_scene(
+        experiment,
+        calibrations,
+        urdf=None if robot is None else path.parent / robot.urdf,
+        sensors=sensors,
+        mesh_folders=mesh_folders or (),
+        provenance=[f"{file} sha256 {hashlib.sha256(Path(file).read_bytes()).hexdigest()}" for file in calibrations],
+    )
+
+
+class View(Result):
+    """An experiment as the viewer shows it."""
+
+    schema_name: Literal["forcetorque/view/1"] = Field(default="forcetorque/view/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    sensors: tuple[str, ...]
+    """Sensors that are shown."""
+    skin: tuple[str, ...] = ()
+    """Patches of skin, and streams of contacts that a skinManager saw, that are shown."""
+    samples: int
+    """Number of samples."""
+    url: str | None
+    """Address of the page while it is served; null otherwise."""
+    file: str | None
+    """File of the page, where one was written."""
+    file_bytes: int | None
+    """Its size."""
+    video: str | None
+    """File of the video, where one was written."""
+    video_frames: int | None
+    """Its number of frames."""
+    notes: tuple[str, ...]
+    """What is absent, and why."""
+
+    @classmethod
+    def of(cls, built: BuiltScene) -> Self:
+        """Say what a scene shows, before it is shown anywhere.
+
+        Args:
+            built: The scene.
+
+        Returns:
+            The view, without address and files.
+        """
+        return cls(
+            experiment=built.scene.title,
+            sensors=tuple(sensor.name for sensor in built.scene.sensors if sensor.acting is not None),
+            skin=(*(one.name for one in built.scene.skin), *(one.name for one in built.scene.skin_events)),
+            samples=built.scene.samples,
+            url=None,
+            file=None,
+            file_bytes=None,
+            video=None,
+            video_frames=None,
+            notes=tuple(built.scene.notes),
+        )
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Say what is shown, and where.
+
+        Yields:
+            Sentences.
+        """
+        yield f"{self.experiment}: {self.samples} samples of {', '.join((*self.sensors, *self.skin))}"
+        if self.file is not None and self.file_bytes is not None:
+            yield f"page of {self.file_bytes / 1e6:.1f} MB written to {self.file}"
+        if self.video is not None:
+            yield f"video of {self.video_frames} frames written to {self.video}"
+        if self.url is not None:
+            yield f"open {self.url}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give one line.
+
+        Returns:
+            What is single.
+        """
+        several = ("schema", "sensors", "skin", "notes")
+        return [{name: value for name, value in self.flat().items() if name not in several}]
+
+
+class _Sensor(BaseModel):
+    calibrations: dict[str, Any]
+
+
+class _Experiment(BaseModel):
+    file: str
+    sensors: tuple[_Sensor, ...]
+
+
+class _Numbers(BaseModel):
+    """Of the numbers of a report, those that say what it was made from."""
+
+    schema_name: Literal["forcetorque/report/1"] = Field(alias="schema")
+    experiments: tuple[_Experiment, ...]
+
+
+def view_source(path: Path, calibrations: Sequence[Path] = ()) -> tuple[Path, list[Path]]:
+    """Find the experiment to view and the calibrations to read its sensors by.
+
+    Args:
+        path: Experiment file, or the numbers of a report, whose paths are meant from the working folder, as they were
+            when it was made.
+        calibrations: Calibration files beside those of the report.
+
+    Returns:
+        Experiment file and calibration files.
+
+    Raises:
+        ForceTorqueError: If it is a table, or a report of several experiments.
+        FormatError: If it is JSON and no report.
+        MissingFileError: If it does not exist, or a file of the report is no longer there.
+    """
+    if path.suffix in (".parquet", ".csv"):
+        raise ForceTorqueError(
+            f"{path}: expected an experiment file or the numbers of a report, got a table of results, which holds no "
+            "robot and no motion; view the experiment that it was made from"
+        )
+    if path.suffix != ".json":
+        return path, list(calibrations)
+    if not path.is_file():
+        raise MissingFileError(f"{path}: expected the numbers of a report, there is none")
+    numbers = _read(path)
+    files = [experiment.file for experiment in numbers.experiments]
+    if len(files) != 1:
+        raise ForceTorqueError(f"{path}: expected a report of one experiment, got {', '.join(files)}; view one of them")
+    used = [Path(file) for sensor in numbers.experiments[0].sensors for file in sensor.calibrations]
+    for file in (Path(files[0]), *used):
+        if not file.is_file():
+            raise MissingFileError(f"{path}: {file}: expected the file that the report was made from, there is none")
+    return Path(files[0]), list(dict.fromkeys([*used, *calibrations]))
+
+
+def _read(path: Path) -> _Numbers:
+    declare_input(path)
+    try:
+        return _Numbers.model_validate_json(path.read_bytes())
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(str(key) for key in first["loc"]) or "content"
+        raise FormatError(f"{path}: expected the numbers of a report: {where}: {first['msg']}") from error

@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What known loads excite: the directions that they span, and the matrix error that uncertain loads cause."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, read_only, read_only_mapping
+from forcetorque.base.errors import ShapeError
+from forcetorque.base.wrench import FORCE_AND_MOMENT
+from forcetorque.workbench.bench import Placement
+from forcetorque.workbench.fit import moved_loads, turned_loads
+from forcetorque.workbench.loads import BenchLoads
+
+RANK_TOLERANCE: Final = 1e-9
+"""Share of the largest singular value below which a direction is not spanned: rounding leaves 1e-15."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class MissingMoment:
+    """A sum of force and moment that is zero for all loads: the moment about a line, for weights of rigid bodies.
+
+    `axis . moment + (point x axis) . force + pitch_m axis . force`; a pitch of 0 leaves the moment about the line.
+    """
+
+    axis: FloatArray
+    """Direction of the line in the sensor's frame, of length 1, its largest component positive; shape (3,)."""
+    point_m: FloatArray
+    """Point of the line that is nearest to the sensor's origin; shape (3,); m."""
+    pitch_m: float
+    """How much force along the line belongs to it; m."""
+    functional: FloatArray
+    """What force and moment are multiplied by to give it; shape (6,); m, 1."""
+
+    @classmethod
+    def of(cls, functional: FloatArray) -> MissingMoment | None:
+        """Read a line from what vanishes.
+
+        Args:
+            functional: What force and moment are multiplied by, up to its size; shape (6,).
+
+        Returns:
+            The line; None where no moment belongs to it.
+        """
+        size = float(np.linalg.norm(functional[3:]))
+        if size <= RANK_TOLERANCE * float(np.linalg.norm(functional[:3])):
+            return None
+        sign = np.sign(functional[3 + int(np.argmax(np.abs(functional[3:]).round(9)))])
+        scaled = sign * functional / size
+        arm, axis = scaled[:3], scaled[3:]
+        return cls(
+            axis=axis,
+            point_m=np.cross(axis, arm),
+            pitch_m=float(axis @ arm),
+            functional=read_only(scaled, name="functional", shape=(6,)),
+        )
+
+    def distance_m(self, place_m: Any) -> float:
+        """Say how far a place is from the line.
+
+        Args:
+            place_m: The place, in the sensor's frame; shape (3,); m.
+
+        Returns:
+            The distance; m.
+        """
+        return float(np.linalg.norm(np.cross(np.asarray(place_m, dtype=np.float64) - self.point_m, self.axis)))
+
+    @property
+    def words(self) -> str:
+        """The line in words and numbers."""
+        x, y, z = ((1e3 * self.point_m).round(6) + 0.0).tolist()
+        along = ", ".join(f"{value:.3f}" for value in (self.axis.round(9) + 0.0).tolist())
+        screw = "" if abs(self.pitch_m) < 1e-6 else f", with {1e3 * self.pitch_m:.3g} mm of the force along it"
+        return f"the moment about the line through ({x:.1f}, {y:.1f}, {z:.1f}) mm along ({along}){screw}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Span:
+    """What loads span, force and moment each over its largest."""
+
+    rank: int
+    """Directions of load that are spanned, to a share of 1e-9."""
+    strengths: FloatArray
+    """Singular values of the scaled loads over the root of their number, largest first; shape (6,)."""
+    functionals: FloatArray
+    """What vanishes for all loads, one per direction that is not spanned; shape (6 - rank, 6)."""
+    missing: tuple[MissingMoment, ...]
+    """The same as moments about lines, where they are such."""
+
+    @property
+    def least_strength(self) -> float:
+        """The smallest singular value."""
+        return float(self.strengths[-1])
+
+    @classmethod
+    def of(cls, wrench: Any) -> Span:
+        """Find what loads span.
+
+        Args:
+            wrench: Loads; shape (n, 6), n at least 6; N, N m.
+
+        Returns:
+            Rank, singular values, and what is missing.
+
+        Raises:
+            ShapeError: If there are fewer than six loads, or all are zero.
+        """
+        loads = read_only(wrench, name="wrench", shape=(None, 6))
+        if len(loads) < 6 or not loads.any():
+            raise ShapeError(f"wrench: expected at least six loads that are not all zero, got {len(loads)}")
+        size = load_sizes(loads)
+        _, values, directions = np.linalg.svd(loads / size, full_matrices=False)
+        rank = int((values > RANK_TOLERANCE * values[0]).sum())
+        functionals = directions[rank:] / size
+        lines = (MissingMoment.of(functional) for functional in functionals)
+        return cls(
+            rank=rank,
+            strengths=values / np.sqrt(len(loads)),
+            functionals=functionals,
+            missing=tuple(line for line in lines if line is not None),
+        )
+
+
+def load_sizes(wrench: FloatArray) -> FloatArray:
+    """Give the largest force and the largest moment, to compare both.
+
+    Args:
+        wrench: Loads; shape (n, 6); N, N m.
+
+    Returns:
+        The force three times, then the moment, 1 where there is none; shape (6,); N, N m.
+    """
+    largest = [float(np.linalg.norm(wrench[:, half], axis=1).max()) for half in FORCE_AND_MOMENT]
+    return np.repeat([size if size > 0.0 else 1.0 for size in largest], 3)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UncertainLoads:
+    """Loads at n poses."""
+
+    wrench: FloatArray
+    """Loads as the reference says; shape (n, 6); N, N m."""
+    count: FloatArray
+    """Samples at every pose, each with noise of its own; shape (n,)."""
+    lasting: Mapping[str, FloatArray]
+    """What errors that stay the same change, at one standard deviation, by name; shapes (n, 6); N, N m."""
+    fresh: FloatArray
+    """The same of r errors that are others at every pose; shape (n, 6, r); N, N m."""
+
+    def __post_init__(self) -> None:
+        n = len(np.asarray(self.wrench))
+        for field, shape in (("wrench", (n, 6)), ("count", (n,)), ("fresh", (n, 6, None))):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
+        lasting = {name: read_only(change, name=name, shape=(n, 6)) for name, change in self.lasting.items()}
+        object.__setattr__(self, "lasting", read_only_mapping(lasting))
+
+    @classmethod
+    def of_bench(cls, loads: BenchLoads, placement: Placement, *, samples: int) -> UncertainLoads:
+        """Take the loads of a workbench, each placed anew.
+
+        Args:
+            loads: Loads of weights.
+            placement: How far they may be off.
+            samples: Samples of all positions together.
+
+        Returns:
+            The loads.
+        """
+        return cls(
+            wrench=loads.wrench,
+            count=np.full(len(loads), samples / len(loads)),
+            lasting={},
+            fresh=np.concatenate(
+                [placement.angle_rad * turned_loads(loads), placement.position_m * moved_loads(loads)], axis=2
+            ),
+        )
+
+    @classmethod
+    def together(cls, parts: Sequence[UncertainLoads]) -> UncertainLoads:
+        """Join loads; errors of one name are one error.
+
+        Args:
+            parts: Loads with as many fresh errors each.
+
+        Returns:
+            All of them.
+        """
+        names = dict.fromkeys(name for part in parts for name in part.lasting)
+        lasting = {
+            name: np.concatenate([part.lasting.get(name, np.zeros_like(part.wrench)) for part in parts])
+            for name in names
+        }
+        return cls(
+            wrench=np.concatenate([part.wrench for part in parts]),
+            count=np.concatenate([part.count for part in parts]),
+            lasting=lasting,
+            fresh=np.concatenate([part.fresh for part in parts]),
+        )
+
+    def matrix_error(self, noise: Any) -> MatrixError:
+        """Foretell the error of a matrix that is fitted to them, with an offset of its own.
+
+        Args:
+            noise: Covariance of the noise of a sample, as wrench; shape (6, 6).
+
+        Returns:
+            What is to be expected.
+        """
+        size = load_sizes(self.wrench)
+        moved = (self.wrench - np.average(self.wrench, axis=0, weights=self.count)) / size
+        _, values, directions = np.linalg.svd(np.sqrt(self.count)[:, None] * moved, full_matrices=False)
+        known = values > RANK_TOLERANCE * values[0]
+        unspanned = np.where(np.abs(directions[~known]) > RANK_TOLERANCE, directions[~known], 0.0)
+        # of the inverse second moment, without directions that are not spanned
+        root = directions[known].T / values[known]
+        worth = moved @ root @ root.T / size * self.count[:, None]  # (n, 6): of every pose for every column of E
+        pairs = (worth[:, :, None] * worth[:, None, :]).reshape(len(worth), 36)
+        own = (self.fresh @ self.fresh.transpose(0, 2, 1)).reshape(len(worth), 36)
+        white = np.outer(np.asarray(noise, dtype=np.float64), pairs.T @ (1.0 / self.count))
+        # of rows i, j and columns a, b, put in the order i, a, j, b
+        covariance = (own.T @ pairs + white).reshape(6, 6, 6, 6).transpose(0, 2, 1, 3)
+        for change in self.lasting.values():
+            share = change.T @ worth
+            covariance = covariance + share[:, :, None, None] * share
+        return MatrixError(covariance=covariance, unspanned=unspanned / size)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class MatrixError:
+    """Covariance of the share E by which a fitted matrix reads wrongly; a load l is read wrongly by `E l`."""
+
+    covariance: FloatArray
+    """Of E[i, a] with E[j, b]; shape (6, 6, 6, 6); without what loads do not span."""
+    unspanned: FloatArray
+    """Directions of E of which nothing is known, each times a load; shape (6 - rank, 6)."""
+
+    @property
+    def rank(self) -> int:
+        """Directions of load that are known."""
+        return 6 - len(self.unspanned)
+
+    @property
+    def volume(self) -> float:
+        """Logarithm of the determinant of the covariance of all of E, which D-optimal motions lower; N, N m are units.
+
+        It is infinite where a direction is not spanned.
+        """
+        if self.rank < 6:
+            return float(np.inf)
+        return float(np.linalg.slogdet(self.covariance.reshape(36, 36))[1])
+
+    def error(self, load: Any) -> FloatArray:
+        """Foretell the error of readings under loads that are changes.
+
+        Args:
+            load: Loads; shape (..., 6); N, N m.
+
+        Returns:
+            Standard deviations of the components, infinite where a load is not known; shape (..., 6); N, N m.
+        """
+        loads = np.asarray(load, dtype=np.float64)
+        variance = np.einsum("iaib,...a,...b->...i", self.covariance, loads, loads)
+        terms = np.abs(loads[..., None, :] * self.unspanned)
+        beyond = (np.abs(loads @ self.unspanned.T) > RANK_TOLERANCE * terms.sum(axis=-1)).any(axis=-1)
+        return np.where(beyond[..., None], np.inf, np.sqrt(np.maximum(variance, 0.0)))
+
+    def trace(self, loads: Any) -> tuple[float, float]:
+        """Foretell the mean square of the error over loads of use.
+
+        Args:
+            loads: Loads; shape (n, 6); N, N m.
+
+        Returns:
+            Mean squares of force and moment, all three components together; N^2, (N m)^2.
+        """
+        square = (self.error(loads) ** 2).mean(axis=0)
+        return float(square[:3].sum()), float(square[3:].sum())

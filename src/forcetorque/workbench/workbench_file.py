@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The workbench file: one sensor, the loads that hang on it, how far they may be off, and what it read of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.formats.tabular.table_layout import StampUnit
+from forcetorque.workbench.bench import BIAS
+from forcetorque.workbench.loads import THESIS_TABLE
+
+_Six = Annotated[tuple[Text, ...], Field(min_length=6, max_length=6)]
+
+
+class BenchSensorTable(Table):
+    """The sensor."""
+
+    name: Text
+    """Name."""
+    serial: Text
+    """Serial number."""
+    measure_direction: MeasureDirection
+    """Who acts on whom in the reading; the load is the child."""
+    frame: Text = "sensor"
+    """Frame along whose axes loads are stated."""
+    full_scale: tuple[Positive, ...] | Positive
+    """Largest magnitude of a reading, one for all channels or one for each; counts."""
+    prior: Path | Literal["identity"] | None = None
+    """Nominal matrix: a matrix file or a calibration; `identity` where readings are wrenches already."""
+
+
+class LoadsTable(Table):
+    """The loads."""
+
+    table: Text = THESIS_TABLE
+    """Table of weights, or `thesis-6.1` for the bundled one."""
+    leave_out: tuple[Text, ...] = ()
+    """Positions that are not used."""
+
+
+class PlacementTable(Table):
+    """How far loads may be from where they are stated to be, one standard deviation each."""
+
+    angle_deg: NotNegative
+    """Direction of gravity about each axis across it; deg."""
+    position_mm: NotNegative
+    """Place along each axis; mm."""
+    nonlinearity: NotNegative = 0.0
+    """Departure of a channel from a line, as a share of its reading."""
+
+
+class _Readings(Table):
+    channels: Annotated[tuple[Text, ...], Field(min_length=6)]
+    """Columns of the channels, in their order."""
+    columns: tuple[Text, ...] | None = None
+    """Names of all columns of a file without a line of headings."""
+    delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
+    """Character between columns; a space stands for any run of blanks."""
+
+
+class BlockReadings(_Readings):
+    """Files of blocks: each begins with a block of bias, then one block per position."""
+
+    format: Literal["blocks"]
+    """This form."""
+    files: Annotated[tuple[Text, ...], Field(min_length=1)] | Text
+    """Files in the order of the positions; or one name with `{}` for the number of a position, counted from 1."""
+    block_rows: Annotated[int, Field(ge=2, strict=True)]
+    """Rows of every block."""
+
+    @model_validator(mode="after")
+    def _has_a_place_for_the_number(self) -> BlockReadings:
+        if isinstance(self.files, str) and self.files.count("{}") != 1:
+            raise PydanticCustomError("no_number", 'expected one "{}" for the number of the position, or a list')
+        return self
+
+
+class LogBlock(Table):
+    """A stretch of a log."""
+
+    position: Text
+    """Name of the position, or `bias`."""
+    start_s: Finite
+    """Start after the first row; s."""
+    end_s: Finite
+    """End; s."""
+
+
+class LogReadings(_Readings):
+    """A log with instants, and which stretch of it is at which position."""
+
+    format: Literal["log"]
+    """This form."""
+    file: Path
+    """The log."""
+    time: Text
+    """Column of the time."""
+    time_unit: StampUnit
+    """Its unit; `iso8601` for dates with a time of day."""
+    block: Annotated[tuple[LogBlock, ...], Field(min_length=1)]
+    """Stretches in the order of time; the first is `bias`."""
+
+    @model_validator(mode="after")
+    def _begins_with_bias(self) -> LogReadings:
+        if self.block[0].position != BIAS:
+            raise PydanticCustomError("no_bias", 'expected the first block to be "bias", without a load')
+        return self
+
+
+class RowReadings(_Readings):
+    """A table with a row of mean readings per position, of which the line in the file is the name."""
+
+    format: Literal["rows"]
+    """This form."""
+    file: Path
+    """The table."""
+    known: _Six | None = None
+    """Columns of the known wrench fx fy fz tx ty tz, where the table has it; the rows are those of `[loads]` if not."""
+    known_units: _Six | None = None
+    """Unit of each."""
+    series_from_zero: bool = False
+    """Whether every row without load begins a series that was set up by itself."""
+
+    @model_validator(mode="after")
+    def _states_units(self) -> RowReadings:
+        if (self.known is None) != (self.known_units is None):
+            raise PydanticCustomError("half_known", "give known and known_units, or neither")
+        return self
+
+
+class BenchFile(Table):
+    """The whole file."""
+
+    schema_name: Literal["forcetorque/bench/1"] = Field(alias="schema")
+    """Form of the file."""
+    sensor: BenchSensorTable
+    """The sensor."""
+    loads: LoadsTable = LoadsTable()
+    """The loads."""
+    placement: PlacementTable | None = None
+    """How far loads may be off."""
+    readings: Annotated[BlockReadings | LogReadings | RowReadings, Field(discriminator="format")]
+    """What it read."""

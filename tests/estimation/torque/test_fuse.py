@@ -1,0 +1,284 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fused torques are those of least squares, intervals hold, and the source in conflict is named at the stated rate."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.stats import chi2
+
+from forcetorque.base.errors import EstimationError
+from forcetorque.estimation.torque.covariance_fusion import disagreement, fuse, means_in_windows
+from forcetorque.estimation.torque.source import TorqueSource
+from tests.estimation.torque.sources import JOINTS, SAMPLES, shifted, source, stamps, three, truth
+
+EXACT = 1e-9
+"""Rounding of sums over some hundred samples whose variances differ by a factor of 40."""
+SEEDS = range(100, 160)
+SHORT = 160
+"""Samples of one of many recordings."""
+FALSE_ALARM = 0.1
+"""A rate that sixty recordings tell."""
+
+
+def _single(name: str, values: list[float], variance: float) -> TorqueSource:
+    n = len(values)
+    return TorqueSource(
+        name=name,
+        joints=("knee",),
+        stamp_ns=np.arange(n),
+        torque=np.array(values)[:, None],
+        noise=np.full((n, 1, 1), variance),
+        lasting=np.zeros((n, 1, 0)),
+    )
+
+
+def test_two_numbers_by_hand() -> None:
+    """Weights 1 and 1/4: (1 + 3/4) / (5/4) = 1.4, of variance 4/5; where one says nothing, the other is it."""
+    fusion = fuse([_single("a", [1.0, 2.0], 1.0), _single("b", [3.0, np.nan], 4.0)])
+    np.testing.assert_allclose(fusion.torque[:, 0], [1.4, 2.0], atol=EXACT)
+    np.testing.assert_allclose(fusion.covariance[:, 0, 0], [0.8, 1.0], atol=EXACT)
+    assert fusion.half_width[0, 0] == pytest.approx(1.96 * np.sqrt(0.8), rel=1e-3)
+
+
+def test_where_nobody_knows_there_is_nothing() -> None:
+    """A gap of all sources is a gap."""
+    fusion = fuse([_single("a", [1.0, np.nan], 1.0), _single("b", [3.0, np.nan], 4.0)])
+    assert np.isnan(fusion.torque[1, 0])
+    assert np.isfinite(fusion.torque[0, 0])
+
+
+def test_sources_in_any_order_and_unit_give_the_same() -> None:
+    """Order does not matter, and N mm instead of N m changes nothing but the numbers."""
+    sources = three(1)
+    fusion, turned = fuse(sources), fuse(sources[::-1])
+    np.testing.assert_allclose(turned.torque, fusion.torque, atol=EXACT)
+    small = [replace(one, torque=1e3 * one.torque, noise=1e6 * one.noise, lasting=1e3 * one.lasting) for one in sources]
+    np.testing.assert_allclose(fuse(small).torque, 1e3 * fusion.torque, atol=1e3 * EXACT)
+    assert fuse(small).conflict.everyone.total.chi2 == pytest.approx(fusion.conflict.everyone.total.chi2)
+
+
+def _dense(sources: list[TorqueSource], window_s: float = 1.0) -> tuple[float, int]:
+    """The same sum from one large covariance of all means, torques eliminated by the sources' differences."""
+    means = means_in_windows(sources, window_s)
+    windows = len(means[0].torque)
+    blocks = []
+    for one in means:
+        lasting = one.lasting.reshape(windows * 2, -1)
+        covariance = lasting @ lasting.T
+        for k in range(windows):
+            covariance[2 * k : 2 * k + 2, 2 * k : 2 * k + 2] += one.noise[k]
+        blocks.append(covariance)
+    first = means[0].torque.ravel()
+    apart = np.concatenate([one.torque.ravel() - first for one in means[1:]])
+    size = windows * 2
+    whole = np.kron(np.ones((len(means) - 1, len(means) - 1)), blocks[0])
+    for k, block in enumerate(blocks[1:]):
+        whole[k * size : (k + 1) * size, k * size : (k + 1) * size] += block
+    return float(apart @ np.linalg.solve(whole, apart)), len(apart)
+
+
+def test_innovations_are_those_of_the_whole_covariance() -> None:
+    """Elimination of torques and lasting errors gives what one large covariance gives; the parts are its whole."""
+    sources = three(2)
+    told = disagreement(means_in_windows(sources, 1.0)).total
+    square, count = _dense(sources)
+    assert told.degrees_of_freedom == count
+    assert told.chi2 == pytest.approx(square, rel=1e-6)
+    # negative control: another sign of one source is another sum
+    turned = [replace(sources[0], torque=-sources[0].torque), *sources[1:]]
+    assert disagreement(means_in_windows(turned, 1.0)).total.chi2 != pytest.approx(square, rel=1e-2)
+
+
+def _held(fault: str | None) -> tuple[float, int]:
+    """Share of intervals that hold the truth, and how often the broken source was named."""
+    inside, named = [], 0
+    for seed in SEEDS:
+        fusion = fuse([shifted(one, 1.5) if one.name == fault else one for one in three(seed, SHORT)])
+        inside.append(np.abs(fusion.torque - truth(SHORT)) <= fusion.half_width)
+        named += fusion.conflict.source == fault
+    return float(np.mean(inside)), named
+
+
+@pytest.mark.parametrize("fault", [None, "ft"])
+def test_intervals_hold_the_truth(fault: str | None) -> None:
+    """60 recordings with two offsets that hardly change: 95 %, of which 2 % are the standard error."""
+    share, named = _held(fault)
+    assert 0.90 < share < 0.98
+    # of those without a false alarm among the others, all
+    assert named >= 0.9 * len(SEEDS)
+
+
+def test_the_rate_of_false_alarms_is_as_stated() -> None:
+    """Lasting innovations are those of chi-squared, and conflicts are no more frequent than asked for."""
+    squares, degrees, alarms = [], [], 0
+    for seed in SEEDS:
+        conflict = fuse(three(seed, SHORT), false_alarm=FALSE_ALARM).conflict
+        squares.append(conflict.everyone.lasting.chi2)
+        degrees.append(conflict.everyone.lasting.degrees_of_freedom)
+        alarms += conflict.is_there
+    low, high = chi2.ppf([0.001, 0.999], sum(degrees))
+    assert low < sum(squares) < high
+    # 6 expected at most, 13 or more have a probability below 0.005
+    assert alarms <= 12
+
+
+@pytest.mark.parametrize("name", ["ft", "skin", "current"])
+def test_a_broken_source_is_named_and_left_out(name: str) -> None:
+    """An error of five standard deviations and more; the others are fused as if it were not there."""
+    sources = three(7)
+    broken = [shifted(one, 1.5) if one.name == name else one for one in sources]
+    fusion = fuse(broken)
+    assert fusion.conflict.source == name
+    others = fuse([one for one in sources if one.name != name])
+    np.testing.assert_allclose(fusion.torque, others.torque, atol=EXACT)
+    innovations = {one.name: fusion.conflict.innovation(one.name).chi2 for one in sources}
+    assert max(innovations, key=lambda source: innovations[source]) == name
+
+
+def test_a_sound_recording_has_no_conflict() -> None:
+    """Negative control, and all sources are used."""
+    fusion = fuse(three(7))
+    assert not fusion.conflict.is_there
+    assert fusion.used == ("ft", "skin", "current")
+
+
+def test_windows_tell_when() -> None:
+    """An error in the second half is named there and not before."""
+    sources = three(8)
+    late = np.arange(SAMPLES)[:, None] >= SAMPLES // 2
+    sources[0] = replace(sources[0], torque=sources[0].torque + 3.0 * late)
+    named = [window.source for window in fuse(sources).windows]
+    half = len(named) // 2
+    assert half == 10
+    assert named[:half].count("ft") == 0
+    assert named[half:].count("ft") > half // 2
+
+
+def test_of_two_sources_nobody_is_named() -> None:
+    """They disagree, both are suspected and used, and the intervals grow by what they disagree."""
+    ft, skin, _ = three(9)
+    agreed, fusion = fuse([ft, skin]), fuse([shifted(ft, 3.0), skin])
+    assert fusion.conflict.is_there
+    assert fusion.conflict.source is None
+    assert fusion.conflict.suspects == ("ft", "skin")
+    assert fusion.used == ("ft", "skin")
+    assert (fusion.half_width > agreed.half_width).all()
+
+
+def _with_model_error(seed: int, deviation: float, by_model: tuple[str, ...]) -> list[TorqueSource]:
+    """Sources of which some use a robot model that is off by one error per joint."""
+    rng = np.random.default_rng(seed)
+    shared = np.broadcast_to(deviation * np.eye(2), (SHORT, 2, 2))
+    error = shared @ rng.standard_normal(2)
+    return [
+        replace(one, torque=one.torque + error, shared=shared) if one.name in by_model else one
+        for one in three(seed, SHORT)
+    ]
+
+
+@pytest.mark.parametrize("deviation", [0.05, 1.0])
+@pytest.mark.parametrize("by_model", [("ft", "skin"), ("ft", "skin", "current")])
+def test_intervals_hold_where_sources_share_the_error_of_the_model(deviation: float, by_model: tuple[str, ...]) -> None:
+    """120 draws of two joints, errors small and large against the sources' own; 90 to 99 % of intervals."""
+    inside, squares, apart = [], [], []
+    for seed in range(300, 420):
+        sources = _with_model_error(seed, deviation, by_model)
+        fusion = fuse(sources)
+        inside.append(np.abs(fusion.torque - truth(SHORT)) <= fusion.half_width)
+        squares.append(np.mean((fusion.torque - truth(SHORT)) ** 2))
+        apart.append(np.mean((fuse([one.independent for one in sources]).torque - truth(SHORT)) ** 2))
+    assert 0.90 < np.mean(inside) < 0.99
+    # the point is no worse than that of the same sources taken as independent
+    assert np.mean(squares) < 1.02 * np.mean(apart)
+
+
+def test_a_shared_error_is_not_averaged_and_own_errors_are() -> None:
+    """By hand: of two sources with variance 1 each the mean has 1/2, and a shared variance of 4 stays 4."""
+    first, second = _single("a", [1.0], 1.0), _single("b", [3.0], 1.0)
+    shared = np.full((1, 1, 1), 2.0)
+    fusion = fuse([replace(first, shared=shared), replace(second, shared=shared)])
+    assert fusion.torque[0, 0] == pytest.approx(2.0)
+    assert fusion.covariance[0, 0, 0] == pytest.approx(4.5)
+    # negative control: errors that sources have alone average out
+    assert fuse([first, second]).covariance[0, 0, 0] == pytest.approx(0.5)
+    assert fuse([_single("a", [1.0], 5.0), _single("b", [3.0], 5.0)]).covariance[0, 0, 0] == pytest.approx(2.5)
+    # a third source without that error is worth more than both: 1 / (1 / 4.5 + 1)
+    assert fuse([replace(first, shared=shared), replace(second, shared=shared), _single("c", [2.0], 1.0)]).covariance[
+        0, 0, 0
+    ] == pytest.approx(1.0 / (1.0 / 4.5 + 1.0))
+    with pytest.raises(EstimationError, match="shared: expected the same errors in all sources"):
+        fuse([replace(first, shared=shared), replace(second, shared=np.ones((1, 1, 2)))])
+
+
+def test_one_source_is_itself() -> None:
+    """Nothing to compare: its torques, and its covariance."""
+    (ft, *_) = three(1)
+    fusion = fuse([ft])
+    np.testing.assert_allclose(fusion.torque, ft.torque, atol=EXACT)
+    np.testing.assert_allclose(fusion.covariance, ft.covariance, atol=EXACT)
+    assert not fusion.conflict.is_there
+
+
+def test_a_covariance_without_parts_stays_what_it_is() -> None:
+    """Noise and what lasts add up to it."""
+    rng = np.random.default_rng(4)
+    roots = rng.standard_normal((SAMPLES, 2, 2))
+    covariance = roots @ roots.transpose(0, 2, 1) + 0.1 * np.eye(2)
+    one = TorqueSource.of_covariance("skin", JOINTS, stamps(), truth(), covariance, noise_share=0.25)
+    np.testing.assert_allclose(one.covariance, covariance, atol=EXACT)
+    np.testing.assert_allclose(one.noise, 0.25 * covariance)
+    with pytest.raises(EstimationError, match="noise_share: expected above 0"):
+        TorqueSource.of_covariance("skin", JOINTS, stamps(), truth(), covariance, noise_share=0.0)
+
+
+def test_noise_that_repeats_itself_is_no_conflict() -> None:
+    """Noise of half a second averages out less; said so, it is none, and unsaid it is one."""
+    rng = np.random.default_rng(5)
+    ft = source("ft", rng, noise=0.05, offset=0.0)
+    slow = source("current", rng, noise=0.3, offset=0.0)
+    held = np.repeat((slow.torque - truth())[::10], 10, axis=0)
+    slow = replace(slow, torque=truth() + held)
+    assert fuse([ft, slow]).conflict.is_there
+    assert not fuse([ft, replace(slow, noise_time_s=0.25)]).conflict.is_there
+
+
+@pytest.mark.parametrize("variance", [0.0, -1.0, np.nan])
+def test_a_variance_that_is_none_is_refused(variance: float) -> None:
+    """With the source and the sample."""
+    ft, *_ = three(1)
+    noise = np.array(ft.noise)
+    noise[3] = np.diag([1.0, variance])
+    with pytest.raises(EstimationError, match="source 'ft', sample 3: noise: expected a symmetric covariance"):
+        replace(ft, noise=noise)
+    # where it says nothing, it need not say how far off that is
+    torque = np.array(ft.torque)
+    torque[3, 1] = np.nan
+    assert len(replace(ft, noise=noise, torque=torque)) == SAMPLES
+
+
+def test_sources_at_different_instants_are_refused() -> None:
+    """With both names, where, and how far apart."""
+    ft, skin, _ = three(1)
+    late = replace(skin, stamp_ns=skin.stamp_ns + 2_000_000)
+    with pytest.raises(EstimationError, match="'ft' and 'skin', sample 0: expected the same instants, .* 0.002000 s"):
+        fuse([ft, late])
+    with pytest.raises(EstimationError, match="expected the same instants, got 400 and 200"):
+        fuse([ft, three(1, samples=200)[1]])
+
+
+def test_other_joints_names_and_options_are_refused() -> None:
+    """Each says what was expected."""
+    ft, skin, _ = three(1)
+    with pytest.raises(EstimationError, match="expected the same joints"):
+        fuse([ft, replace(skin, joints=("hip", "knee"))])
+    with pytest.raises(EstimationError, match="different names"):
+        fuse([ft, replace(skin, name="ft")])
+    with pytest.raises(EstimationError, match="false_alarm"):
+        fuse([ft, skin], false_alarm=0.0)
+    with pytest.raises(EstimationError, match="instants that increase"):
+        replace(ft, stamp_ns=ft.stamp_ns[::-1])
+    with pytest.raises(EstimationError, match="noise_time_s"):
+        replace(ft, noise_time_s=np.inf)

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Friction is found with an interval that holds it, and motors say nothing where nothing can be told from them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import EstimationError, FitError
+from forcetorque.estimation.torque.motor import Friction, Motor, fit_friction, friction_terms, motor_source
+from forcetorque.simulation.imu_and_motor import SimulatedMotor
+
+RATE_HZ = 50.0
+MOTOR = SimulatedMotor(
+    torque_constant=0.05, gear_ratio=100.0, coulomb=1.5, viscous=0.6, inertia=0.08, offset_a=0.02, noise_a=0.02
+)
+TRUE = np.array([1.5, 0.6, 0.08, 0.1])
+STANDSTILL = 0.02
+SEEDS = range(40)
+
+
+def _motion(rng: np.random.Generator, samples: int = 2000) -> tuple[FloatArray, FloatArray]:
+    """Velocity and acceleration of a joint that moves both ways, fast and slowly."""
+    time_s, phase = np.arange(samples) / RATE_HZ, rng.uniform(0.0, 6.0, 2)
+    omega = np.array([0.9, 2.3])
+    angle = time_s[:, None] * omega + phase
+    return np.cos(angle) @ [0.4, 0.3], -np.sin(angle) @ (omega * [0.4, 0.3])
+
+
+def _fitted(seed: int, motor: SimulatedMotor = MOTOR, offset: float = 0.0) -> Friction:
+    rng = np.random.default_rng(seed)
+    velocity, acceleration = _motion(rng)
+    torque = 2.0 * np.sin(np.arange(len(velocity)) / 70.0)
+    current = motor.current(torque, velocity, acceleration, rng, rate_hz=RATE_HZ)
+    drive = Motor(joint="knee", torque_constant=0.05, gear_ratio=100.0).drive_torque(current)
+    trusted = torque + 0.02 * rng.standard_normal(len(torque)) + offset * rng.standard_normal()
+    return fit_friction(
+        "knee",
+        drive,
+        trusted,
+        velocity,
+        acceleration,
+        period_s=1.0 / RATE_HZ,
+        standstill=STANDSTILL,
+        trusted_variance=np.full(len(torque), 4e-4),
+        trusted_lasting=np.full((len(torque), 1), offset),
+    )
+
+
+@pytest.mark.parametrize("motor", [MOTOR, replace(MOTOR, ripple=0.1, ripple_time_s=0.2)])
+def test_friction_is_found_within_its_intervals(motor: SimulatedMotor) -> None:
+    """White noise, and friction that wanders: 95 % of 160 intervals, within three standard errors of a share."""
+    off = []
+    for seed in SEEDS:
+        friction = _fitted(seed, motor, offset=0.05)
+        off.append((friction.coefficients - TRUE) / np.sqrt(np.diag(friction.covariance)))
+    share = np.mean(np.abs(off) < 1.96)
+    assert share > 0.89
+    # negative control: intervals so wide that they say nothing would hold all
+    assert np.std(off) > 0.6
+
+
+def test_what_friction_leaves_is_the_drives() -> None:
+    """Noise of 0.1 N m of the current, without that of the trusted source; ripple repeats itself, noise not."""
+    white, wandering = _fitted(1), _fitted(1, replace(MOTOR, ripple=0.1, ripple_time_s=0.2))
+    assert white.variance == pytest.approx(0.01, rel=0.1)
+    assert wandering.variance == pytest.approx(0.02, rel=0.2)
+    assert white.noise_time_s < 0.03 < wandering.noise_time_s < 0.3
+
+
+def test_a_joint_at_standstill_says_nothing() -> None:
+    """Friction is anything up to Coulomb's there."""
+    velocity = np.array([[0.0], [0.01], [0.5], [-0.5]])
+    drive = np.array([[3.0], [3.0], [3.0], [3.0]])
+    source = motor_source("current", [_fitted(1)], np.arange(4), drive, velocity, np.zeros((4, 1)))
+    assert np.isnan(source.torque[:2]).all()
+    np.testing.assert_allclose(source.torque[2:, 0], [3.0 - 1.5 - 0.3 - 0.1, 3.0 + 1.5 + 0.3 - 0.1], atol=0.05)
+
+
+def test_the_variance_of_friction_is_carried_to_torques() -> None:
+    """What lasts is the variance of the terms, as coefficients have it."""
+    friction = _fitted(2, offset=0.05)
+    source = motor_source("current", [friction], np.arange(1), np.ones((1, 1)), np.full((1, 1), 0.5), np.ones((1, 1)))
+    terms = np.array([1.0, 0.5, 1.0, 1.0])
+    assert source.covariance[0, 0, 0] == pytest.approx(friction.variance + terms @ friction.covariance @ terms)
+
+
+def test_an_error_of_the_trusted_torque_comes_back_from_the_motors() -> None:
+    """A torque that is 0.5 N m too high while friction is fitted is as much too high in the motors' torques."""
+    rng = np.random.default_rng(8)
+    velocity, acceleration = _motion(rng)
+    torque = 2.0 * np.sin(np.arange(len(velocity)) / 70.0)
+    drive = torque + friction_terms(velocity, acceleration) @ TRUE
+    friction = fit_friction(
+        "knee",
+        drive,
+        torque + 0.5,
+        velocity,
+        acceleration,
+        period_s=1.0 / RATE_HZ,
+        standstill=STANDSTILL,
+        trusted_shared=np.full((len(torque), 1), 0.5),
+    )
+    moved = (drive[:, None], velocity[:, None], acceleration[:, None])
+    source = motor_source("current", [friction], np.arange(len(torque)), *moved)
+    known = np.isfinite(source.torque[:, 0])
+    np.testing.assert_allclose(source.torque[known, 0] - torque[known], 0.5, atol=1e-6)
+    np.testing.assert_allclose(source.shared[known, 0, 0], 0.5, atol=1e-9)
+    # it is no error of the motors alone
+    assert np.abs(source.lasting).max() < 0.01
+    assert friction.covariance[3, 3] == pytest.approx(0.25, rel=1e-3)
+
+
+@pytest.mark.parametrize("field", ["torque_constant", "gear_ratio"])
+@pytest.mark.parametrize("value", [0.0, np.nan])
+def test_a_motor_without_constant_is_refused(field: str, value: float) -> None:
+    """Nothing can be told from its current."""
+    with pytest.raises(EstimationError, match=f"motor of joint 'knee': {field}: expected a number other than 0"):
+        replace(Motor(joint="knee", torque_constant=0.05, gear_ratio=100.0), **{field: value})
+
+
+def test_motions_that_do_not_tell_friction_are_refused() -> None:
+    """One way only, or one speed only; and a standstill that is none."""
+    rng = np.random.default_rng(1)
+    n = 500
+    drive, trusted = rng.standard_normal(n), np.zeros(n)
+    forth = np.abs(_motion(rng, n)[0]) + 0.1
+    with pytest.raises(FitError, match="joint 'knee': expected at least 20 samples .* got 500 forth and 0 back"):
+        fit_friction("knee", drive, trusted, forth, np.zeros(n), period_s=0.02, standstill=0.02)
+    one_speed = np.where(np.arange(n) % 100 < 50, 0.3, -0.3)
+    with pytest.raises(FitError, match="expected motions that tell coulomb, viscous, inertia, offset .* apart"):
+        fit_friction("knee", drive, trusted, one_speed, np.zeros(n), period_s=0.02, standstill=0.02)
+    with pytest.raises(FitError, match="standstill: expected a positive speed"):
+        fit_friction("knee", drive, trusted, one_speed, np.zeros(n), period_s=0.02, standstill=0.0)
