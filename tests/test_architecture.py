@@ -68,10 +68,13 @@ def test_a_file_that_moved_is_noticed() -> None:
 
 
 def _unknown(section: str) -> list[str]:
-    """Plain names in code that are no module, folder, function or class of the library."""
+    """Plain names in code that are no module, folder, function, class, constant or field of the library."""
     modules = {path.stem for path in LIBRARY.rglob("*.py")} | {path.parent.name for path in LIBRARY.rglob("*.py")}
     texts = [path.read_text(encoding="utf-8") for path in LIBRARY.rglob("*.py")]
     defined = {name for text in texts for name in re.findall(r"^\s*(?:def|class) (\w+)", text, re.MULTILINE)}
+    defined |= {
+        name for text in texts for name in re.findall(r"^\s*([A-Za-z_]\w+)(?:: [^=\n]+)? = ", text, re.MULTILINE)
+    }
     names = [name.rpartition(".")[2] for name in re.findall(r"`([\w.]+)`", section)]
     return [name for name in names if name not in modules | defined]
 
@@ -92,7 +95,7 @@ def test_a_module_of_another_name_is_noticed() -> None:
 def test_every_recipe_names_the_test_that_follows_it() -> None:
     """The test is there, and says that it follows this page."""
     _, *recipes = re.split(r"^### To add ", PAGE, flags=re.MULTILINE)
-    assert len(recipes) == 6
+    assert len(recipes) == 7
     for recipe in recipes:
         (test,) = set(re.findall(r"`(tests/[\w/]*test_add_\w+\.py)`", recipe))
         assert "recipe of docs/architecture.md" in (ROOT / test).read_text(encoding="utf-8")

@@ -236,7 +236,7 @@ def test_an_extra_imported_with_its_module_is_noticed() -> None:
 
 
 PRINTING = {"print", "input"}
-CLOCK = "results/created.py"
+CLOCK = "results/result.py"
 """The one place that says when a result is made, for those who call analyses."""
 
 

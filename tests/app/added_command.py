@@ -22,19 +22,19 @@ GROUP_COMMAND = "toy count"
 @contextmanager
 def added_command(folder: Path = TOY) -> Iterator[None]:
     """Its folder in the library, and its line in the tuple of capabilities."""
-    with _folder(folder, NAME):
+    with added_folder(folder, NAME):
         yield
 
 
 @contextmanager
 def added_group(folder: Path = TOY_GROUP) -> Iterator[None]:
     """Its folder in the library, and its line in the tuple of capabilities."""
-    with _folder(folder, GROUP):
+    with added_folder(folder, GROUP):
         yield
 
 
 @contextmanager
-def _folder(folder: Path, name: str) -> Iterator[None]:
+def added_folder(folder: Path, name: str) -> Iterator[None]:
     """A capability in a folder beside those of the library; what is added meanwhile goes with it."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(forcetorque, "__path__", [*forcetorque.__path__, str(folder)])
