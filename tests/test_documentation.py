@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import ast
+import inspect
 import re
 from collections import Counter
 from importlib import import_module
 from pathlib import Path
 
 import pytest
+import typer
 
 import forcetorque
 from forcetorque.app.command_line import whole_program
@@ -126,13 +128,34 @@ def _absent(code: str) -> list[str]:
     return [f"{holder}.{name}" for holder, name in called if not hasattr(HOLDERS[holder], name)]
 
 
-def test_the_page_on_python_has_a_line_for_every_command() -> None:
-    """Each names what is there."""
-    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
-    rows = dict(re.findall(r"^\| `([a-z -]+)` \| (.+) \|$", page, re.MULTILINE))
-    assert list(rows) == sorted(typed_commands(whole_program()))
-    assert {command: _absent(line) for command, line in rows.items()} == dict.fromkeys(rows, [])
-    assert all(re.search(rf"`({'|'.join(HOLDERS)})\.\w+", line) for line in rows.values())
+def _python_lines(program: typer.Typer, group: str = "") -> dict[str, str]:
+    """What stands behind `Python:` in the help of every command."""
+    lines = {}
+    for command in program.registered_commands:
+        _, _, text = inspect.getdoc(command.callback).partition("\nPython: ")
+        text = " ".join(text.partition("\n\n")[0].split())
+        lines[f"{group}{command.name}"] = re.sub(r"(\w[\w ]*) \(docs/([\w.]+)\)", r"[\1](\2)", text)
+    for added in program.registered_groups:
+        assert added.typer_instance is not None
+        lines |= _python_lines(added.typer_instance, f"{added.typer_instance.info.name} ")
+    return dict(sorted(lines.items()))
+
+
+def test_the_page_on_python_has_the_line_of_every_command(request: pytest.FixtureRequest) -> None:
+    """Each names what is there. `pytest --write-snapshots` writes the table from the help of the commands."""
+    page = ROOT / "docs" / "python.md"
+    lines = _python_lines(whole_program())
+    table = "| command | from Python |\n|---|---|\n" + "".join(
+        f"| `{name}` | {line} |\n" for name, line in lines.items()
+    )
+    before, head, after = page.read_text(encoding="utf-8").partition("| command | from Python |\n")
+    rest = re.sub(r"\A(?:\|.*\n)+", "", after)
+    if request.config.getoption("--write-snapshots"):
+        page.write_text(before + table + rest, encoding="utf-8")
+    assert page.read_text(encoding="utf-8") == before + table + rest
+    assert head
+    assert {command: _absent(line) for command, line in lines.items()} == dict.fromkeys(lines, [])
+    assert all(re.search(rf"`({'|'.join(HOLDERS)})\.\w+", line) for line in lines.values())
 
 
 def test_an_absent_question_is_noticed() -> None:

@@ -26,6 +26,8 @@ def schema(
     """Print the JSON schema of a file or of a command's result.
 
     Example: forcetorque schema experiment
+
+    Python: `evaluation.Evaluation.described()`, and so of every answer
     """
     known = {**_files(), **_results()}
     _require(name, known)

@@ -82,6 +82,9 @@ def calibrate(
     """Fit matrix and offset of each sensor to any number of recordings.
 
     Example: forcetorque calibrate cold.toml warm.toml -o calibrations
+
+    Python: `run.calibrate()`, over experiments `run.calibrate(other["arm_ft"])`; `--jointly`:
+    `forcetorque.calibrate_jointly([experiment])`
     """
     from functools import partial
     from importlib.metadata import version

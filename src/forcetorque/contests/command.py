@@ -24,6 +24,8 @@ def contest(
     """Rank sensors and calibration methods on the same loads.
 
     Example: forcetorque contest contest.toml --figure contest.png
+
+    Python: `forcetorque.contest("contest.toml")`
     """
     from importlib.metadata import version
 

@@ -36,6 +36,8 @@ def device(
     """Check a calibration device by computation, and simulate what it records.
 
     Example: forcetorque device device.toml -o simulated
+
+    Python: `app.design_device("device.toml")`; `device.write_device` writes it
     """
     from forcetorque.device.design import design_device
     from forcetorque.device.device_file import DEFAULT_DEVICE, read_device

@@ -72,6 +72,8 @@ def estimate(
     """Estimate contact wrenches, joint torques and expected readings.
 
     Example: forcetorque estimate experiment.toml -o estimates.parquet
+
+    Python: `experiment.estimate(calibration)`
     """
     from forcetorque.base.output_file import declare_outputs
     from forcetorque.estimation.result import estimates_of_recordings

@@ -42,6 +42,9 @@ def evaluate(
     """Judge calibrations on the validation intervals, prior against new.
 
     Example: forcetorque evaluate experiment.toml --calibration right_leg.json
+
+    Python: `run.evaluate(calibration)`, over experiments `evaluation.evaluate([run, other["arm_ft"]],
+    calibration)`
     """
     from forcetorque.evaluation.evaluation import Evaluation, evaluate
     from forcetorque.experiment.applicability import by_sensor
@@ -72,6 +75,8 @@ def accept(
     """Accept or reject sensors by limits; exit code 1 if one fails.
 
     Example: forcetorque accept experiment.toml --spec limits.toml -c leg.json
+
+    Python: `run.accept("limits.toml", calibration)`
     """
     from forcetorque.evaluation.acceptance.acceptance import Acceptance, accept
     from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
@@ -120,6 +125,8 @@ def compare(
     """Compare the spheres of many sensors, mountings and trials.
 
     Example: forcetorque compare first.toml second.toml third.toml
+
+    Python: `evaluation.compare(["first.toml", "second.toml"])`
     """
     from forcetorque.evaluation.trials.comparison import compare
     from forcetorque.results.terminal.output import refuse_figure
@@ -170,6 +177,8 @@ def sphere(
     """Compare how the three axes weigh a limb that is carried around.
 
     Example: forcetorque sphere experiment.toml --interval grid
+
+    Python: `run.sphere(calibration)`
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.evaluation.sphere.sphere import spheres_of_sensors
@@ -223,6 +232,8 @@ def validate(
     """Judge calibrations by contact force and joint torques where nothing touches.
 
     Example: forcetorque validate experiment.toml -c right_leg.json
+
+    Python: `run.validate(calibration)`
     """
     from forcetorque.evaluation.validation.validation import Validation, validate
     from forcetorque.experiment.applicability import by_sensor, one_per_sensor

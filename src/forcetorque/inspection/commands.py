@@ -31,6 +31,8 @@ def init(
     """Begin an experiment file of a log: what it does not say is a question.
 
     Example: forcetorque init log.csv --urdf robot.urdf -o experiment.toml
+
+    Python: `inspection.draft_experiment("log.csv", urdf="robot.urdf")`
     """
     from forcetorque.inspection.draft.draft import draft_experiment
 
@@ -55,6 +57,8 @@ def inspect(
     """Find gaps, lost messages, frozen or saturated sensors, steps and contacts.
 
     Example: forcetorque inspect experiment.toml
+
+    Python: `experiment.inspect()`; of a log without an experiment `inspection.inspect_log("log.csv")`
     """
     from forcetorque.inspection.inspect import inspect_log
 

@@ -60,6 +60,9 @@ def balance(
     """Say which feet bear the robot, and where.
 
     Example: forcetorque balance standing.toml --touch 50N --release 20N
+
+    Python: `experiment.balance(calibration)`; of vertical forces alone
+    `locomotion.balance([locomotion.load_foot_forces("walking.toml")])`
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
@@ -156,6 +159,8 @@ def coherence(
     """Hold the net contact force against the weight as contacts switch.
 
     Example: forcetorque coherence switching.toml -c calibrations
+
+    Python: `experiment.coherence(calibration)`
     """
     from forcetorque.calibration.joint.calibrate import read_candidates
     from forcetorque.experiment.input_files import stated_in
@@ -211,6 +216,8 @@ def motion(
     """Say whether a motion oscillates, how long it settles, how well it tracks.
 
     Example: forcetorque motion walk.toml --column com.y --column zmp.y
+
+    Python: `app.motion("swaying.toml", ["com_y"])`, of arrays `app.motion_of_arrays`
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.input_files import stated_in
@@ -251,6 +258,8 @@ def torque_loop(
     """Balance a simulated biped by torques that sensors with errors tell.
 
     Example: forcetorque torque-loop loop.toml --figure loop.png
+
+    Python: `locomotion.torque_loop(progress=print)`, ten minutes
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.locomotion.torque_control.file import read_torque_loop

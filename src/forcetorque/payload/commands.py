@@ -113,6 +113,9 @@ def payload(
     """Estimate mass, centre of mass and bias of a wrist sensor's load.
 
     Example: forcetorque payload wrist.toml --to ft-tools -o load.yaml
+
+    Python: `run.payload()`, over experiments `payload.weigh_load([run, other["arm_ft"]])`; `--to`: loads of
+    robots (docs/robot_load.md)
     """
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.input_files import stated_in
@@ -160,6 +163,8 @@ def tare(
     """Find the offset that keeps the weight of a load, from a stretch at rest.
 
     Example: forcetorque tare wrist.toml --interval still
+
+    Python: `run.tare("at rest", calibration)`
     """
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.sensor_run import SensorRun

@@ -53,6 +53,8 @@ def plan(
     """Say what to record next to lower the error at the loads of use.
 
     Example: forcetorque plan experiment.toml -c right_leg.json -o next
+
+    Python: `run.plan(calibration, clearance_deg=10.0)`; `--jointly`: `planning.plan_jointly([experiment])`
     """
     from forcetorque.calibration.calibrate_jointly_command import refuse_beside_jointly
     from forcetorque.experiment.calibration.artefact import read_calibration

@@ -37,6 +37,8 @@ def report(
     """Write everything about sensors into one document, verdict first.
 
     Example: forcetorque report experiment.toml right_leg.json -o report.html
+
+    Python: `run.report(calibration).save("report.html")`
     """
     from importlib.metadata import version
 

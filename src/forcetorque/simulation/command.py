@@ -22,6 +22,8 @@ def simulate(
     """Make recordings of a simulated robot whose sensors are known.
 
     Example: forcetorque simulate wrist -o simulated
+
+    Python: `app.simulate("wrist", "simulated")`
     """
     from forcetorque.simulation.recordings import write_scenario
     from forcetorque.simulation.scenario.file import bundled_scenario

@@ -35,6 +35,8 @@ def check(
     """Find what is wrong with a layout; exit code 1 if anything is.
 
     Example: forcetorque skin check right_leg_lower.txt
+
+    Python: `skin.check_skin("right_leg.txt")`
     """
     from forcetorque.results.terminal.output import refuse_figure
     from forcetorque.skin.layout.check import check_skin
@@ -92,6 +94,8 @@ def calibrate(
     """Fit the pressure curve of every taxel of a patch of skin.
 
     Example: forcetorque skin calibrate fit.toml held_out.toml -o patch.json
+
+    Python: `forcetorque.calibrate_skin("chamber.toml")`
     """
     from importlib.metadata import version
 
@@ -196,6 +200,8 @@ def wrench(
     """Find contacts on a patch of skin, and their wrenches on the link.
 
     Example: forcetorque skin wrench experiment.toml --table patch.json
+
+    Python: `forcetorque.skin_wrench("touch.toml", "taxels.json")`
     """
     from forcetorque.results.terminal.output import refuse_figure
     from forcetorque.skin.wrench.wrench import WrenchChoice, skin_wrench

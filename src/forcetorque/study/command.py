@@ -54,6 +54,8 @@ def study(
     """Fit every estimation type, lambda and data set, and choose.
 
     Example: forcetorque study simulated/*.toml --sphere grid -o study
+
+    Python: `app.study("first.toml", "second.toml", folder="study")`
     """
     from importlib.metadata import version
 

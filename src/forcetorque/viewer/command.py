@@ -64,6 +64,8 @@ def view(
     """Show robot pose and force space, linked in time, in the browser.
 
     Example: forcetorque view experiment.toml -c right_leg.json -o view.html
+
+    Python: `experiment.view("view.html", calibration)`
     """
     from forcetorque.experiment.loading import Purpose
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment

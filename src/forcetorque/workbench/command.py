@@ -46,6 +46,8 @@ def workbench(
     """Calibrate sensors with known loads, and find faults of the workbench.
 
     Example: forcetorque workbench SN170.toml -o SN170.json
+
+    Python: `app.workbench("SN170.toml")`
     """
     from importlib.metadata import version
 

@@ -58,6 +58,10 @@ def export(
     """Write calibrations as files that a robot or another program reads.
 
     Example: forcetorque export leg.json --to wholebodydynamics -o leg.xml
+
+    Python: `calibration.export_icub_matrix("arm", calibration, "matrix.txt")`,
+    `calibration.export_wholebodydynamics({"arm": calibration}, "arm.xml")`, `calibration.export_table`,
+    `calibration.export_coefficients`
     """
     from forcetorque.calibration.export.export import (
         export_coefficients,

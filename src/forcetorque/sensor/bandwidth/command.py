@@ -44,6 +44,8 @@ def response(
     """Tell bandwidth and resonance of a sensor, and a filter that undoes them.
 
     Example: forcetorque response taps.toml -e impact --force hammer
+
+    Python: `run.response("impact", calibration)`
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice

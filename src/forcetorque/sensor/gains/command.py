@@ -40,6 +40,8 @@ def gains(
     """Show the head-room of raw channels and which amplifier gains suit them.
 
     Example: forcetorque gains experiment.toml --margin 0.2
+
+    Python: `run.gains()`
     """
     from forcetorque.experiment.applicability import one_per_sensor
     from forcetorque.experiment.sensor_run import SensorRun

@@ -34,6 +34,8 @@ def thermal(
     """Find how a reading drifts with temperature at a constant load.
 
     Example: forcetorque thermal cycles.toml --figure drift.png
+
+    Python: `run.thermal(calibration)`
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.input_files import stated_in
