@@ -99,5 +99,5 @@ def test_the_documentation_builds_without_a_warning(tmp_path: Path) -> None:
     assert done.returncode == 0
     index = (tmp_path / "html" / "index.html").read_text(encoding="utf-8")
     assert all(f'href="api/{door}.html"' in index for door in _pages())
-    use = (tmp_path / "html" / "docs" / "plan.html").read_text(encoding="utf-8")
+    use = (tmp_path / "html" / "docs" / "planning.html").read_text(encoding="utf-8")
     assert 'href="use.html#how-often-it-is-right"' in use

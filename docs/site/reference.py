@@ -46,7 +46,7 @@ def documented_modules() -> list[str]:
     Returns:
         Their names, sorted; packages are not among them.
     """
-    texts = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").glob("*.md"))]
+    texts = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").rglob("*.md"))]
     imported = {name for text in texts for name in re.findall(r"^from (forcetorque[.\w]+) import ", text, re.MULTILINE)}
     return sorted(imported - set(package_names()))
 

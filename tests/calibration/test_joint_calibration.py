@@ -220,8 +220,8 @@ def test_parts_of_another_day_are_closed_by_the_calibrations(stance: Path) -> No
 
 @pytest.mark.long
 def test_the_script_of_the_page_runs(stance: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of docs/joint.md."""
-    page = (Path(__file__).resolve().parents[2] / "docs" / "joint.md").read_text(encoding="utf-8")
+    """Of docs/calibration/joint.md."""
+    page = (Path(__file__).resolve().parents[2] / "docs" / "calibration" / "joint.md").read_text(encoding="utf-8")
     (code,) = unmarked(page)
     monkeypatch.chdir(stance)
     names: dict[str, Any] = {}

@@ -73,7 +73,7 @@ def test_bad_input_is_one_line(run: Run, folder: Path, monkeypatch: pytest.Monke
 def test_the_script_of_the_page_runs(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """That of contest.md, as it stands."""
     monkeypatch.chdir(folder)
-    (code,) = unmarked((ROOT / "docs" / "contest.md").read_text(encoding="utf-8"))
+    (code,) = unmarked((ROOT / "docs" / "contests.md").read_text(encoding="utf-8"))
     names: dict[str, object] = {}
     exec(compile(code, "contest.md", "exec"), names)
     assert isinstance(names["answer"], Contest)

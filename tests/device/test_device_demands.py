@@ -169,7 +169,7 @@ def test_the_page_has_these_figures(demands: DeviceDemands) -> None:
             f"{row.one_moment_Nm:.3f} N m",
             *kilograms,
         ]
-    lines = (Path(__file__).parents[2] / "docs" / "device_demands.md").read_text(encoding="utf-8").splitlines()
+    lines = (Path(__file__).parents[2] / "docs" / "device" / "demands.md").read_text(encoding="utf-8").splitlines()
     table = [line.strip("| ").split(" | ") for line in lines if line.startswith(("| IMU", "| encoders"))]
     assert len(table) == 6
     for gravity_by, width, *cells in table:

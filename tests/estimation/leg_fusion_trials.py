@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Joint torques of a simulated leg, by an experiment file as users write it: FT sensor, skin and motors, one broken.
 
-`python -m tests.analysis.leg_fusion_trials` prints figures of docs/fusion.md. Counts of skin are simulated taxel by
-taxel and read through a calibration; objects of 0.2 to 3 kg are put on the shank of a leg whose hip moves.
+`python -m tests.estimation.leg_fusion_trials` prints figures of docs/estimation/fusion.md. Counts of skin are simulated
+taxel by taxel and read through a calibration; objects of 0.2 to 3 kg are put on the shank of a leg whose hip moves.
 """
 
 from __future__ import annotations

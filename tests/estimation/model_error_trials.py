@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fused joint torques of simulated arms whose masses, centres of mass and joint zeros differ from the model.
 
-`python -m tests.estimation.model_error_trials` prints figures of docs/fusion.md. The arms are those of
+`python -m tests.estimation.model_error_trials` prints figures of docs/estimation/fusion.md. The arms are those of
 `tests/estimation/fusion_trials.py`; torques come from the wrong model, and friction is fitted to them.
 """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What docs/calibration.md shows can be typed, and comes to the figures that stand there."""
+"""What docs/calibration/calibration.md shows can be typed, and comes to the figures that stand there."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import pytest
 from forcetorque.experiment.calibration_section import CalibrationTable
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = (ROOT / "docs" / "calibration.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "calibration" / "calibration.md").read_text(encoding="utf-8")
 ALL = [f"{motion}{again}.toml" for motion in ("grid", "tz", "bsl", "bnsl") for again in ("", "_2")]
 LAST_DIGIT = 0.51
 """Units of the last digit that a printed figure may be off, and its rounding."""

@@ -22,7 +22,7 @@ from tests.scenes.device_designs import hardly_optimise
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-PAGES = sorted((ROOT / "docs").glob("*.md"))
+PAGES = sorted((ROOT / "docs").rglob("*.md"))
 NOTEBOOK = ROOT / "examples" / "14_from_arrays.ipynb"
 YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
 
@@ -115,7 +115,7 @@ def test_the_notebook_runs(demo: tuple[Path, str], monkeypatch: pytest.MonkeyPat
 def test_the_script_of_the_page_on_uses_runs(demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
     """The verdict of Python is that of the command line."""
     folder, output = demo
-    script = _block("example", (ROOT / "docs" / "use.md").read_text(encoding="utf-8"))
+    script = _block("example", (ROOT / "docs" / "evaluation" / "use.md").read_text(encoding="utf-8"))
     monkeypatch.chdir(folder.parents[1])
     sentence, numbers = printed(script, "use.md").splitlines()
     assert sentence in " ".join(output.split())

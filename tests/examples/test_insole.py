@@ -12,7 +12,7 @@ from forcetorque.app.python.functions import calibrate_skin
 from forcetorque.skin.taxels.calibrate import SkinCalibration
 from forcetorque.skin.taxels.result import CandidateRow
 
-PAGE = (Path(__file__).resolve().parents[2] / "docs" / "taxel_calibration.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "skin" / "taxels.md").read_text(encoding="utf-8")
 EXAMPLES = sorted((Path(__file__).resolve().parents[2] / "examples").glob("1[678]_insole_*.toml"))
 HIGHEST_PA = 1.5e5
 ABOVE_KPA, INSIDE_KPA, PRINTED_ABOVE_KPA = 25.0, 13.0, 1000.0

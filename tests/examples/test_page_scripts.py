@@ -12,23 +12,23 @@ from forcetorque.simulation.scenario.scenario import SimulatedRecording
 from tests.page_scripts import marked, unmarked
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
+PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
 RUN_ELSEWHERE = {
-    "balance.md": "tests/locomotion/test_balance.py",
-    "calibration.md": "tests/examples/test_calibration_page.py",
-    "estimation.md": "tests/robot/mechanics/test_documentation.py",
+    "locomotion/balance.md": "tests/locomotion/test_balance.py",
+    "calibration/calibration.md": "tests/examples/test_calibration_page.py",
+    "estimation/estimation.md": "tests/robot/mechanics/test_documentation.py",
     "recording.md": "tests/experiment/test_written_logs.py",
-    "joint.md": "tests/calibration/test_joint_calibration.py",
-    "robot_load.md": "tests/payload/test_tare.py",
-    "coherence.md": "tests/locomotion/test_coherence_command.py",
-    "contest.md": "tests/contests/test_contest_command.py",
-    "response.md": "tests/sensor/test_response.py",
-    "motion.md": "tests/locomotion/test_motion.py",
-    "thermal.md": "tests/sensor/test_thermal.py",
-    "torque_loop.md": "tests/locomotion/test_torque_loop_command.py",
+    "calibration/joint.md": "tests/calibration/test_joint_calibration.py",
+    "payload/robot_load.md": "tests/payload/test_tare.py",
+    "locomotion/coherence.md": "tests/locomotion/test_coherence_command.py",
+    "contests.md": "tests/contests/test_contest_command.py",
+    "sensor/response.md": "tests/sensor/test_response.py",
+    "locomotion/motion.md": "tests/locomotion/test_motion.py",
+    "sensor/temperature.md": "tests/sensor/test_thermal.py",
+    "locomotion/torque_loop.md": "tests/locomotion/test_torque_loop_command.py",
     "tutorial.md": "tests/inspection/test_tutorial.py",
     "simulation.md": "tests/examples/test_page_scripts.py",
-    "skin_layout.md": "tests/skin/layout_formats/test_documentation.py",
+    "skin/layout.md": "tests/skin/layout_formats/test_documentation.py",
     "simulation.md, both feet": "tests/examples/test_simulation_page.py",
     "simulation.md, contact switching": "tests/examples/test_simulation_page.py",
 }
@@ -49,10 +49,15 @@ def test_the_script_of_the_page_on_simulation_runs() -> None:
 
 def test_every_script_runs_somewhere() -> None:
     """What is not marked is told of here, script by script, and the test that runs it reads that page."""
-    scripts = Counter({page.name: len(unmarked(page.read_text(encoding="utf-8"))) for page in PAGES})
+    scripts = Counter({_name(page): len(unmarked(page.read_text(encoding="utf-8"))) for page in PAGES})
     assert +scripts == Counter(name.partition(",")[0] for name in RUN_ELSEWHERE)
     for name, test in RUN_ELSEWHERE.items():
-        assert name.partition(",")[0] in (ROOT / test).read_text(encoding="utf-8")
+        assert Path(name.partition(",")[0]).name in (ROOT / test).read_text(encoding="utf-8")
+
+
+def _name(page: Path) -> str:
+    """Path below the folder of pages."""
+    return page.name if page.parent == ROOT else page.relative_to(ROOT / "docs").as_posix()
 
 
 def test_scripts_are_told_apart() -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What docs/plan.md shows can be typed, and comes to the figures that stand there."""
+"""What docs/planning.md shows can be typed, and comes to the figures that stand there."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pytest
 from tests.app.outcome import typed
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = (ROOT / "docs" / "plan.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "planning.md").read_text(encoding="utf-8")
 LAST_DIGIT = 0.51
 """Units of the last digit that a printed figure may be off, and its rounding."""
 

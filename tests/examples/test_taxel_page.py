@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What docs/taxel_calibration.md states of an experiment file is one."""
+"""What docs/skin/taxels.md states of an experiment file is one."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from forcetorque.experiment.file import ExperimentFile
 from forcetorque.skin.taxels.curve import CurveKind
 
-PAGE = (Path(__file__).resolve().parents[2] / "docs" / "taxel_calibration.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "skin" / "taxels.md").read_text(encoding="utf-8")
 
 
 def test_the_file_of_the_page_is_valid() -> None:

@@ -18,7 +18,7 @@ EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "02_icub_yoga_forwa
 STANDING = {"l_ankle_roll", "l_ankle_pitch", "l_knee", "l_hip_yaw", "l_hip_roll", "l_hip_pitch"}
 
 SHOWN = 0.005
-"""N m: half of the last digit that docs/estimation.md prints."""
+"""N m: half of the last digit that docs/estimation/estimation.md prints."""
 
 pytestmark = pytest.mark.real_data
 

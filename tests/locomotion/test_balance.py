@@ -261,7 +261,7 @@ def test_the_script_of_the_page_runs(
     text = source.read_text(encoding="utf-8") + SOLE_TABLES
     source.with_name("standing.toml").write_text(text, encoding="utf-8")
     monkeypatch.chdir(source.parent)
-    (code,) = unmarked((ROOT / "docs" / "balance.md").read_text(encoding="utf-8"))
+    (code,) = unmarked((ROOT / "docs" / "locomotion" / "balance.md").read_text(encoding="utf-8"))
     exec(compile(code, "balance.md", "exec"), {})
     shown = capsys.readouterr().out
     assert "support phases of switching" in shown

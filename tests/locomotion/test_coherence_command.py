@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`coherence` and `estimate --offset`, typed, and the script of docs/coherence.md."""
+"""`coherence` and `estimate --offset`, typed, and the script of docs/locomotion/coherence.md."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tests.app.outcome import Run
 from tests.page_scripts import unmarked
 from tests.scenes.switchings import short_switching
 
-PAGE = Path(__file__).parents[2] / "docs" / "coherence.md"
+PAGE = Path(__file__).parents[2] / "docs" / "locomotion" / "coherence.md"
 FEET = ("l_foot_ft", "r_foot_ft")
 DAY = "simulated/switching_day2.toml"
 

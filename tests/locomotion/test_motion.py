@@ -151,7 +151,7 @@ def test_a_real_robot_sways_with_one_frequency(data_dir: Path) -> None:
 def test_the_script_of_the_page_runs(log: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """motion.md: a column of a file, and arrays."""
     monkeypatch.chdir(log.parent)
-    (code,) = unmarked((ROOT / "docs" / "motion.md").read_text(encoding="utf-8"))
+    (code,) = unmarked((ROOT / "docs" / "locomotion" / "motion.md").read_text(encoding="utf-8"))
     names: dict[str, object] = {}
     exec(compile(code, "motion.md", "exec"), names)
     assert isinstance(names["answer"], Motion)

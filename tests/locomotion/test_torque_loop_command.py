@@ -99,5 +99,7 @@ def test_it_is_typed(
 @pytest.mark.long
 def test_the_script_of_the_page_runs() -> None:
     """As it stands."""
-    (code,) = unmarked((Path(__file__).resolve().parents[2] / "docs" / "torque_loop.md").read_text(encoding="utf-8"))
+    (code,) = unmarked(
+        (Path(__file__).resolve().parents[2] / "docs" / "locomotion" / "torque_loop.md").read_text(encoding="utf-8")
+    )
     exec(compile(code, "torque_loop.md", "exec"), {})

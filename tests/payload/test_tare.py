@@ -92,7 +92,7 @@ def test_a_calibrated_sensor_of_a_robot_is_tared_by_its_model(arm: Path) -> None
 
 def test_the_script_of_its_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It writes the file that the page says."""
-    (code,) = unmarked((Path(__file__).parents[2] / "docs" / "robot_load.md").read_text(encoding="utf-8"))
+    (code,) = unmarked((Path(__file__).parents[2] / "docs" / "payload" / "robot_load.md").read_text(encoding="utf-8"))
     path = write_postures(tmp_path, seed=4)
     path.write_text(path.read_text().replace('label = "first"', 'label = "still"'))
     monkeypatch.chdir(tmp_path)

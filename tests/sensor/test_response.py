@@ -221,7 +221,7 @@ def test_the_script_of_its_page_runs(
     taps: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """It prints the table of the command."""
-    (code,) = unmarked((Path(__file__).parents[2] / "docs" / "response.md").read_text(encoding="utf-8"))
+    (code,) = unmarked((Path(__file__).parents[2] / "docs" / "sensor" / "response.md").read_text(encoding="utf-8"))
     monkeypatch.chdir(taps.parent)
     exec(compile(code, "response.md", "exec"), {})
     assert "natural frequency" in capsys.readouterr().out

@@ -127,7 +127,7 @@ def test_the_script_of_its_page_runs(
     chamber: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """It prints the table of the command."""
-    (code,) = unmarked((Path(__file__).parents[2] / "docs" / "thermal.md").read_text(encoding="utf-8"))
+    (code,) = unmarked((Path(__file__).parents[2] / "docs" / "sensor" / "temperature.md").read_text(encoding="utf-8"))
     (chamber.parent / "cycles.toml").write_text(TEXT)
     monkeypatch.chdir(chamber.parent)
     exec(compile(code, "thermal.md", "exec"), {})

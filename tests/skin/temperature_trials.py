@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A contact of 9.8 N held for sixteen minutes while the skin warms by ten degrees, from inside or from outside.
 
-`python -m tests.skin.temperature_trials` prints the figures of docs/skin_temperature.md: the layout is iCub's
+`python -m tests.skin.temperature_trials` prints the figures of docs/skin/temperature.md: the layout is iCub's
 `right_leg_lower`; contacts, taxels and heat are simulated, drawn anew for every trial.
 """
 

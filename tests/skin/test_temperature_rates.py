@@ -22,7 +22,7 @@ pytestmark = [pytest.mark.real_data, pytest.mark.long]
 
 DRAWS = 12
 SEED = 101
-"""Other draws than those that docs/skin_temperature.md tells of."""
+"""Other draws than those that docs/skin/temperature.md tells of."""
 Trials = Mapping[str, Sequence[HeldContact]]
 
 

@@ -38,7 +38,7 @@ QUICK: Final = (
 )
 LOADING: Final = Loading(rest_s=4.0, ramp_s=0.5, hold_s=3.0)
 SEEDS: Final = range(101, 106)
-"""Others than those that docs/skin_experiment.md tells of."""
+"""Others than those that docs/skin/experiment.md tells of."""
 LOST: Final = np.sin(np.radians(15.0))
 """Share of the weight along a shin that leans by 15 degrees: 26 %."""
 ALONG: Final = 0.01
@@ -102,7 +102,7 @@ def test_tables_have_a_row_for_each_load(rows: Sequence[LoadRow]) -> None:
 @pytest.mark.long
 @pytest.mark.real_data
 def test_the_experiment_on_a_leg_of_real_taxels(data_dir: Path) -> None:
-    """All loads, drawn anew five times: what docs/skin_experiment.md says of ten others."""
+    """All loads, drawn anew five times: what docs/skin/experiment.md says of ten others."""
     several = list(experiments(leg_layout(data_dir), SEEDS))
     assert [len(rows) for rows in several] == [len(LOADS)] * len(SEEDS)
     inside = [row for rows in several for row in level(rows) if row.load.mass_kg < 3.0]

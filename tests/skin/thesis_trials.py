@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables 7.1, 7.2 and 7.3 of the thesis from a simulated leg, against truth and, as printed, against the FT sensor.
 
-`python -m tests.skin.thesis_trials --data ../shared/data` prints those of docs/skin_experiment.md: the layout is iCub's
+`python -m tests.skin.thesis_trials --data ../shared/data` prints those of docs/skin/experiment.md: the layout is iCub's
 `right_leg_lower`; robot, weights, taxels and heat are simulated.
 """
 

@@ -61,7 +61,7 @@ def calibrate(
         typer.Option(
             "--jointly",
             help="All sensors at once, from parts of the robot between them that nothing touches, whatever the feet "
-            "do; see docs/joint.md.",
+            "do; see docs/calibration/joint.md.",
         ),
     ] = False,
     moments: Annotated[

@@ -14,7 +14,7 @@ from forcetorque.results.terminal.output import Format, show, start_logging
 
 def contest(
     config: Annotated[
-        Path, typer.Argument(help="File of the contest (TOML): runs and contestants; see docs/contest.md.")
+        Path, typer.Argument(help="File of the contest (TOML): runs and contestants; see docs/contests.md.")
     ],
     figure: Annotated[
         Path | None, typer.Option("--figure", help="PNG of errors by component and load, with their intervals.")

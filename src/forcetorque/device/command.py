@@ -21,7 +21,9 @@ from forcetorque.results.terminal.output import (
 def device(
     file: Annotated[
         Path | None,
-        typer.Argument(help="Device file (TOML); see docs/device.md. Default: the device that comes with the library."),
+        typer.Argument(
+            help="Device file (TOML); see docs/device/device.md. Default: the device that comes with the library."
+        ),
     ] = None,
     output: Annotated[
         Path | None,

@@ -66,7 +66,7 @@ def evaluate(
 def accept(
     experiments: ExperimentsArgument,
     spec: Annotated[
-        Path, typer.Option("--spec", help="Acceptance file (TOML) with the limits; see docs/acceptance.md.")
+        Path, typer.Option("--spec", help="Acceptance file (TOML) with the limits; see docs/evaluation/acceptance.md.")
     ],
     calibration: CalibrationsOption = None,
     population: PopulationOption = None,
@@ -108,7 +108,8 @@ def accept(
 
 def compare(
     experiments: Annotated[
-        list[Path], typer.Argument(help="Experiment files (TOML), in the order of the trials; see docs/sphere.md.")
+        list[Path],
+        typer.Argument(help="Experiment files (TOML), in the order of the trials; see docs/evaluation/sphere.md."),
     ],
     sensor: SensorOption = None,
     calibration: ComparedCalibrationsOption = None,

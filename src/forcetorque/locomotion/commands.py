@@ -25,7 +25,9 @@ if TYPE_CHECKING:
 
 
 def balance(
-    experiments: Annotated[list[Path], typer.Argument(help="Experiment files (TOML) with [[sole]]; see balance.md.")],
+    experiments: Annotated[
+        list[Path], typer.Argument(help="Experiment files (TOML) with [[sole]]; see docs/locomotion/balance.md.")
+    ],
     touch: Annotated[
         str, typer.Option("--touch", help="Force that a contact reaches, as 50N, or a share of the weight, as 15%.")
     ] = "15%",
@@ -247,7 +249,8 @@ def torque_loop(
     config: Annotated[
         Path | None,
         typer.Argument(
-            help="File of the loop (TOML), see docs/torque_loop.md; without one, the default, which takes ten minutes."
+            help="File of the loop (TOML), see docs/locomotion/torque_loop.md; without one, the default, which takes ten "
+            "minutes."
         ),
     ] = None,
     figure: Annotated[

@@ -115,7 +115,7 @@ def payload(
     Example: forcetorque payload wrist.toml --to ft-tools -o load.yaml
 
     Python: `run.payload()`, over experiments `payload.weigh_load([run, other["arm_ft"]])`; `--to`: loads of
-    robots (docs/robot_load.md)
+    robots (docs/payload/robot_load.md)
     """
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.input_files import stated_in

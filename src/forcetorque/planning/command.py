@@ -16,7 +16,8 @@ def plan(
     experiments: Annotated[
         list[Path],
         typer.Argument(
-            help="Experiment files (TOML) with the same sensor; one without a recording is taken too, see docs/plan.md."
+            help="Experiment files (TOML) with the same sensor; one without a recording is taken too, see "
+            "docs/planning.md."
         ),
     ],
     calibration: Annotated[
@@ -42,7 +43,8 @@ def plan(
         bool,
         typer.Option(
             "--jointly",
-            help="Order these recordings, real or simulated, by what they teach all sensors together; docs/joint.md.",
+            help="Order these recordings, real or simulated, by what they teach all sensors together; "
+            "docs/calibration/joint.md.",
         ),
     ] = False,
     output: Annotated[

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 def check(
-    layout: Annotated[Path, typer.Argument(help="File with the layout of a patch; see docs/skin_layout.md.")],
+    layout: Annotated[Path, typer.Argument(help="File with the layout of a patch; see docs/skin/layout.md.")],
     figure: Annotated[
         Path | None, typer.Option("--figure", help="PNG of positions and normals, as written and as rebuilt.")
     ] = None,
@@ -67,7 +67,7 @@ class CurveChoice(StrEnum):
 def calibrate(
     experiments: Annotated[
         list[Path],
-        typer.Argument(help="Experiment files (TOML) of one [[patch]]; see docs/taxel_calibration.md."),
+        typer.Argument(help="Experiment files (TOML) of one [[patch]]; see docs/skin/taxels.md."),
     ],
     output: Annotated[Path, typer.Option("--output", "-o", help="File of the calibration (JSON) to write.")],
     patch: Annotated[str | None, typer.Option("--patch", help="Name of the patch. Default: the only one.")] = None,
@@ -162,7 +162,7 @@ class MethodChoice(StrEnum):
 
 
 def wrench(
-    experiment: Annotated[Path, typer.Argument(help="Experiment file (TOML) with [[patch]]; see docs/skin_wrench.md.")],
+    experiment: Annotated[Path, typer.Argument(help="Experiment file (TOML) with [[patch]]; see docs/skin/wrench.md.")],
     table: Annotated[Path, typer.Option("--table", help="Calibration of the taxels, of `skin calibrate` (JSON).")],
     patch: Annotated[str | None, typer.Option("--patch", help="Name of the patch. Default: the only one.")] = None,
     method: Annotated[

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How far contacts and torques of a leg under skin are off, and how often inside their 95 % intervals.
 
-`python -m tests.estimation.uncertain.limb_trials` prints the figures of docs/skin_estimation.md: skin on a cylinder,
+`python -m tests.estimation.uncertain.limb_trials` prints the figures of docs/skin/estimation.md: skin on a cylinder,
 taxels of 8 bits, a sensor with noise, all simulated.
 """
 

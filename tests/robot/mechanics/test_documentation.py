@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python of docs/estimation.md runs as it stands."""
+"""The Python of docs/estimation/estimation.md runs as it stands."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from forcetorque.robot.motion import RootMotion
 from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import icub, random_motion
 
-DOCUMENT = Path(__file__).parents[3] / "docs" / "estimation.md"
+DOCUMENT = Path(__file__).parents[3] / "docs" / "estimation" / "estimation.md"
 
 
 def test_the_documented_question_is_answered(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What docs/skin_layout.md shows can be typed: its script, its table, its file of frames."""
+"""What docs/skin/layout.md shows can be typed: its script, its table, its file of frames."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from forcetorque.skin.layout.formats.urdf_frames import ModuleFrames
 from tests.page_scripts import unmarked
 from tests.scenes.patches import cylinder_patch, position_text
 
-PAGE = (Path(__file__).resolve().parents[3] / "docs" / "skin_layout.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).resolve().parents[3] / "docs" / "skin" / "layout.md").read_text(encoding="utf-8")
 
 
 def _block(first: str) -> str:

@@ -33,7 +33,7 @@ OffsetOption = Annotated[
     typer.Option(
         "--offset",
         help="Where offsets come from: fitted (the calibration's own), one-link-imu:LABEL, one-link-fixed-frame:LABEL, "
-        "tare:LABEL, first-second, judged-mean or none; see docs/coherence.md.",
+        "tare:LABEL, first-second, judged-mean or none; see docs/locomotion/coherence.md.",
     ),
 ]
 PopulationOption = Annotated[

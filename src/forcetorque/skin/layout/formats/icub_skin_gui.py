@@ -88,7 +88,7 @@ class IcubPositions:
 def _word(path: Path, head: str, key: str) -> str:
     match = re.search(rf"^{key}[ \t]+(\S+)[ \t\r]*$", head, re.MULTILINE)
     if match is None:
-        raise FormatError(f"{path}: expected a line `{key} ...` above {_SIGN}, got none; see docs/skin_layout.md")
+        raise FormatError(f"{path}: expected a line `{key} ...` above {_SIGN}, got none; see docs/skin/layout.md")
     return match[1]
 
 

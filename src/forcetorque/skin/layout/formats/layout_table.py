@@ -177,7 +177,7 @@ def write_layout_table(path: Path | str, layout: SkinLayout) -> None:
 def _stated(path: Path, text: str, key: str) -> str:
     match = re.search(rf"^# *{key} *: *(\S+) *$", text, re.MULTILINE)
     if match is None:
-        raise FormatError(f"{path}: expected a line `# {key}: ...` above the header, got none; see docs/skin_layout.md")
+        raise FormatError(f"{path}: expected a line `# {key}: ...` above the header, got none; see docs/skin/layout.md")
     return match[1]
 
 
