@@ -135,7 +135,7 @@ def _python_lines(program: typer.Typer, group: str = "") -> dict[str, str]:
     for command in program.registered_commands:
         _, _, text = inspect.getdoc(command.callback).partition("\nPython: ")
         text = " ".join(text.partition("\n\n")[0].split())
-        lines[f"{group}{command.name}"] = re.sub(r"(\w[\w ]*) \(docs/([\w.]+)\)", r"[\1](\2)", text)
+        lines[f"{group}{command.name}"] = re.sub(r"(\w[\w ]*) \(docs/([\w./]+)\)", r"[\1](\2)", text)
     for added in program.registered_groups:
         assert added.typer_instance is not None
         lines |= _python_lines(added.typer_instance, f"{added.typer_instance.info.name} ")

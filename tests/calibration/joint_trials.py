@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Robots on both feet, each with its own sensors and errors, calibrated in one motion and judged in others.
 
-`python -m tests.analysis.joint_trials` prints the figures of docs/calibration/joint.md.
+`python -m tests.calibration.joint_trials` prints the figures of docs/calibration/joint.md.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Joint torques of a simulated arm from its FT sensor, from skin, and from motor currents, fused and against the truth.
 
-`python -m tests.estimation.fusion_trials` prints the figures of docs/estimation/fusion.md. Something pushes the forearm of
-the moving arm. Its joints' currents bear friction, which is fitted on a recording of its own, with nothing touching and the
-FT sensor trusted. Masses and motion are exact here; `tests/estimation/model_error_trials.py` has arms that differ from
-their model.
+`python -m tests.estimation.fusion_trials` prints the figures of docs/estimation/fusion.md. Something pushes the
+forearm of the moving arm. Its joints' currents bear friction, which is fitted on a recording of its own, with nothing
+touching and the FT sensor trusted. Masses and motion are exact here; `tests/estimation/model_error_trials.py` has arms
+that differ from their model.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fused torques of a leg with skin over twenty seeds, by an experiment file: what is named, and what intervals hold.
 
-`tests/analysis/leg_fusion_trials.py` prints what these tests hold.
+`tests/estimation/leg_fusion_trials.py` prints what these tests hold.
 """
 
 from __future__ import annotations

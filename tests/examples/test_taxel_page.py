@@ -7,7 +7,7 @@ import re
 import tomllib
 from pathlib import Path
 
-from forcetorque.experiment.file import ExperimentFile
+from forcetorque.experiment.file import experiment_file
 from forcetorque.skin.taxels.curve import CurveKind
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "skin" / "taxels.md").read_text(encoding="utf-8")
@@ -16,7 +16,7 @@ PAGE = (Path(__file__).resolve().parents[2] / "docs" / "skin" / "taxels.md").rea
 def test_the_file_of_the_page_is_valid() -> None:
     """Its block of TOML has the form of an experiment file with a patch alone."""
     (block,) = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
-    stated = ExperimentFile.model_validate(tomllib.loads(block))
+    stated = experiment_file().model_validate(tomllib.loads(block))
     assert (len(stated.patch), stated.sensor, stated.robot) == (1, (), None)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulated sensors with one fault each, and what is named of it. `python -m tests.exsitu.trials` prints the table."""
+"""Simulated sensors with one fault each, and what is named of it; `python -m tests.workbench.trials` prints a table."""
 
 from __future__ import annotations
 

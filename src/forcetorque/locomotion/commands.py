@@ -249,8 +249,8 @@ def torque_loop(
     config: Annotated[
         Path | None,
         typer.Argument(
-            help="File of the loop (TOML), see docs/locomotion/torque_loop.md; without one, the default, which takes ten "
-            "minutes."
+            help="File of the loop (TOML), see docs/locomotion/torque_loop.md; without one, the default, which takes "
+            "ten minutes."
         ),
     ] = None,
     figure: Annotated[
