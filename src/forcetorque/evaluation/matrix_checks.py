@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, require_shape
 from forcetorque.base.errors import SensorError, ShapeError
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import WRENCH_COMPONENTS
@@ -22,23 +22,19 @@ next to nothing; degC."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MatrixChecks:
+class MatrixChecks(ArrayRecord):
     """Full scale, resolution and condition of a calibration matrix."""
 
     resolution: AxisResolution
     """What one count is worth along each axis."""
     condition: float
     """See `matrix_condition`."""
-    stated_full_scale: FloatArray
+    stated_full_scale: FloatArray = field(metadata=array(6))
     """Full scale as sensors state it, which no load reaches: all channels at the limit; shape (6,); N, N m."""
     full_scale: ReachableFullScale | None
     """Full scale that is reached before a channel saturates; None where `no_full_scale` says why."""
     no_full_scale: str = ""
     """Why there is no reachable full scale."""
-
-    def __post_init__(self) -> None:
-        stated = read_only(self.stated_full_scale, name="stated_full_scale", shape=(6,))
-        object.__setattr__(self, "stated_full_scale", stated)
 
 
 def matrix_checks(matrix: FloatArray, offset: FloatArray, *, limit_counts: float) -> MatrixChecks:
@@ -105,25 +101,20 @@ def matrix_condition(matrix: FloatArray) -> float:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class OffsetChange:
+class OffsetChange(ArrayRecord):
     """How far the offsets of k recordings are apart, and what of it goes with temperature."""
 
-    change: FloatArray
+    change: FloatArray = field(metadata=array(6))
     """Largest less smallest offset per component; shape (6,); N, N m."""
     force_change: float
     """Largest norm of the difference of two offsets, force part; N."""
     temperature_span: float | None
     """Largest less smallest mean temperature; degC; None if it is not known."""
-    per_degree: FloatArray | None
+    per_degree: FloatArray | None = field(metadata=array(6))
     """Slope of the line through offset against temperature; shape (6,); N/degC, N m/degC; None if the temperature
     is not known or spans less than `LEAST_TEMPERATURE_SPAN`."""
-    left: FloatArray | None
+    left: FloatArray | None = field(metadata=array(6))
     """Largest distance from that line; shape (6,); N, N m; zero for two recordings."""
-
-    def __post_init__(self) -> None:
-        for name in ("change", "per_degree", "left"):
-            if getattr(self, name) is not None:
-                object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(6,)))
 
 
 def offset_change(offsets: FloatArray, temperature: FloatArray | None = None) -> OffsetChange:

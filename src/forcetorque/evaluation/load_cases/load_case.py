@@ -10,7 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, read_only_mapping, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, mapping, require_shape
 from forcetorque.base.errors import SensorError
 
 ALLOWED_SHARE: Final = 0.05
@@ -29,18 +29,18 @@ class UseOffset(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class LoadCase:
+class LoadCase(ArrayRecord):
     """Loads to come, as what they add to the mean load of the fitted data."""
 
     name: str
     """Name."""
     words: str
     """What the loads are, in words."""
-    wrench: FloatArray
+    wrench: FloatArray = field(metadata=array(None, 6))
     """The loads, each as likely as any other, in the sensor's frame and direction; shape (n, 6); N, N m."""
     offset: UseOffset = UseOffset.FITTED
     """Offset that the readings are taken with."""
-    changes: Mapping[str, float] = field(default_factory=dict)
+    changes: Mapping[str, float] = field(default_factory=dict, metadata=mapping())
     """How far variables such as temperature are from where the offset holds, root mean square, by name."""
     allowed_force_N: float | None = None
     """Root mean square of the force error that the use allows; None for a share of the loads."""
@@ -50,10 +50,9 @@ class LoadCase:
     """Whether anybody stated it; else it is what is taken for granted."""
 
     def __post_init__(self) -> None:
-        # a bare word would fail every `is`, and so read as the other one
+        check_arrays(self)
+        # a plain string would fail every `is` and count as the other offset
         object.__setattr__(self, "offset", UseOffset(self.offset))
-        object.__setattr__(self, "wrench", read_only(self.wrench, name=f"{self.name}: wrench", shape=(None, 6)))
-        object.__setattr__(self, "changes", read_only_mapping(self.changes))
         if not len(self.wrench) or not np.isfinite(self.wrench).all() or not self.wrench.any():
             raise SensorError(f"load case {self.name!r}: expected loads of finite size, and not all of them zero")
         for unit, allowed in (("N", self.allowed_force_N), ("N m", self.allowed_moment_Nm)):

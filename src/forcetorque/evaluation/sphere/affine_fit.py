@@ -9,11 +9,11 @@ on which axes have no intersection but a half-width.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.evaluation.sphere.algebraic_fit import inverse_lengths
 from forcetorque.evaluation.sphere.cloud import reach, sums_of_products
 from forcetorque.evaluation.sphere.fit_results import (
@@ -35,36 +35,32 @@ _ROUNDING = 1e-14
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MappedFit:
+class MappedFit(ArrayRecord):
     """An ellipsoid that is the image of the model's sphere."""
 
-    matrix: FloatArray
+    matrix: FloatArray = field(metadata=array(3, 3))
     """Map of reference forces to measured ones; shape (3, 3)."""
-    centre: FloatArray
+    centre: FloatArray = field(metadata=array(3))
     """What the sensor reads without force; shape (3,); N."""
     radius: float
     """Radius of the model's sphere: weight on the sensor; N."""
     fit: EllipsoidFit
     """The ellipsoid."""
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", read_only(self.matrix, name="matrix", shape=(3, 3)))
-        object.__setattr__(self, "centre", read_only(self.centre, name="centre", shape=(3,)))
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MomentFit:
+class MomentFit(ArrayRecord):
     """How far moments reach while the force goes over its sphere, by the sensor and by the model."""
 
-    centre: FloatArray
+    centre: FloatArray = field(metadata=array(3))
     """What the sensor reads without force; shape (3,); N m."""
-    half_widths: FloatArray
+    half_widths: FloatArray = field(metadata=array(3))
     """Largest moment about each axis that the sensor would read; shape (3,); N m."""
-    expected_half_widths: FloatArray
+    expected_half_widths: FloatArray = field(metadata=array(3))
     """Largest moment about each axis by the model; shape (3,); N m."""
-    low: FloatArray
+    low: FloatArray = field(metadata=array(3))
     """Lower ends of the 95 % intervals of the half-widths; shape (3,); N m."""
-    high: FloatArray
+    high: FloatArray = field(metadata=array(3))
     """Upper ends; shape (3,); N m."""
     stray: float
     """Root mean square of the model's moment that is no function of its force, relative to the largest
@@ -73,10 +69,6 @@ class MomentFit:
     """Whether the half-widths are worth comparing."""
     why: tuple[str, ...]
     """What speaks against it; empty if it is identifiable."""
-
-    def __post_init__(self) -> None:
-        for name in ("centre", "half_widths", "expected_half_widths", "low", "high"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(3,)))
 
     @property
     def errors(self) -> FloatArray:

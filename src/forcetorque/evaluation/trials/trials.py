@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, MissingFileError, known_names
 from forcetorque.evaluation.sphere.fit_results import EllipsoidFit
 from forcetorque.evaluation.sphere.pooled_fit import PooledSphere, pool_trials
@@ -71,7 +71,7 @@ def mean_of_trials(indices: Sequence[float]) -> TrialMean:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Drift:
+class Drift(ArrayRecord):
     """What changed from one fit to another, last minus first.
 
     Margins are for all seven numbers at once: where nothing changed, one trial in twenty has any number beyond its own.
@@ -81,20 +81,16 @@ class Drift:
     """Change of the index; N."""
     index_margin: float
     """Its margin; N."""
-    intersections: FloatArray
+    intersections: FloatArray = field(metadata=array(3))
     """Change of the axis intersections; shape (3,); N."""
-    intersection_margin: FloatArray
+    intersection_margin: FloatArray = field(metadata=array(3))
     """Their margins; shape (3,); N."""
-    centre: FloatArray
+    centre: FloatArray = field(metadata=array(3))
     """Change of the centre; shape (3,); N."""
-    centre_margin: FloatArray
+    centre_margin: FloatArray = field(metadata=array(3))
     """Its margins; shape (3,); N."""
     identifiable: bool
     """Whether both fits are: else nothing is said to have changed."""
-
-    def __post_init__(self) -> None:
-        for name in ("intersections", "intersection_margin", "centre", "centre_margin"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(3,)))
 
     @property
     def index_exceeds(self) -> bool:

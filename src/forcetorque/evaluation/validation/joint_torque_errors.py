@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names, require_shape
 from forcetorque.base.errors import RobotError, ShapeError, known_names
 from forcetorque.base.noise.means import mean_error, one_after_another
 from forcetorque.base.pose import invert_pose
@@ -69,19 +69,16 @@ def joints_of_sensor(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TorqueMap:
+class TorqueMap(ArrayRecord):
     """Joint torques per unit of a sensor's reading, over n samples: the transposed Jacobian of the sensor."""
 
     sensor: str
     """Sensor."""
-    joints: tuple[str, ...]
+    joints: tuple[str, ...] = field(metadata=names("k"))
     """Joints whose torque depends on it."""
-    rows: FloatArray
+    rows: FloatArray = field(metadata=array(None, "k", 6))
     """Torque per component of the reading, in its frame and direction; shape (n, joints, 6); m and 1, where prismatic
     1 and 1/m."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "rows", read_only(self.rows, name="rows", shape=(None, len(self.joints), 6)))
 
     def torques(self, wrench: Any) -> FloatArray:
         """Give what a wrench in place of, or on top of, a reading adds to the torques.
