@@ -9,8 +9,9 @@ give its distribution exactly.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 
@@ -31,18 +32,9 @@ _DRAWS: Final = 4000
 _SEED: Final = 16
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ErrorSources:
-    """Root mean square of what each source adds to an error; matrix and offset of one fit lean against each other."""
-
-    matrix: float
-    """Error of the matrix."""
-    offset: float
-    """Error of the offset; 0 where it is taken anew."""
-    variables: float
-    """Error of the coefficients of variables such as temperature."""
-    noise: float
-    """Noise of a reading that is averaged over a second."""
+ErrorSource = Literal["matrix", "offset", "variables", "noise"]
+"""What adds to an error: the matrix; the offset, nothing where it is taken anew; coefficients of variables such as
+temperature; noise of a measurement that is averaged over a second."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -57,8 +49,8 @@ class ErrorSize:
     """Upper end of its 95 % interval."""
     axes: FloatArray
     """Expected root mean square of the three components; shape (3,)."""
-    sources: ErrorSources
-    """Where it comes from."""
+    sources: Mapping[ErrorSource, float]
+    """Root mean square of what each source adds; the errors of matrix and offset of one fit are correlated."""
     draws: FloatArray
     """Draws of it, from which any quantile follows; shape (m,)."""
 
@@ -222,6 +214,6 @@ def _size(square: FloatArray, shares: list[float]) -> ErrorSize:
         at_least=low,
         at_most=high,
         axes=np.sqrt(square.mean(axis=0)),
-        sources=ErrorSources(matrix=matrix, offset=offset, variables=variables, noise=noise),
+        sources={"matrix": matrix, "offset": offset, "variables": variables, "noise": noise},
         draws=draws,
     )

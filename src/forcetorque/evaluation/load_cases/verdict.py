@@ -13,15 +13,23 @@ from forcetorque.base.noise.paired_comparison import ALIKE
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.evaluation.load_cases.load_case import LoadCase, UseOffset
 from forcetorque.evaluation.load_cases.operating_loads import Refuse, loads_of_use, raise_refused
-from forcetorque.evaluation.load_cases.prediction import CONFIDENCE, ErrorSize, PredictedError, predict, predict_prior
+from forcetorque.evaluation.load_cases.prediction import (
+    CONFIDENCE,
+    ErrorSize,
+    ErrorSource,
+    PredictedError,
+    predict,
+    predict_prior,
+)
 from forcetorque.evaluation.load_cases.section import LoadCaseTable
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
-    JudgedExcitation,
     MeasuredError,
     PriorComparison,
     compare_with_prior,
     judged_evidence,
+    static_loads_text,
+    validation_excitation,
 )
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
@@ -156,7 +164,7 @@ TARE: Final = 'Tare the sensor before use, and state offset = "tared" in [[load_
 """About a constant error."""
 FIT_GENERATIVE: Final = "Calibrate by the generative model, whose calibrations know their errors at any load."
 """About a calibration without a covariance."""
-_BY_SOURCE: Final = {
+_BY_SOURCE: Final[dict[ErrorSource, str]] = {
     "matrix": "the matrix: record more and larger loads, like those of the use, and calibrate again.",
     "offset": 'the offset: tare the sensor before use and state offset = "tared" in [[load_case]], or record loads '
     "that are known better.",
@@ -177,7 +185,7 @@ def lower_the_predicted(after: PredictedError, allowed: tuple[float, float]) -> 
     """
     force, moment = allowed
     worst = after.force if after.force.at_most / force >= after.moment.at_most / moment else after.moment
-    shares = {source: float(getattr(worst.sources, source)) for source in _BY_SOURCE}
+    shares = {source: worst.sources[source] for source in _BY_SOURCE}
     quantity = "force" if worst is after.force else "moment"
     return f"Most of the {quantity} error comes from {_BY_SOURCE[max(shares, key=shares.__getitem__)]}"
 
@@ -314,10 +322,10 @@ class UseJudge:
                 allowed=None if np.isinf(allowed) else allowed,
                 measured=self._measured_size(quantity),
                 axes=tuple(after.axes.tolist()),
-                from_matrix=after.sources.matrix,
-                from_offset=after.sources.offset,
-                from_variables=after.sources.variables,
-                from_noise=after.sources.noise,
+                from_matrix=after.sources["matrix"],
+                from_offset=after.sources["offset"],
+                from_variables=after.sources["variables"],
+                from_noise=after.sources["noise"],
             )
 
     def _measured_size(self, quantity: str) -> float | None:
@@ -349,9 +357,11 @@ class UseJudge:
                 )
                 yield Reason(against="data", text=text, remedy=LOOK_FOR_CAUSE)
         # sessions at rest, each in a posture of its own, do not move: offsets take up what a wrong matrix makes of it
-        seen = JudgedExcitation.of(self.measured.reference, [self.calibration], moved=self.measured.moved)
-        if seen.words is not None:
-            yield Reason(against="data", text=f"{seen.words}; judge data that move", remedy=JUDGE_WHAT_MOVES)
+        static = static_loads_text(
+            *validation_excitation(self.measured.reference, [self.calibration], moved=self.measured.moved)
+        )
+        if static is not None:
+            yield Reason(against="data", text=f"{static}; judge data that move", remedy=JUDGE_WHAT_MOVES)
 
     def _constant(
         self, error: MeasuredError, quantity: str, unit: str, allowed: float, load: float

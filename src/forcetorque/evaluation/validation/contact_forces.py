@@ -13,9 +13,9 @@ from forcetorque.base.noise.paired_comparison import PairedErrors, compare_error
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.evaluation.load_cases.validation_evidence import (
     ErrorComparison,
-    JudgedExcitation,
     fewest_independent,
-    ratio_fields,
+    known_interval,
+    validation_excitation,
 )
 from forcetorque.evaluation.validation.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
 from forcetorque.experiment.additions import with_recording_notes
@@ -112,21 +112,29 @@ def judged_best(
     norms = {key: float(np.linalg.norm(sizes[key][:, :3], axis=1).mean()) for key in candidates}
     least = min(candidates, key=norms.__getitem__)
     names = {key: pooled.candidates[key[0]].name for key in candidates}
-    comparisons = tuple(
-        CandidateComparison(
-            candidate=names[least],
-            offset=offset,
-            quantity="force",
-            unit="N",
-            samples=len(sizes[least]),
-            mean=norms[least],
-            other=names[key],
-            other_mean=norms[key],
-            **ratio_fields(compare_errors(_pairs(recordings, least, key)).force),
+    comparisons = []
+    for key in candidates:
+        if key == least:
+            continue
+        ratio = compare_errors(_pairs(recordings, least, key)).force
+        low, high = known_interval(ratio)
+        comparisons.append(
+            CandidateComparison(
+                candidate=names[least],
+                offset=offset,
+                quantity="force",
+                unit="N",
+                samples=len(sizes[least]),
+                mean=norms[least],
+                other=names[key],
+                other_mean=norms[key],
+                ratio=ratio.ratio,
+                ratio_low=low,
+                ratio_high=high,
+                stretches=ratio.stretches,
+                judgement=ratio.judgement,
+            )
         )
-        for key in candidates
-        if key != least
-    )
     by_axis = np.argmin([sizes[key].mean(axis=0) for key in candidates], axis=0)
     return BestCandidate(
         sensor=sensor,
@@ -134,7 +142,7 @@ def judged_best(
         by_magnitude=names[least],
         by_axis=tuple(names[candidates[place]] for place in by_axis),
         judgement=_judgement(comparisons),
-        comparisons=comparisons,
+        comparisons=tuple(comparisons),
     )
 
 
@@ -330,7 +338,7 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
     expected = contacts.expected[np.isfinite(contacts.expected).all(axis=1)]
     if not len(expected):
         return
-    moved = JudgedExcitation.of(expected, ())
+    (moved_N, _), (moved_Nm, _) = validation_excitation(expected, ())
     for index, offset in _judgeable(contacts):
         wrenches = contacts.wrenches[index, offset]
         candidate, errors = contacts.candidates[index], errors_from_zero(wrenches, contacts.time_s[index, offset])
@@ -350,8 +358,8 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
             mean_absolute=errors.mean_absolute,
             bias=errors.bias,
             independent=fewest_independent(wrenches, contacts.time_s[index, offset]),
-            excitation_N=moved.force,
-            excitation_Nm=moved.moment,
+            excitation_N=moved_N,
+            excitation_Nm=moved_Nm,
         )
 
 
