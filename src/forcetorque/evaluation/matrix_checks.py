@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -174,26 +174,22 @@ class FeaturePosition(Row):
     """Distance from the median over 1.4826 times the median absolute deviation; NaN if half the others are equal."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PopulationPosition:
-    """Where a matrix stands among those of other sensors."""
+def most_unusual(features: Sequence[FeaturePosition]) -> FeaturePosition:
+    """Find the feature with the largest magnitude of `robust_z`; the condition, if the matrix is singular.
 
-    count: int
-    """Number of other sensors."""
-    features: tuple[FeaturePosition, ...]
-    """One per feature."""
+    Args:
+        features: Features of a matrix by `position_in_population`.
 
-    @property
-    def most_unusual(self) -> FeaturePosition:
-        """The feature with the largest magnitude of `robust_z`; the condition, if the matrix is singular.
+    Returns:
+        The feature.
 
-        Raises:
-            SensorError: If no feature has one.
-        """
-        known = [feature for feature in self.features if not np.isnan(feature.robust_z)]
-        if not known:
-            raise SensorError("population: half of the sensors have equal matrices, so that there is no scatter")
-        return max(known, key=lambda feature: abs(feature.robust_z))
+    Raises:
+        SensorError: If no feature has a `robust_z`.
+    """
+    known = [feature for feature in features if not np.isnan(feature.robust_z)]
+    if not known:
+        raise SensorError("population: half of the sensors have equal matrices, so that there is no scatter")
+    return max(known, key=lambda feature: abs(feature.robust_z))
 
 
 def matrix_features(matrix: FloatArray, others: Mapping[str, FloatArray]) -> dict[str, float]:
@@ -222,7 +218,7 @@ def matrix_features(matrix: FloatArray, others: Mapping[str, FloatArray]) -> dic
     return features
 
 
-def position_in_population(matrix: FloatArray, population: Mapping[str, FloatArray]) -> PopulationPosition:
+def position_in_population(matrix: FloatArray, population: Mapping[str, FloatArray]) -> tuple[FeaturePosition, ...]:
     """Compare a matrix with those of other sensors.
 
     Args:
@@ -244,11 +240,8 @@ def position_in_population(matrix: FloatArray, population: Mapping[str, FloatArr
         matrix_features(other, {name: rest for name, rest in population.items() if name != serial})
         for serial, other in population.items()
     ]
-    return PopulationPosition(
-        count=len(population),
-        features=tuple(
-            _position(name, value, np.array([elements[name] for elements in theirs])) for name, value in mine.items()
-        ),
+    return tuple(
+        _position(name, value, np.array([features[name] for features in theirs])) for name, value in mine.items()
     )
 
 

@@ -29,6 +29,7 @@ from forcetorque.evaluation.sphere.fit_results import (
 )
 from forcetorque.evaluation.sphere.model_free_fit import is_flat
 from forcetorque.evaluation.sphere.resampling import FEWEST, Resampled, resampled, whole
+from forcetorque.results.table import AxisValues, Row
 
 _ROUNDING = 1e-14
 """Square of a radius, relative to that of the largest, at which an ellipsoid is flat."""
@@ -48,32 +49,29 @@ class MappedFit(ArrayRecord):
     """The ellipsoid."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MomentFit(ArrayRecord):
-    """How far moments reach while the force goes over its sphere, by the sensor and by the model."""
+class MomentRow(Row):
+    """How far moments reach while the force goes over its sphere, with the model."""
 
-    centre: FloatArray = field(metadata=array(3))
-    """What the sensor reads without force; shape (3,); N m."""
-    half_widths: FloatArray = field(metadata=array(3))
-    """Largest moment about each axis that the sensor would read; shape (3,); N m."""
-    expected_half_widths: FloatArray = field(metadata=array(3))
-    """Largest moment about each axis by the model; shape (3,); N m."""
-    low: FloatArray = field(metadata=array(3))
-    """Lower ends of the 95 % intervals of the half-widths; shape (3,); N m."""
-    high: FloatArray = field(metadata=array(3))
-    """Upper ends; shape (3,); N m."""
-    stray: float
-    """Root mean square of the model's moment that is no function of its force, relative to the largest
-    half-width; 0 for a stiff limb."""
     identifiable: bool
     """Whether the half-widths are worth comparing."""
     why: tuple[str, ...]
-    """What speaks against it; empty if it is identifiable."""
-
-    @property
-    def errors(self) -> FloatArray:
-        """Measured minus expected half-widths; shape (3,); N m."""
-        return self.half_widths - self.expected_half_widths
+    """What speaks against it."""
+    centre_Nm: AxisValues
+    """What the sensor reads without force."""
+    half_width_Nm: AxisValues
+    """Largest moment about each axis that the sensor would read."""
+    low_Nm: AxisValues
+    """Lower ends of their intervals."""
+    high_Nm: AxisValues
+    """Upper ends."""
+    expected_half_width_Nm: AxisValues
+    """Largest moment about each axis by the model."""
+    error_Nm: AxisValues
+    """Measured minus expected."""
+    index_Nm: float
+    """Sample standard deviation of the three errors."""
+    stray_share: float
+    """Root mean square of the model's moment that does not follow its force, relative to the largest half-width."""
 
 
 def fit_mapped(force: FloatArray, reference: FloatArray, *, radius: float, tolerance: float) -> MappedFit | None:
@@ -170,7 +168,7 @@ def image_of_sphere(
 
 def fit_moment(
     moment: FloatArray, reference_moment: FloatArray, reference: FloatArray, *, radius: float, tolerance: float
-) -> MomentFit | None:
+) -> MomentRow | None:
     """Fit the maps of reference forces to measured and to reference moments.
 
     Args:
@@ -201,15 +199,18 @@ def fit_moment(
     if share > tolerance:
         why += (f"the limb is not stiff: {percent(share)} of its largest moment does not follow the force",)
     low, high = estimates.ranged if why else estimates.jackknifed
-    return MomentFit(
-        centre=centre,
-        half_widths=estimates.whole,
-        expected_half_widths=reach,
-        low=np.maximum(low, 0.0),
-        high=high,
-        stray=share,
+    errors = estimates.whole - reach
+    return MomentRow(
         identifiable=not why,
         why=why,
+        centre_Nm=centre,
+        half_width_Nm=estimates.whole,
+        low_Nm=np.maximum(low, 0.0),
+        high_Nm=high,
+        expected_half_width_Nm=reach,
+        error_Nm=errors,
+        index_Nm=float(np.std(errors, ddof=1)),
+        stray_share=share,
     )
 
 

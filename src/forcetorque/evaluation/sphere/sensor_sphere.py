@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, ShapeError, UnitError, known_names
-from forcetorque.evaluation.sphere.affine_fit import MappedFit, MomentFit, fit_mapped, fit_moment
+from forcetorque.evaluation.sphere.affine_fit import MappedFit, MomentRow, fit_mapped, fit_moment
 from forcetorque.evaluation.sphere.cloud import is_one_point, require_cloud, share_of_directions
 from forcetorque.evaluation.sphere.fit_results import TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, percent
 from forcetorque.evaluation.sphere.model_free_fit import fit_ellipsoid, fit_radius, may_be_flat
@@ -94,7 +94,7 @@ class SphereAnalysis:
     """Ellipsoid through the forces with the model; N; None without reference."""
     free_moment: EllipsoidFit | None
     """Ellipsoid through the moments without the model; N m; None where the moment does not change."""
-    moment: MomentFit | None
+    moment: MomentRow | None
     """Moments with the model; None without reference."""
 
     def masses(self, fit: EllipsoidFit) -> FloatArray | None:
