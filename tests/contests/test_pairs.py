@@ -15,7 +15,7 @@ from forcetorque.contests.pairwise_comparison import (
     ranks_and_winner,
     rms_intervals,
 )
-from forcetorque.contests.phases import Trial, by_load, common_phases, trial_of
+from forcetorque.contests.phases import Trial, by_load, common_phases, trial_by_phase
 
 PHASES, LOADS = 120, (10.0, 15.0, 20.0)
 ALL = np.ones(PHASES, dtype=np.bool_)
@@ -110,10 +110,10 @@ def test_means_over_phases_and_what_is_removed() -> None:
     """Three samples of a phase count as their mean; phases without a sample are not common."""
     phase = np.array([0.05, 0.06, 0.07, 0.95])
     error = np.outer([1.0, 2.0, 3.0, 6.0], np.ones(6))
-    trial = trial_of(phase, error, error, None, phases=10, load_kg=5.0)
+    trial = trial_by_phase(phase, error, error, None, phases=10, load_kg=5.0)
     np.testing.assert_allclose(trial.level, 4.0)
     np.testing.assert_allclose(trial.error[[0, 9]], [[-2.0] * 6, [2.0] * 6])
-    own = trial_of(phase, error, error, np.ones(6), phases=10, load_kg=5.0)
+    own = trial_by_phase(phase, error, error, np.ones(6), phases=10, load_kg=5.0)
     np.testing.assert_allclose(own.error[0], 1.0)
     with pytest.raises(RecordingError, match="at least 50% of 10 phases, got 20%"):
         common_phases({"one": [trial]})

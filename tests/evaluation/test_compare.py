@@ -13,6 +13,7 @@ from forcetorque.base.errors import ExperimentError, FormatError, MissingFileErr
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.trials.comparison import Comparison, compare
+from forcetorque.evaluation.trials.section import TRIAL as TRIAL_SECTION
 from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials, read_trials
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.file import parse_experiment
@@ -184,10 +185,10 @@ def test_the_file_says_condition_and_number(arm: Path) -> None:
     """Both are optional; a number is a whole one from 1."""
     path = arm / PARQUET
     plain = load_experiment(path)
-    assert (plain.condition, plain.trial) == (None, None)
+    assert (plain.section(TRIAL_SECTION).condition, plain.section(TRIAL_SECTION).number) == (None, None)
     add(path, TRIAL.format(3))
     stated = load_experiment(path)
-    assert (stated.condition, stated.trial) == ("2 N m", 3)
+    assert (stated.section(TRIAL_SECTION).condition, stated.section(TRIAL_SECTION).number) == ("2 N m", 3)
     for bad in ("0", '"first"', "1.5"):
         file = arm / "bad.toml"
         file.write_text(path.read_text().replace("number = 3", f"number = {bad}"))

@@ -150,7 +150,7 @@ class Trial(ArrayRecord):
     """Mean temperature of the sensor; degC; NaN where none was recorded."""
 
 
-def trial_of(
+def trial_by_phase(
     phase: FloatArray,
     error: Any,
     reference: FloatArray,

@@ -12,7 +12,7 @@ from pydantic import Field
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, SensorError, SerialNumberError, ShapeError
 from forcetorque.contests.entries import Entries
-from forcetorque.contests.methods import Phases, Reader, reader_of, trials_of
+from forcetorque.contests.methods import Phases, Reader, contestant_reader, contestant_trials
 from forcetorque.contests.pairwise_comparison import (
     ContestPairRow,
     compared_pairs,
@@ -27,7 +27,7 @@ from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValu
 
 
 class ContestantRow(Row):
-    """What one contestant reached on loads that nobody was fitted on."""
+    """What one contestant reached on loads that were not fitted."""
 
     contestant: Annotated[str, Shown("contestant")]
     """Its name."""
@@ -61,7 +61,7 @@ class ContestantRow(Row):
     """Standard deviation between runs with one load, at the same phases: its precision; none where none was
     repeated."""
     full_scale: WrenchValues | None
-    """Full scale; N, N m; none where nobody says."""
+    """Full scale; N, N m; none where it is not stated."""
     rmse_percent_of_full_scale: WrenchValues | None
     """Root mean square error over the full scale; %."""
     drift_per_hour: WrenchValues | None
@@ -120,7 +120,7 @@ def contestant_row(
     scale: tuple[float, float],
     ranks: tuple[int, int, int],
 ) -> ContestantRow:
-    """Say what a contestant reached.
+    """Compute the scores of a contestant.
 
     Args:
         reader: The contestant.
@@ -166,7 +166,7 @@ def contestant_row(
 
 
 def load_rows(name: str, loads: dict[float, tuple[Trial, ...]], squares: FloatArray) -> list[ContestLoadRow]:
-    """Say how a contestant errs under every load.
+    """Compute the errors of a contestant under every load.
 
     Args:
         name: The contestant.
@@ -242,9 +242,9 @@ class Contest(Result):
     phases: int
     """Phases of the motion that all runs have."""
     loads_kg: tuple[float, ...]
-    """Loads that judged, on which nobody was fitted; kg."""
+    """Validation loads, on which no contestant was fitted; kg."""
     winner: str | None
-    """The one that errs less than every other beyond doubt, by force and moment together; none where nobody does."""
+    """The one that errs less than every other beyond doubt, by force and moment together; else none."""
     contestants: tuple[ContestantRow, ...]
     """Contestants, the best first."""
     loads: tuple[ContestLoadRow, ...]
@@ -318,12 +318,12 @@ def contest(entries: Entries, *, code_version: str, created: str) -> Contest:
         Ranks, scores and pairs; contestants that lack what their method needs are named, the others go on.
 
     Raises:
-        ExperimentError: If fewer than two can be judged, on loads that all share and nobody was fitted on.
+        ExperimentError: If fewer than two can be judged, on loads that all share and no contestant was fitted on.
     """
     readers, left_out = _readers(entries, code_version=code_version, created=created)
     judged_loads = _require_unfitted(readers)
     phases = Phases(entries.phases)
-    trials = {reader.entry.name: trials_of(reader, phases, entries.offset) for reader in readers}
+    trials = {reader.entry.name: contestant_trials(reader, phases, entries.offset) for reader in readers}
     require_same_motion(phases.paths, phases=entries.phases)
     common = common_phases(trials)
     loads = {name: by_load(own) for name, own in trials.items()}
@@ -356,7 +356,7 @@ def _readers(entries: Entries, *, code_version: str, created: str) -> tuple[list
     left_out: list[LeftOutRow] = []
     for entry in entries.contestants:
         try:
-            readers.append(reader_of(entry, entries.runs, code_version=code_version, created=created))
+            readers.append(contestant_reader(entry, entries.runs, code_version=code_version, created=created))
         except (ExperimentError, FitError, SensorError, SerialNumberError, ShapeError) as error:
             left_out.append(LeftOutRow(contestant=entry.name, method=entry.method.value, why=str(error)))
     every = {load for reader in readers for load in _loads(reader)}

@@ -13,13 +13,13 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import one_after_another
 from forcetorque.evaluation.load_cases.validation_evidence import (
     PriorComparison,
-    comparison_sentence,
     fewest_independent,
+    prior_comparison_text,
     prior_comparisons,
     static_loads_text,
     validation_excitation,
 )
-from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_sentences, use_verdicts
+from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts, verdict_texts
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import (
@@ -60,7 +60,7 @@ if TYPE_CHECKING:
 
 
 _WORTH = ("independent", "excitation_N", "excitation_Nm")
-"""What tells how much an error is worth, in the second table."""
+"""Fields of the second table that show how many data an error rests on."""
 
 _VARYING = {"offset", "rmse", "force_error_mean_N", "moment_error_mean_Nm"}
 """What the first table has."""
@@ -93,7 +93,7 @@ def error_tables(
     yield _named(shown, names)
 
 
-def smoothing_words(run: SensorRun) -> str:
+def smoothing_text(run: SensorRun) -> str:
     """Say whether reading and reference are smoothed before they are compared.
 
     Args:
@@ -156,7 +156,7 @@ class CandidateErrors(JudgedRow):
 
     @property
     def hardly_moved_words(self) -> str | None:
-        """The same in words; None where the loads moved."""
+        """The same as a text; None where the loads moved."""
         return static_loads_text((self.excitation_N, self.load_N), (self.excitation_Nm, self.load_Nm))
 
 
@@ -209,7 +209,7 @@ class Evaluation(Result):
                 yield from error_tables(apart, caption, recordings=[row.recording for row in apart])
         yield f"{ERROR_WORDS}; {'; '.join(self.smoothing)}"
         yield from self._sentences()
-        yield from use_sentences(self.uses)
+        yield from verdict_texts(self.uses)
 
     def _sentences(self) -> Iterator[str]:
         """Say what every calibration is worth against its prior, with either offset."""
@@ -219,7 +219,7 @@ class Evaluation(Result):
         for row in self.comparisons:
             pairs.setdefault((row.sensor, row.candidate, row.offset), []).append(row)
         for (sensor, candidate, _), rows in pairs.items():
-            yield (f"{sensor}: " if several else "") + comparison_sentence(names[candidate], rows)
+            yield (f"{sensor}: " if several else "") + prior_comparison_text(names[candidate], rows)
 
     def records(self) -> list[dict[str, object]]:
         """Give the verdicts as flat lines, and where there are several recordings those on each.
@@ -255,12 +255,12 @@ def evaluate(runs: Runs, calibrations: Calibrations) -> Evaluation:
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
     campaign, judged = Campaign.of(runs), named(calibrations)
-    errors = judge_errors(campaign, judged)
+    errors = validation_errors(campaign, judged)
     return errors.model_copy(update={"uses": use_verdicts(campaign, judged)})
 
 
-def judge_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
-    """Judge calibrations by their errors alone, whatever they are to be used for.
+def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
+    """Compute the errors of calibrations on validation data, without verdicts on load cases.
 
     Args:
         runs: The sensor in one recording, or in several.
@@ -310,7 +310,7 @@ def judge_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluat
         verdicts=tuple(verdicts),
         recordings=tuple(recordings),
         comparisons=prior_comparisons(campaign.sensor.name, list(wrenches.values())),
-        smoothing=tuple(dict.fromkeys(map(smoothing_words, campaign.runs_with(Use.VALIDATION)))),
+        smoothing=tuple(dict.fromkeys(map(smoothing_text, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
         warnings=(*at_rest(verdicts), *sentences(validity), *warnings),
     )

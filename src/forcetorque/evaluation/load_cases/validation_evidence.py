@@ -54,7 +54,7 @@ class Evidence:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class JudgedStretch:
+class ValidationSegment:
     """What one candidate measured in a recording, or in as much of it as belongs to one session."""
 
     session: str
@@ -67,7 +67,7 @@ class JudgedStretch:
     """What mechanics demands; shape (n, 6); N, N m."""
 
 
-def evidence(stretches: Sequence[JudgedStretch]) -> Evidence:
+def evidence(stretches: Sequence[ValidationSegment]) -> Evidence:
     """Sum up the errors of one candidate in any number of recordings.
 
     Args:
@@ -119,7 +119,7 @@ def _measured(constants: Sequence[tuple[float, float]], square: FloatArray, squa
     )
 
 
-def judged_evidence(campaign: Campaign, calibrations: Mapping[str, Calibration]) -> dict[str, Evidence]:
+def evidence_by_calibration(campaign: Campaign, calibrations: Mapping[str, Calibration]) -> dict[str, Evidence]:
     """Sum up what every calibration measures on the validation intervals of all recordings.
 
     Args:
@@ -129,7 +129,7 @@ def judged_evidence(campaign: Campaign, calibrations: Mapping[str, Calibration])
     Returns:
         Evidence by name of the calibration; none where no recording has such an interval.
     """
-    stretches: dict[str, list[JudgedStretch]] = {name: [] for name in calibrations}
+    stretches: dict[str, list[ValidationSegment]] = {name: [] for name in calibrations}
     for run in campaign.runs:
         if not run.has(Use.VALIDATION):
             continue
@@ -139,7 +139,7 @@ def judged_evidence(campaign: Campaign, calibrations: Mapping[str, Calibration])
         for session, samples in _sessions(campaign, run, judged).items():
             for name in calibrations:
                 stretches[name].append(
-                    JudgedStretch(
+                    ValidationSegment(
                         session=session,
                         time_s=judged.time_s[samples],
                         measured=measured[name][samples],
@@ -338,7 +338,7 @@ class PriorComparison(ErrorComparison):
     """Norm of the mean error vector: the part that another offset would take away."""
 
 
-def comparison_sentence(name: str, rows: Sequence[PriorComparison]) -> str:
+def prior_comparison_text(name: str, rows: Sequence[PriorComparison]) -> str:
     """Say how a calibration does against its prior, the same wherever it is said.
 
     Args:

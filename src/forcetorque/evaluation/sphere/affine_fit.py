@@ -18,8 +18,8 @@ from forcetorque.evaluation.sphere.algebraic_fit import inverse_lengths
 from forcetorque.evaluation.sphere.cloud import reach, sums_of_products
 from forcetorque.evaluation.sphere.fit_results import (
     EllipsoidFit,
+    beyond_measured_extent,
     ellipsoid_of_map,
-    far_from,
     index_ends,
     lengths_of,
     lowest_index,
@@ -142,7 +142,7 @@ def image_of_sphere(
     low, high = estimates.jackknifed
     mean = float(ellipsoid.axis_intersections.mean())
     why = _against(len(error), relative_margin(low[:3], high[:3], mean), tolerance)
-    far = far_from(ellipsoid, max(extent, radius)) if why else None
+    far = beyond_measured_extent(ellipsoid, max(extent, radius)) if why else None
     if far is not None:
         return no_ellipsoid(*why, far)
     tilt = not why and relative_margin(low[3:], high[3:], mean) <= tolerance

@@ -43,7 +43,7 @@ class Ellipsoid(ArrayRecord):
     def half_widths(self) -> FloatArray:
         """Half of its extent along each axis, `sqrt((shape^-1)_ii)`; shape (3,).
 
-        The most that the sensor reads along an axis, whatever it reads along the others.
+        The most that the sensor reads along an axis, for any reading along the others.
         """
         return np.sqrt(np.diag(np.linalg.inv(self.shape)))
 
@@ -85,7 +85,7 @@ TOLERANCE = 0.1
 _FAR = 5.0
 """Longest radius, relative to the extent of the cloud and to the weight, beyond which nothing was measured there.
 
-Sensors had 1.6 times the weight at most; on grids of 10 to 60 degrees to each side, whatever the noise, ellipsoids that
+Sensors had 1.6 times the weight at most; on grids of 10 to 60 degrees to each side, at any noise, ellipsoids that
 are identifiable without the model had less than 2.5 times the extent of their cloud.
 """
 
@@ -217,7 +217,7 @@ def no_ellipsoid(*reasons: str) -> EllipsoidFit:
     )
 
 
-def far_from(ellipsoid: Ellipsoid, extent: float) -> str | None:
+def beyond_measured_extent(ellipsoid: Ellipsoid, extent: float) -> str | None:
     """Find whether an ellipsoid lies where nothing was measured.
 
     Args:

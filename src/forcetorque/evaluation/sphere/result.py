@@ -189,7 +189,7 @@ class SphereRow(Row):
     samples: int
     """Number of samples."""
     model_mass_kg: float | None
-    """Mass that hangs on the sensor by the model."""
+    """Mass beyond the sensor by the model."""
     form: CloudForm
     """What part of a sphere the forces can be told to be."""
     force_scatter: float | None

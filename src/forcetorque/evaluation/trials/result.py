@@ -39,7 +39,7 @@ class TrialRow(Row):
     gravity_m_s2: float
     """Magnitude of gravity."""
     model_mass_kg: float | None
-    """Mass that hangs on the sensor by the model."""
+    """Mass beyond the sensor by the model."""
     form: CloudForm
     """What part of a sphere the forces can be told to be."""
     no_reference: str | None

@@ -89,7 +89,7 @@ class BestCandidate(Row):
         return f"{self.sensor}, offset {self.offset}: {'; '.join(words)}"
 
 
-def judged_best(
+def best_candidate(
     sensor: str,
     offset: Offset,
     candidates: Sequence[tuple[int, Offset]],
@@ -314,13 +314,13 @@ def contact_force_blocks(
     for sensor in dict.fromkeys(row.sensor for row in verdicts):
         rows = [row for row in verdicts if row.sensor == sensor]
         yield without_vague(_table(rows))
-        yield mean_contact_table(rows)
+        yield constant_contact_table(rows)
         apart = [row for row in recordings if row.sensor == sensor]
         if apart:
             names = [row.recording for row in apart]
             caption = f"{sensor} ({apart[0].serial}), each recording by itself"
             yield with_first_column(without_vague(table_of(apart, caption, leave_out=WORTH)), "recording", names)
-            yield with_first_column(mean_contact_table(apart), "recording", names)
+            yield with_first_column(constant_contact_table(apart), "recording", names)
     if len({row.candidate for row in verdicts}) > 1:
         yield from (candidate.sentence for candidate in best)
 
@@ -376,7 +376,7 @@ def _best(
     for index, offset in _judgeable(contacts):
         groups.setdefault(contacts.candidates[index].offset(offset), []).append((index, offset))
     for offset, candidates in groups.items():
-        yield judged_best(sensor.name, offset, candidates, contacts, recordings)
+        yield best_candidate(sensor.name, offset, candidates, contacts, recordings)
 
 
 def _table(rows: Sequence[ContactForceErrors]) -> Table:
@@ -391,7 +391,7 @@ def _table(rows: Sequence[ContactForceErrors]) -> Table:
     )
 
 
-def mean_contact_table(rows: Sequence[ContactForceErrors]) -> Table:
+def constant_contact_table(rows: Sequence[ContactForceErrors]) -> Table:
     """Put the constant part of contact wrenches into a table, with what tells how much the wrenches are worth.
 
     Args:

@@ -290,7 +290,7 @@ class TorqueSamples:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class JudgedTorques:
+class TorqueErrorSamples:
     """Errors of the torques that depend on one sensor, over all judged intervals, in the order of time."""
 
     candidates: tuple[JudgedCandidate, ...]
@@ -301,7 +301,7 @@ class JudgedTorques:
     """Torques that the log does not allow to estimate, or to judge in an interval, in words."""
 
 
-def judged_torques(free: FreeSubModel, calibrations: Mapping[str, Calibration]) -> JudgedTorques:
+def torque_error_samples(free: FreeSubModel, calibrations: Mapping[str, Calibration]) -> TorqueErrorSamples:
     """Estimate the torques of the joints that depend on a sensor by every candidate, and compare with the model.
 
     Args:
@@ -330,14 +330,14 @@ def judged_torques(free: FreeSubModel, calibrations: Mapping[str, Calibration]) 
                 left_out |= dict.fromkeys(_gaps(interval, candidates, over))
                 for key, samples in over.items():
                     pieces.setdefault(key, []).append(samples)
-    return JudgedTorques(
+    return TorqueErrorSamples(
         candidates=candidates,
         samples={key: _joined(samples) for key, samples in pieces.items()},
         left_out=tuple(left_out),
     )
 
 
-def pooled_torques(recordings: Mapping[str, JudgedTorques]) -> JudgedTorques:
+def pooled_torque_errors(recordings: Mapping[str, TorqueErrorSamples]) -> TorqueErrorSamples:
     """Put together what several recordings say.
 
     Args:
@@ -353,7 +353,7 @@ def pooled_torques(recordings: Mapping[str, JudgedTorques]) -> JudgedTorques:
     for torques in recordings.values():
         for key, samples in torques.samples.items():
             pieces.setdefault(key, []).append(samples)
-    return JudgedTorques(
+    return TorqueErrorSamples(
         candidates=first.candidates,
         samples={key: _joined(samples, instants=one_after_another) for key, samples in pieces.items()},
         left_out=tuple(f"{name}: {words}" for name, torques in recordings.items() for words in torques.left_out),
