@@ -46,9 +46,9 @@ def test_drift_by_time_and_temperature_apart() -> None:
     change = changes(by_load(_trials(np.random.default_rng(2), turns=4)))
     assert set(change) == {"per hour", "per degC"}
     for name, truth in (("per hour", PER_HOUR), ("per degC", PER_DEGREE)):
-        width = change[name].half_width
+        slope, width = change[name]
         assert width is not None
-        assert (np.abs(change[name].per_unit - truth) < 2.0 * width).all()
+        assert (np.abs(slope - truth) < 2.0 * width).all()
         assert (width < 0.05).all()
 
 

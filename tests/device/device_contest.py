@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.contests.entries import PHASES, Contestant, ContestRun, Method
-from forcetorque.contests.phases import MotionPath, trial_of
+from forcetorque.contests.phases import MotionPath, trial_by_phase
 from forcetorque.device.description import device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.expected_wrench import answer_of
@@ -100,11 +100,8 @@ def run_of(
             recording=Recording(streams=streams).with_intervals([interval]),
             sensors=tuple(_sensor(sensor, (priors or {}).get(sensor, np.eye(6)), serial) for sensor in wrenches),
             contacts=(),
-            length_scale=None,
             processing=Processing(derivative_window=SavitzkyGolay(window_s=0.6, order=3)),
-            regularisation=None,
             fit_options=FitOptions(),
-            sphere_intervals=None,
             roles={name: Role(kind=name, session=None)},
             supports=(GROUND,),
             inputs_sha256={},
@@ -144,7 +141,7 @@ def _by_phase(load_kg: float) -> dict[str, FloatArray]:
     phase = MotionPath.of(joints, position).phase
     zero = np.zeros(6)
     return {
-        name: trial_of(phase, wrench, wrench, zero, phases=PHASES, load_kg=load_kg).reference
+        name: trial_by_phase(phase, wrench, wrench, zero, phases=PHASES, load_kg=load_kg).reference
         for name, wrench in wrenches.items()
     }
 

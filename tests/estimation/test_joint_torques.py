@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
-from forcetorque.evaluation.validation.joint_torque_errors import judged_torques
+from forcetorque.evaluation.validation.joint_torque_errors import torque_error_samples
 from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
@@ -215,7 +215,7 @@ def test_logged_torques_are_compared_too(arm: Path) -> None:
     compared = [v for v in found if v.logged_rmse is not None]
     assert [v.joint for v in compared] == ["shoulder_pitch"] * 2
     assert all(v.logged_samples == v.samples for v in compared)
-    torques = judged_torques(SubModelChoice().in_run(SensorRun(with_log, sensor)), {})
+    torques = torque_error_samples(SubModelChoice().in_run(SensorRun(with_log, sensor)), {})
     samples = [errors for key, errors in torques.samples.items() if key.joint == "shoulder_pitch"]
     for errors, verdict in zip(samples, compared, strict=True):
         assert verdict.logged_rmse == pytest.approx(np.sqrt((errors.from_logged**2).mean()), abs=EXACT)

@@ -12,9 +12,15 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.generative.fit import GenerativeFit
-from forcetorque.evaluation.load_cases.load_case import LoadCase, UseOffset, pushes_at, pushes_within, shares_of
-from forcetorque.evaluation.load_cases.validation_evidence import Evidence, JudgedStretch, evidence
-from forcetorque.evaluation.load_cases.verdict import HOPELESS, Decision, UseJudge
+from forcetorque.evaluation.load_cases.load_case import (
+    LoadCase,
+    LoadCaseOffset,
+    full_scale_loads,
+    pushes_around_sensor,
+    pushes_at,
+)
+from forcetorque.evaluation.load_cases.validation_evidence import Evidence, ValidationSegment, evidence
+from forcetorque.evaluation.load_cases.verdict import HOPELESS, Decision, LoadCaseAssessment
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moments import DataSet
 from tests.calibration.push_error import LIMIT_COUNTS, Case, cases
@@ -110,7 +116,7 @@ def outcome_of(case: Case, fit: GenerativeFit, use: LoadCase, judged: list[DataS
             doubts=(),
         ),
     )
-    judge = UseJudge(use, calibration, measured)
+    judge = LoadCaseAssessment(use, calibration, measured)
     within = judge.within
     assert within is not None
     return Outcome(
@@ -127,17 +133,17 @@ def outcome_of(case: Case, fit: GenerativeFit, use: LoadCase, judged: list[DataS
 
 def _uses(case: Case) -> tuple[LoadCase, ...]:
     loads = {
-        "push": pushes_within(50.0, 0.3),
+        "push": pushes_around_sensor(50.0, 0.3),
         "weight": pushes_at([[0.0, 0.0, -0.1]], 320.0, 0.05, direction=[[0.0, 0.0, -1.0]]),
-        "scale": shares_of(LIMIT_COUNTS * np.linalg.norm(case.prior, axis=1), 0.1),
+        "scale": full_scale_loads(LIMIT_COUNTS * np.linalg.norm(case.prior, axis=1), 0.1),
     }
-    return tuple(LoadCase(name=k, words=k, wrench=wrench, offset=UseOffset.TARED) for k, wrench in loads.items())
+    return tuple(LoadCase(name=k, words=k, wrench=wrench, offset=LoadCaseOffset.TARED) for k, wrench in loads.items())
 
 
 def _evidence(fit: GenerativeFit, judged: list[DataSet]) -> Evidence:
     return evidence(
         [
-            JudgedStretch(
+            ValidationSegment(
                 session=data.session,
                 time_s=data.time_s,
                 measured=fit.model.wrench(data.raw, np.reshape(data.variables, (len(data.raw), -1))),

@@ -13,6 +13,7 @@ from forcetorque.base.errors import ExperimentError, FormatError, MissingFileErr
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.trials.comparison import Comparison, compare
+from forcetorque.evaluation.trials.section import TRIAL as TRIAL_SECTION
 from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials, read_trials
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.file import parse_experiment
@@ -75,9 +76,10 @@ def test_three_trials_of_which_one_drifts() -> None:
         assert mean.mean == pytest.approx(np.mean([one.index for one in singles if one is not None]) / GRAVITY)
         assert mean.mean != fit.index / GRAVITY
         assert group.index(with_reference=mode) == fit.index / GRAVITY
-        assert drift.intersections_exceed.tolist() == [False, True, False]
-        assert drift.intersections[1] == pytest.approx(0.06 * DEFORMED.axis_intersections[1], abs=0.3)
-        assert drift.centre_exceeds.all()
+        assert drift.exceeds is not None
+        assert [name for name in drift.exceeds if name.startswith("mass")] == ["mass y"]
+        assert GRAVITY * drift.mass_kg[1] == pytest.approx(0.06 * DEFORMED.axis_intersections[1], abs=0.3)
+        assert {"centre x", "centre y", "centre z"} <= set(drift.exceeds)
 
 
 def test_only_the_direction_of_drift_depends_on_the_order() -> None:
@@ -97,8 +99,8 @@ def test_only_the_direction_of_drift_depends_on_the_order() -> None:
         drifts = [group.drift(with_reference=mode) for group in (there, back)]
         assert drifts[0] is not None
         assert drifts[1] is not None
-        assert drifts[0].index == -drifts[1].index != 0.0
-        np.testing.assert_array_equal(drifts[0].centre, -drifts[1].centre)
+        assert drifts[0].index_kg == -drifts[1].index_kg != 0.0
+        np.testing.assert_array_equal(drifts[0].centre_N, -drifts[1].centre_N)
 
 
 def test_numbers_order_trials_and_half_of_them_do_not() -> None:
@@ -183,10 +185,10 @@ def test_the_file_says_condition_and_number(arm: Path) -> None:
     """Both are optional; a number is a whole one from 1."""
     path = arm / PARQUET
     plain = load_experiment(path)
-    assert (plain.condition, plain.trial) == (None, None)
+    assert (plain.section(TRIAL_SECTION).condition, plain.section(TRIAL_SECTION).number) == (None, None)
     add(path, TRIAL.format(3))
     stated = load_experiment(path)
-    assert (stated.condition, stated.trial) == ("2 N m", 3)
+    assert (stated.section(TRIAL_SECTION).condition, stated.section(TRIAL_SECTION).number) == ("2 N m", 3)
     for bad in ("0", '"first"', "1.5"):
         file = arm / "bad.toml"
         file.write_text(path.read_text().replace("number = 3", f"number = {bad}"))

@@ -10,8 +10,9 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SensorError, ShapeError
 from forcetorque.evaluation.matrix_checks import (
     LEAST_POPULATION,
-    PopulationPosition,
+    FeaturePosition,
     matrix_features,
+    most_unusual,
     position_in_population,
 )
 from forcetorque.simulation.sensor import distorted_by_mounting, y_shaped_matrix
@@ -28,27 +29,26 @@ def _sensor(seed: int) -> FloatArray:
 POPULATION = {f"SN{seed:03}": _sensor(seed) for seed in range(30)}
 
 
-def _z(position: PopulationPosition) -> dict[str, float]:
-    return {each.feature: each.robust_z for each in position.features}
+def _z(position: tuple[FeaturePosition, ...]) -> dict[str, float]:
+    return {each.feature: each.robust_z for each in position}
 
 
 def test_positions_by_hand() -> None:
     """Rows of 1 to 5 units: 2.5 has two of five below it, and stands half a unit below the median 3."""
     population = {str(k): k * np.eye(6) for k in (1.0, 2.0, 3.0, 4.0, 5.0)}
     position = position_in_population(2.5 * np.eye(6), population)
-    assert position.count == 5
-    features = {each.feature: each for each in position.features}
-    assert len(features) == len(position.features) == 19
+    features = {each.feature: each for each in position}
+    assert len(features) == len(position) == 19
     row = features["row_norm.fz"]
     assert (row.value, row.median, row.quantile) == (2.5, 3.0, 0.4)
     assert row.robust_z == pytest.approx(-0.5 / 1.4826, rel=1e-12)
     same = features["condition"]  # all are 1: no scatter, in the middle
     assert (same.value, same.quantile) == (1.0, 0.5)
     assert np.isnan(same.robust_z)
-    assert position.most_unusual.feature.startswith("row_norm.")
+    assert most_unusual(position).feature.startswith("row_norm.")
     equal = {str(k): np.eye(6) for k in range(5)}
     with pytest.raises(SensorError, match="no scatter"):
-        _ = position_in_population(np.eye(6), equal).most_unusual
+        _ = most_unusual(position_in_population(np.eye(6), equal))
 
 
 def test_features_by_hand() -> None:
@@ -64,7 +64,7 @@ def test_features_by_hand() -> None:
 
 def test_a_sensor_of_the_same_type_is_usual() -> None:
     """Other draws of the family stay near the others."""
-    worst = [abs(position_in_population(_sensor(seed), POPULATION).most_unusual.robust_z) for seed in range(100, 120)]
+    worst = [abs(most_unusual(position_in_population(_sensor(seed), POPULATION)).robust_z) for seed in range(100, 120)]
     assert len(worst) == 20
     assert max(worst) < USUAL
 
@@ -83,12 +83,12 @@ def test_defects_stand_out_where_they_are() -> None:
     swapped = good[:, [1, 0, 2, 3, 4, 5]]
     turned = good * np.array([1.0, 1.0, 1.0, -1.0, 1.0, 1.0])
     for matrix in (swapped, turned):
-        worst = position_in_population(matrix, POPULATION).most_unusual
+        worst = most_unusual(position_in_population(matrix, POPULATION))
         assert worst.feature.startswith("alignment.")
         assert worst.robust_z < -UNUSUAL
     singular = np.array(good)
     singular[4] = singular[3]
-    worst = position_in_population(singular, POPULATION).most_unusual
+    worst = most_unusual(position_in_population(singular, POPULATION))
     assert (worst.feature, worst.robust_z) == ("condition", np.inf)
     weak = np.array(good)
     weak[2] *= 0.3

@@ -56,7 +56,7 @@ def test_the_result_is_what_the_library_finds(arm: Path, run: Run) -> None:
         assert shown["index_kg"] == pytest.approx(np.std(shown["mass_kg"], ddof=1), rel=1e-12)
         np.testing.assert_allclose(shown["centre_N"], fit.ellipsoid.centre)
     assert analysis.moment is not None
-    np.testing.assert_allclose(row["moment_with_reference"]["error_Nm"], analysis.moment.errors)
+    np.testing.assert_allclose(row["moment_with_reference"]["error_Nm"], analysis.moment.error_Nm)
 
 
 def test_calibration_is_seen_to_mend(arm: Path, run: Run) -> None:

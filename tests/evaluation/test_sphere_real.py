@@ -149,7 +149,7 @@ def test_the_wrist_of_24_poses(data_dir: Path, tmp_path: Path) -> None:
     assert not analysis.free.tilt_identifiable
     assert analysis.moment is not None
     assert analysis.moment.identifiable
-    np.testing.assert_allclose(analysis.moment.errors, 0.0, atol=0.005)
+    np.testing.assert_allclose(analysis.moment.error_Nm, 0.0, atol=0.005)
 
 
 def test_the_wrist_of_100_poses(data_dir: Path, tmp_path: Path) -> None:

@@ -13,16 +13,17 @@ from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatErr
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
-from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
+from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
 from forcetorque.evaluation.load_cases.section import LOAD_CASES
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
-    JudgedExcitation,
-    JudgedStretch,
+    ValidationSegment,
     compare_with_prior,
     evidence,
+    static_loads_text,
+    validation_excitation,
 )
-from forcetorque.evaluation.load_cases.verdict import UseJudge, UseVerdict, use_verdicts
+from forcetorque.evaluation.load_cases.verdict import LoadCaseAssessment, UseVerdict, use_verdicts
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -127,7 +128,7 @@ def test_doubts_about_the_fitted_data_forbid_a_plain_use(arm: Path) -> None:
 def test_without_a_load_case_the_default_is_stated(arm: Path) -> None:
     """An arm is pushed as strongly as what hangs on it."""
     run = _run(arm, "")
-    (case,) = loads_of_use([run])
+    (case,) = operating_load_cases([run])
     assert not case.is_stated
     assert "as much as hangs on the sensor" in case.words
     verdict = _verdict(run, _fit(run))
@@ -169,7 +170,7 @@ def test_acceptance_holds_the_verdict_to_use(arm: Path) -> None:
 def test_a_use_that_cannot_be_is_refused(arm: Path, keys: str, message: str) -> None:
     """In one line that names the table and the key."""
     with pytest.raises((ExperimentError, FormatError), match=message):
-        loads_of_use([_run(arm, f"\n[[load_case]]\n{keys}\n")])
+        operating_load_cases([_run(arm, f"\n[[load_case]]\n{keys}\n")])
 
 
 def test_a_use_that_cannot_be_may_leave_the_others_to_be_judged(arm: Path) -> None:
@@ -199,21 +200,21 @@ def test_pushes_at_a_frame_that_does_not_pass_the_sensor_are_refused(arm: Path) 
     """Where the sensor is named, and where no sensor of the experiment is passed."""
     stated = PUSH.replace("radius_m = 0.2", 'frame = "base"\nsensor = "arm_ft"')
     with pytest.raises(ExperimentError, match="what acts on 'base' does not pass the sensor 'arm_ft'"):
-        loads_of_use([_run(arm, stated)])
+        operating_load_cases([_run(arm, stated)])
     # nor where no sensor is named and it passes none of the experiment's: it would be judged by nobody
     edit(arm / PARQUET, 'sensor = "arm_ft"\n', "")
     run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
     with pytest.raises(ExperimentError, match="what acts on 'base' does not pass the sensor 'arm_ft'"):
-        loads_of_use([run])
+        operating_load_cases([run])
 
 
 def test_one_name_for_two_uses_is_refused(arm: Path) -> None:
     """Also in the file and in what is asked for besides; the same use twice is one."""
     run = _run(arm)
     (stated,) = run.experiment.section(LOAD_CASES)
-    assert len(loads_of_use([run], [stated])) == 1
+    assert len(operating_load_cases([run], [stated])) == 1
     with pytest.raises(ExperimentError, match="two different load cases are called 'push'"):
-        loads_of_use([run], [stated.model_copy(update={"force_error_N": 7.0})])
+        operating_load_cases([run], [stated.model_copy(update={"force_error_N": 7.0})])
 
 
 def _evidence(*offsets: float, sway: float = 10.0, sessions: str = "abc", turned: bool = False) -> Evidence:
@@ -226,7 +227,7 @@ def _evidence(*offsets: float, sway: float = 10.0, sessions: str = "abc", turned
         reference[:, 0] = 40.0 * (k + 1) + sway * np.sin(time)
         error = 0.01 * rng.normal(size=(300, 6)) + [offset, 0.0, 0.0, 0.0, 0.0, 0.0]
         measured = (reference[:, [1, 0, 2, 3, 4, 5]] if turned else reference) + error
-        stretches.append(JudgedStretch(session=session, time_s=time, measured=measured, reference=reference))
+        stretches.append(ValidationSegment(session=session, time_s=time, measured=measured, reference=reference))
     return evidence(stretches)
 
 
@@ -237,11 +238,15 @@ def test_constant_errors_of_two_recordings_do_not_cancel() -> None:
     assert _evidence(0.0, 0.0).force.constant_at_least < 0.05
 
 
+def _static_loads(measured: Evidence) -> str | None:
+    return static_loads_text(*validation_excitation(measured.reference, [], moved=measured.moved))
+
+
 def test_recordings_of_two_sessions_at_rest_in_several_postures_do_not_move() -> None:
     """The load differs by 40 N between them, and moves in neither: each has its own offset, which takes that up."""
     still, swaying = (_evidence(0.0, 0.0, sway=sway) for sway in (0.0, 10.0))
-    assert JudgedExcitation.of(still.reference, [], moved=still.moved).words is not None
-    assert "forces" not in (JudgedExcitation.of(swaying.reference, [], moved=swaying.moved).words or "")
+    assert _static_loads(still) is not None
+    assert "forces" not in (_static_loads(swaying) or "")
     # and a sensor that is turned passes there
     assert _evidence(0.0, 0.0, sway=0.0, turned=True).force.rest < 0.05
 
@@ -249,7 +254,7 @@ def test_recordings_of_two_sessions_at_rest_in_several_postures_do_not_move() ->
 def test_postures_of_one_session_move_and_show_a_sensor_that_is_turned() -> None:
     """In one session the offset is the same, so 40 N from one recording to the next are 40 N more or an error."""
     moved = _evidence(0.0, 0.0, sway=0.0, sessions="aa")
-    assert "forces" not in (JudgedExcitation.of(moved.reference, [], moved=moved.moved).words or "")
+    assert "forces" not in (_static_loads(moved) or "")
     assert moved.force.rest < 0.05
     assert _evidence(0.0, 0.0, sway=0.0, sessions="aa", turned=True).force.rest > 20.0
     # nor do constant errors hide that cancel each other in the mean of a session
@@ -261,10 +266,10 @@ def test_a_trifle_worse_than_the_prior_is_no_reason(arm: Path) -> None:
     run = _run(arm, f"{PUSH}force_error_N = 5.0\n")
     calibration = _fit(run)
     row = compare_with_prior(run, {"new": calibration})[0].model_copy(update={"prior_mean": 1.0})
-    (case,) = loads_of_use([run])
+    (case,) = operating_load_cases([run])
     for quantity, mean, forbidden in (("force", 1.1, False), ("force", 1.5, True), ("moment", 1.5, False)):
         worse = [row.model_copy(update={"mean": mean, "quantity": quantity})]
-        decision, _ = UseJudge(case, calibration, _evidence(0.0), worse=worse).verdict()
+        decision, _ = LoadCaseAssessment(case, calibration, _evidence(0.0), worse=worse).verdict()
         assert (decision == "do not use") is forbidden
 
 

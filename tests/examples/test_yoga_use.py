@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
+from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
 from forcetorque.evaluation.load_cases.prediction import predict, predict_prior
 from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.experiment.loading import load_experiment
@@ -50,7 +50,7 @@ def test_a_foot_that_was_free_is_not_to_be_stood_upon(run: SensorRun) -> None:
     The error is predicted as 28 to 84 N with 95 %, that of the prior as 29 to 81 N.
     """
     calibration = calibrate_sensor(run, code_version="test", created="2026-01-01T00:00:00+00:00")
-    (case,) = loads_of_use([run])
+    (case,) = operating_load_cases([run])
     assert case.words.startswith("the weight of the robot, 324 N, on r_sole")
     (verdict,) = use_verdicts(run, {"new": calibration})
     assert verdict.decision == "do not use"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError
-from forcetorque.evaluation.matrix_checks import position_in_population
+from forcetorque.evaluation.matrix_checks import most_unusual, position_in_population
 from forcetorque.experiment.applicability import read_population
 from forcetorque.experiment.calibration.artefact import write_calibration
 from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, write_matrix_file
@@ -69,6 +69,6 @@ def test_real_sensors_are_told_from_wrongly_wired_ones(data_dir: Path) -> None:
     assert len(population) == 32
     for serial, matrix in population.items():
         others = {name: other for name, other in population.items() if name != serial}
-        assert abs(position_in_population(matrix, others).most_unusual.robust_z) < REAL_LARGEST
+        assert abs(most_unusual(position_in_population(matrix, others)).robust_z) < REAL_LARGEST
         swapped = matrix[:, [1, 0, 2, 3, 4, 5]]
-        assert abs(position_in_population(swapped, others).most_unusual.robust_z) > SWAPPED_SMALLEST
+        assert abs(most_unusual(position_in_population(swapped, others)).robust_z) > SWAPPED_SMALLEST

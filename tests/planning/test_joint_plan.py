@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
-from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
+from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
 from forcetorque.evaluation.load_cases.prediction import predict
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
@@ -34,7 +34,7 @@ def test_what_is_expected_is_what_a_calibration_from_them_says(motions: list[Exp
     assert [step.step for step in plan.steps] == [1, 2]
     taken = [next(one for one in motions if one.name == step.recording) for step in plan.steps]
     (entry,) = calibrate_jointly(taken, "out", code_version="1", created="2020-01-01").calibrations
-    (case,) = loads_of_use([SensorRun(one, "arm_ft") for one in motions])
+    (case,) = operating_load_cases([SensorRun(one, "arm_ft") for one in motions])
     error = predict(entry.calibration, case)
     row = plan.sensors[-1]
     assert (row.step, row.sensor, row.load_case) == (2, "arm_ft", case.name)

@@ -10,8 +10,8 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.evaluation.load_cases.load_case import LoadCase, UseOffset, pushes_within
-from forcetorque.evaluation.load_cases.prediction import moment_of_use, predict_by
+from forcetorque.evaluation.load_cases.load_case import LoadCase, LoadCaseOffset, pushes_around_sensor
+from forcetorque.evaluation.load_cases.prediction import load_second_moment, predict_from_posterior
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
@@ -21,7 +21,7 @@ from forcetorque.planning.search import Choices, Criterion, pick
 RNG = np.random.default_rng(5)
 MATRIX = np.diag([0.02, 0.02, 0.04, 6e-4, 6e-4, 4e-4]) @ (np.eye(6) + 0.2 * RNG.normal(size=(6, 6)))
 LOADS = RNG.normal(size=(40, 6)) * [30.0, 30.0, 40.0, 2.0, 2.0, 1.0] + [5.0, 0.0, -40.0, 0.0, 1.0, 0.0]
-CASE = LoadCase(name="push", words="pushes", wrench=pushes_within(40.0, 0.3), offset=UseOffset.TARED)
+CASE = LoadCase(name="push", words="pushes", wrench=pushes_around_sensor(40.0, 0.3), offset=LoadCaseOffset.TARED)
 
 
 @pytest.fixture
@@ -88,8 +88,11 @@ def test_postures_all_alike_teach_nothing_of_the_matrix(before: Posterior) -> No
     """Negative control: one load for as long as one likes is an offset; loads that differ narrow what is known."""
     alike = Knowledge.of(before).taught(_lesson(np.tile(LOADS[0], (40, 1)), warmer=0.0)).posterior
     np.testing.assert_allclose(alike.learnt_covariance, before.learnt_covariance, rtol=1e-9)
-    error, told = predict_by(alike, CASE), predict_by(Knowledge.of(before).taught(_lesson(LOADS)).posterior, CASE)
-    known = predict_by(before, CASE)
+    error, told = (
+        predict_from_posterior(alike, CASE),
+        predict_from_posterior(Knowledge.of(before).taught(_lesson(LOADS)).posterior, CASE),
+    )
+    known = predict_from_posterior(before, CASE)
     assert error.force.typical == pytest.approx(known.force.typical, rel=0.05)
     assert told.force.typical < 0.2 * known.force.typical
 
@@ -97,15 +100,15 @@ def test_postures_all_alike_teach_nothing_of_the_matrix(before: Posterior) -> No
 def test_the_criterion_is_the_expected_square_over_what_is_allowed(before: Posterior) -> None:
     """Force and moment, each over its own, as draws of the predicted error say; noise of a reading aside."""
     after = Knowledge.of(before).taught(_lesson(LOADS)).posterior
-    error, (force, moment) = predict_by(after, CASE), CASE.requirement
+    error, (force, moment) = predict_from_posterior(after, CASE), CASE.requirement
     drawn = (error.force.draws**2).mean() / force**2 + (error.moment.draws**2).mean() / moment**2
-    noise = [error.force.sources.noise / force, error.moment.sources.noise / moment]
+    noise = [error.force.sources["noise"] / force, error.moment.sources["noise"] / moment]
     assert Criterion(case=CASE).value(after) == pytest.approx(drawn - np.square(noise).sum(), rel=0.03)
 
 
 def test_an_error_that_is_not_judged_does_not_count(before: Posterior) -> None:
     """Where only a force error is allowed, rows of moments weigh nothing."""
-    case = LoadCase(name="push", words="", wrench=CASE.wrench, offset=UseOffset.TARED, allowed_force_N=2.0)
+    case = LoadCase(name="push", words="", wrench=CASE.wrench, offset=LoadCaseOffset.TARED, allowed_force_N=2.0)
     weights = Criterion(case=case).row_weights(before)
     assert (weights[:3] > 0.0).all()
     assert (weights[3:] == 0.0).all()
@@ -148,17 +151,22 @@ def test_the_offset_of_a_use_is_that_of_the_last_recording(before: Posterior) ->
     """Its place in the moment of the use is the last one, whatever sessions there were."""
     fitted = LoadCase(name="stand", words="", wrench=CASE.wrench)
     after = Knowledge.of(before).taught(_lesson(LOADS)).posterior
-    assert moment_of_use(after, fitted)[-1, -1] == 1.0
-    assert moment_of_use(after, CASE)[-1, -1] == 0.0
+    assert load_second_moment(after, fitted)[-1, -1] == 1.0
+    assert load_second_moment(after, CASE)[-1, -1] == 0.0
 
 
 def test_warmth_in_use_is_expected_before_any_recording_too(before: Posterior) -> None:
     """What a temperature may do counts before as it does after, and a recording that warms up takes it away."""
-    warm = LoadCase(name="push", words="", wrench=CASE.wrench, offset=UseOffset.TARED, changes={"temperature": 10.0})
-    first, second = predict_by(before, warm), predict_by(Knowledge.of(before).taught(_lesson(LOADS)).posterior, warm)
-    assert first.force.sources.variables > 2.0 * second.force.sources.variables
-    assert first.force.typical > predict_by(before, CASE).force.typical
-    assert predict_by(before, CASE).force.sources.variables == 0.0
+    warm = LoadCase(
+        name="push", words="", wrench=CASE.wrench, offset=LoadCaseOffset.TARED, changes={"temperature": 10.0}
+    )
+    first, second = (
+        predict_from_posterior(before, warm),
+        predict_from_posterior(Knowledge.of(before).taught(_lesson(LOADS)).posterior, warm),
+    )
+    assert first.force.sources["variables"] > 2.0 * second.force.sources["variables"]
+    assert first.force.typical > predict_from_posterior(before, CASE).force.typical
+    assert predict_from_posterior(before, CASE).force.sources["variables"] == 0.0
 
 
 def test_a_variable_of_which_nothing_is_known_is_refused() -> None:

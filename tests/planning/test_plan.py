@@ -166,13 +166,13 @@ def test_a_full_scale_alone_is_enough_to_begin_with(arm: Path) -> None:
 
 def test_a_calibration_is_where_the_plan_begins(arm: Path) -> None:
     """Its predicted error stands before the first recording; nothing is assumed of the noise."""
-    from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
+    from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
     from forcetorque.evaluation.load_cases.prediction import predict
 
     run = _run(arm)
     fitted = _fitted(run)
     planned = plan(run, fitted, recordings=1, seconds=30.0)
-    (case,) = loads_of_use([run])
+    (case,) = operating_load_cases([run])
     assert planned.start == "calibration"
     assert planned.recordings[0].force_before_N == predict(fitted, case).force.typical
     assert not any("nothing was recorded" in sentence for sentence in planned.limits)

@@ -14,8 +14,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.toml_file import read_toml
 from forcetorque.calibration.generative.fit import GenerativeFit
 from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
-from forcetorque.evaluation.load_cases.prediction import PredictedError, predict_by
+from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
+from forcetorque.evaluation.load_cases.prediction import PredictedError, predict_from_posterior
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.information import Knowledge, Nuisance
@@ -144,13 +144,13 @@ def leg_errors(folder: Path, seeds: Sequence[int]) -> dict[tuple[str, str], Erro
     def judge(name: str, fit: GenerativeFit, specimen: Specimen, cases: Sequence[LoadCase]) -> None:
         for case in cases:
             true = true_error(fit.model.matrix, specimen, case)
-            errors.setdefault((name, case.name), Errors()).add(true, predict_by(fit.posterior, case))
+            errors.setdefault((name, case.name), Errors()).add(true, predict_from_posterior(fit.posterior, case))
 
     for seed in seeds:
         scenario = leg.scenario.with_sensors(seed=seed)
         specimen = scenario.specimens[LEG]
         run = planned_run(folder, scenario, LEG, ("root_link",), LEG_PLAN)
-        cases = loads_of_use([run])
+        cases = operating_load_cases([run])
         judge("mix", calibrated([m.recorded(LEG, specimen, seed) for m in leg.motions], specimen), specimen, cases)
         judge("grid", leg.grid(specimen, seed), specimen, cases)
         judge("random", _random(leg, run, specimen, seed), specimen, cases)
@@ -158,7 +158,7 @@ def leg_errors(folder: Path, seeds: Sequence[int]) -> dict[tuple[str, str], Erro
             planned = plan(run, load_case=case.name, recordings=3, seconds=leg.seconds / 3.0)
             for k, fit in enumerate(_followed(planned, LEG, specimen, seed), start=1):
                 judge(f"plan for {case.name}, {k}", fit, specimen, cases)
-                stated = predict_by(planned.proposals[k - 1].after.posterior, case)
+                stated = predict_from_posterior(planned.proposals[k - 1].after.posterior, case)
                 true = true_error(fit.model.matrix, specimen, case)
                 errors.setdefault((f"stated, {k}", case.name), Errors()).add(true, stated)
     return errors
@@ -182,12 +182,12 @@ def arm_errors(folder: Path, seeds: Sequence[int]) -> dict[tuple[str, int], Erro
         specimen = drawn.specimens[ARM]
         for name, rest in (("no tool", ARM_PLAN), ("two tools", ARM_PLAN + TOOLS)):
             run = planned_run(folder, drawn, ARM, ("base",), rest)
-            (case,) = loads_of_use([run])
+            (case,) = operating_load_cases([run])
             planned = plan(run, recordings=3, seconds=40.0)
             for k, fit in enumerate(_followed(planned, ARM, specimen, seed), start=1):
                 true = true_error(fit.model.matrix, specimen, case)
                 errors.setdefault((name, k), Errors()).add(
-                    true, predict_by(planned.proposals[k - 1].after.posterior, case)
+                    true, predict_from_posterior(planned.proposals[k - 1].after.posterior, case)
                 )
     return errors
 
@@ -199,7 +199,7 @@ def next_errors(folder: Path, seeds: Sequence[int], changes: Mapping[str, Any], 
         scenario = leg.scenario.with_sensors(seed=seed, **changes)
         specimen = scenario.specimens[LEG]
         run = planned_run(folder, scenario, LEG, ("root_link",), LEG_PLAN)
-        case = loads_of_use([run])[0]
+        case = operating_load_cases([run])[0]
         grid = leg.motions[0].recorded(LEG, specimen, seed)
         known = calibrated([grid], specimen, repeatability=repeatability).posterior
         place = leg.workplace(run)
@@ -213,7 +213,7 @@ def next_errors(folder: Path, seeds: Sequence[int], changes: Mapping[str, Any], 
         movement = place.stand.movement("next", MovementKind.GRID, best.trajectory, best.trajectory.duration_s)
         data = Motion.of(movement, LEG, number=100, power_up=100).recorded(LEG, specimen, seed)
         fit = calibrated([grid, data], specimen, repeatability=repeatability)
-        errors.add(true_error(fit.model.matrix, specimen, case), predict_by(best.after.posterior, case))
+        errors.add(true_error(fit.model.matrix, specimen, case), predict_from_posterior(best.after.posterior, case))
     return errors
 
 
@@ -243,7 +243,7 @@ def test_postures_all_alike_leave_the_error_of_the_prior(tmp_path: Path) -> None
     scenario = leg.scenario.with_sensors(seed=601)
     specimen = scenario.specimens[LEG]
     run = planned_run(tmp_path, scenario, LEG, ("root_link",), LEG_PLAN)
-    place, case = leg.workplace(run), loads_of_use([run])[0]
+    place, case = leg.workplace(run), operating_load_cases([run])[0]
     rest = place.stand.through(np.vstack([place.stand.rest] * 2), hold_s=20.0)
     movements = [
         place.stand.movement("rest", MovementKind.GRID, rest, rest.duration_s),

@@ -34,7 +34,7 @@ from forcetorque.estimation.figures import contact_figure, torque_figure
 from forcetorque.evaluation.figures.errors_and_matrices import comparison_figure, difference_figure, residual_figure
 from forcetorque.evaluation.figures.load_cases import use_figure
 from forcetorque.evaluation.figures.sphere import force_space_figure, index_figure, sphere_figure
-from forcetorque.evaluation.load_cases.verdict import Reason, UseError, UseVerdict
+from forcetorque.evaluation.load_cases.verdict import LoadCaseError, Reason, UseVerdict
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, analyse_sphere
 from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials
 from forcetorque.experiment.validation_offset import Offset
@@ -347,9 +347,9 @@ def use_of(
 ) -> UseVerdict:
     """A verdict whose force error has this median; moment errors are a hundredth of it, intervals half to double."""
 
-    def error(quantity: Any, unit: Any, scale: float) -> UseError:
+    def error(quantity: Any, unit: Any, scale: float) -> LoadCaseError:
         old, limit = (None if value is None else scale * value for value in (before, allowed))
-        return UseError(
+        return LoadCaseError(
             quantity=quantity,
             unit=unit,
             load=100.0 * scale,

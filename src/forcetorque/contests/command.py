@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque contest`: sensors and methods through one motion, on loads that nobody was fitted on."""
+"""`forcetorque contest`: sensors and methods through one motion, on loads that were not fitted."""
 
 from __future__ import annotations
 

@@ -143,7 +143,7 @@ class ContestRun:
     load_kg: float
     """Mass that hung there; kg."""
     started_h: float = np.nan
-    """When it began; h on a clock that all runs share; NaN where nobody says."""
+    """When it began; h on a clock that all runs share; NaN where it is not stated."""
     _known: dict[str, SensorRun] = field(default_factory=dict, repr=False)
 
     def sensor_run(self, sensor: str, serial: str | None) -> SensorRun | None:

@@ -14,7 +14,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.generative.artefact import generative_calibration
 from forcetorque.calibration.moments import recording_moments
 from forcetorque.contests.entries import Contestant, ContestRun, Method
-from forcetorque.contests.phases import MotionPath, Trial, trial_of
+from forcetorque.contests.phases import MotionPath, Trial, trial_by_phase
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
@@ -43,7 +43,7 @@ class Reader:
     """Loads that it was fitted on; kg."""
 
 
-def reader_of(entry: Contestant, runs: Sequence[ContestRun], *, code_version: str, created: str) -> Reader:
+def contestant_reader(entry: Contestant, runs: Sequence[ContestRun], *, code_version: str, created: str) -> Reader:
     """Make a contestant ready to be judged.
 
     Args:
@@ -200,7 +200,7 @@ _GRAVITY = ("gravity x", "gravity y", "gravity z")
 _WRENCH = ("applied fx", "applied fy", "applied fz", "applied tx", "applied ty", "applied tz")
 
 
-def trials_of(reader: Reader, phases: Phases, offset: Offset) -> list[Trial]:
+def contestant_trials(reader: Reader, phases: Phases, offset: Offset) -> list[Trial]:
     """Judge a contestant in all its runs.
 
     Args:
@@ -233,7 +233,7 @@ def _trial(
     elif offset is Offset.FIRST_SECOND:
         kept = stamps >= stamps[0] + round(OFFSET_S * 1e9)
         removed = -mean_offset(-error[~kept])
-    return trial_of(
+    return trial_by_phase(
         phase[kept],
         error[kept],
         reference[kept],

@@ -11,9 +11,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -23,10 +22,12 @@ from forcetorque.base.noise.paired_comparison import (
     CONFIDENCE,
     PIECES,
     ErrorRatio,
+    Judgement,
     independent_stretches,
     ratio_over,
 )
 from forcetorque.contests.phases import Trial
+from forcetorque.results.table import Row, Shown
 
 FAMILY_ERROR = 0.05
 """Share of contests in which any pair may be ranked, or called no different, wrongly: shared by all pairs."""
@@ -38,86 +39,95 @@ _LEAST = 1e-12
 """Share of the largest square below which a square counts as this share: none may divide by nothing."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Parts:
-    """Squared errors of one contestant at q phases that all runs have, runs with one load pooled."""
-
-    squares: FloatArray
-    """By load and phase; shape (loads, q, 6); N2, N2 m2."""
-
-    @classmethod
-    def of(cls, loads: Mapping[float, Sequence[Trial]], common: BoolArray) -> Parts:
-        """Pool runs.
-
-        Args:
-            loads: Runs by load.
-            common: Phases that all runs of all contestants have; shape (p,).
-
-        Returns:
-            Mean squares of the runs with each load.
-        """
-        return cls(
-            squares=np.stack(
-                [np.mean([trial.error[common] ** 2 for trial in trials], axis=0) for trials in loads.values()]
-            )
-        )
-
-    def norms(self, quantity: Quantity, scale: tuple[float, float]) -> FloatArray:
-        """Give squared norms.
-
-        Args:
-            quantity: Of the force, of the moment, or of both over the loads that were judged.
-            scale: Root mean square force and moment that were judged; N, N m.
-
-        Returns:
-            By load and phase; shape (loads, q); N2, N2 m2, or 1.
-        """
-        force, moment = self.squares[..., :3].sum(axis=-1), self.squares[..., 3:].sum(axis=-1)
-        wrench: FloatArray = force / scale[0] ** 2 + moment / scale[1] ** 2
-        return {"wrench": wrench, "force": force, "moment": moment}[quantity]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RatedPair:
+class ContestPairRow(Row):
     """Two contestants."""
 
-    first: str
-    """Name of one."""
-    second: str
-    """Name of the other."""
-    quantity: Quantity
-    """What the errors are of; `wrench` is force and moment over the judged loads, together."""
-    ratio: ErrorRatio
-    """Error of the first over that of the second, with an interval that holds for all pairs of a quantity at once."""
+    contestant: Annotated[str, Shown("contestant")]
+    """One."""
+    other: Annotated[str, Shown("against")]
+    """The other."""
+    error_of: Annotated[str, Shown("error of")]
+    """`wrench` (force and moment over the loads, together), `force` or `moment`."""
+    ratio: Annotated[float, Shown("ratio", digits=2)]
+    """Root mean square error of the one over that of the other."""
+    ratio_low: Annotated[float | None, Shown("at least", digits=2)]
+    """Lower end of an interval that holds for all pairs at once with 95 %."""
+    ratio_high: Annotated[float | None, Shown("at most", digits=2)]
+    """Upper end."""
+    stretches: Annotated[int, Shown("stretches")]
+    """Independent stretches of the motion that the interval comes from, of all loads."""
+    judgement: Annotated[Judgement, Shown("judgement")]
+    """What the interval says of the one."""
 
 
-def rated_pairs(contestants: Mapping[str, Parts], *, scale: tuple[float, float]) -> list[RatedPair]:
+def mean_squares(loads: Mapping[float, Sequence[Trial]], common: BoolArray) -> FloatArray:
+    """Average the squared errors of the runs with each load.
+
+    Args:
+        loads: Runs of one contestant by load.
+        common: Phases that all runs of all contestants have; shape (p,).
+
+    Returns:
+        Mean squares by load and phase, q phases in common; shape (loads, q, 6); N2, N2 m2.
+    """
+    return np.stack([np.mean([trial.error[common] ** 2 for trial in trials], axis=0) for trials in loads.values()])
+
+
+def squared_norms(squares: FloatArray, quantity: Quantity, scale: tuple[float, float]) -> FloatArray:
+    """Sum squared errors over the components of a quantity.
+
+    Args:
+        squares: Squared errors by `mean_squares`; shape (loads, q, 6); N2, N2 m2.
+        quantity: Of the force, of the moment, or of both over the validation loads.
+        scale: Root mean square force and moment of the validation loads; N, N m.
+
+    Returns:
+        By load and phase; shape (loads, q); N2, N2 m2, or 1.
+    """
+    force, moment = squares[..., :3].sum(axis=-1), squares[..., 3:].sum(axis=-1)
+    wrench: FloatArray = force / scale[0] ** 2 + moment / scale[1] ** 2
+    return {"wrench": wrench, "force": force, "moment": moment}[quantity]
+
+
+def compared_pairs(contestants: Mapping[str, FloatArray], *, scale: tuple[float, float]) -> list[ContestPairRow]:
     """Compare every contestant with every other.
 
     The intervals of all pairs of one quantity hold together with 95 % (Bonferroni), so that of contests without a
-    difference at most 5 % rank anybody, and of contests without equals at most 5 % call anybody equal.
+    difference at most 5 % rank any pair, and of contests without equals at most 5 % call any pair equal.
 
     Args:
-        contestants: Squared errors by name, at least two, at the same phases and loads.
-        scale: Root mean square force and moment that were judged; N, N m.
+        contestants: Squared errors by `mean_squares` and by name, at least two, at the same phases and loads.
+        scale: Root mean square force and moment of the validation loads; N, N m.
 
     Returns:
         Every pair for every quantity.
     """
-    names = list(contestants)
-    confidence = 1.0 - FAMILY_ERROR / math.comb(len(names), 2)
-    return [
-        RatedPair(
-            first=one,
-            second=other,
-            quantity=quantity,
-            ratio=_settled(
-                _ratio(contestants[one].norms(quantity, scale), contestants[other].norms(quantity, scale), confidence)
-            ),
-        )
-        for quantity in QUANTITIES
-        for one, other in combinations(names, 2)
-    ]
+    confidence = 1.0 - FAMILY_ERROR / math.comb(len(contestants), 2)
+    pairs = []
+    for quantity in QUANTITIES:
+        for one, other in combinations(contestants, 2):
+            ratio = _ratio(
+                squared_norms(contestants[one], quantity, scale),
+                squared_norms(contestants[other], quantity, scale),
+                confidence,
+            )
+            known = math.isfinite(ratio.high)
+            pairs.append(
+                ContestPairRow(
+                    contestant=one,
+                    other=other,
+                    error_of=quantity,
+                    ratio=ratio.ratio,
+                    ratio_low=ratio.low if known else None,
+                    ratio_high=ratio.high if known else None,
+                    stretches=ratio.stretches,
+                    # a certain difference too small for any application ranks no pair
+                    judgement=(
+                        "no difference" if ALIKE[0] <= ratio.low and ratio.high <= ALIKE[1] else ratio.judgement
+                    ),
+                )
+            )
+    return pairs
 
 
 def _ratio(first: FloatArray, second: FloatArray, confidence: float) -> ErrorRatio:
@@ -128,12 +138,6 @@ def _ratio(first: FloatArray, second: FloatArray, confidence: float) -> ErrorRat
     pooled = 0.5 * math.log(one.mean() / other.mean())
     # derivative of the log ratio of root mean squares by what a phase adds to either; its mean is zero
     return _over(pooled + 0.5 * (one / one.mean() - other / other.mean()), pooled, confidence)
-
-
-def _settled(ratio: ErrorRatio) -> ErrorRatio:
-    """Call equal what differs surely, but by less than any use would see: nobody should be ranked by it."""
-    alike = ALIKE[0] <= ratio.low and ratio.high <= ALIKE[1]
-    return replace(ratio, judgement="no difference") if alike else ratio
 
 
 def _over(contributions: FloatArray, pooled: float, confidence: float) -> ErrorRatio:
@@ -169,31 +173,27 @@ def rms_intervals(squares: FloatArray) -> tuple[FloatArray, FloatArray, FloatArr
     return rms, low, high
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Standing:
-    """Who stands before whom."""
+def ranks_and_winner(
+    names: Sequence[str], pairs: Sequence[ContestPairRow]
+) -> tuple[dict[str, tuple[int, int, int]], str | None]:
+    """Rank contestants.
 
-    places: Mapping[str, tuple[int, int, int]]
-    """Ranks from 1 by name, by wrench, force and moment: one more than those that err less beyond doubt."""
-    winner: str | None
-    """The one whose wrench errs less than that of every other; none where nobody's does."""
+    Args:
+        names: The contestants.
+        pairs: All pairs.
 
-    @classmethod
-    def of(cls, names: Sequence[str], pairs: Sequence[RatedPair]) -> Standing:
-        """Rank contestants.
-
-        Args:
-            names: The contestants.
-            pairs: All pairs.
-
-        Returns:
-            Their ranks; those that cannot be told apart may share one.
-        """
-        ranked = [pair for pair in pairs if pair.ratio.judgement in ("better", "worse")]
-        lost = [(p.quantity, p.second if p.ratio.judgement == "better" else p.first) for p in ranked]
-        won = [p.first if p.ratio.judgement == "better" else p.second for p in ranked if p.quantity == "wrench"]
-        places = {name: tuple(1 + lost.count((quantity, name)) for quantity in QUANTITIES) for name in names}
-        return cls(
-            places={name: (wrench, force, moment) for name, (wrench, force, moment) in places.items()},
-            winner=next((name for name in names if won.count(name) == len(names) - 1), None),
-        )
+    Returns:
+        Ranks from 1 by name, by wrench, force and moment: one more than the number of contestants with significantly
+        smaller errors, so that several may share one; and the contestant whose wrench error is significantly smaller
+        than that of every other, None without such a one.
+    """
+    ranked = [pair for pair in pairs if pair.judgement in ("better", "worse")]
+    lost = [(pair.error_of, pair.other if pair.judgement == "better" else pair.contestant) for pair in ranked]
+    won = [
+        pair.contestant if pair.judgement == "better" else pair.other for pair in ranked if pair.error_of == "wrench"
+    ]
+    wrench, force, moment = ({name: 1 + lost.count((quantity, name)) for name in names} for quantity in QUANTITIES)
+    return (
+        {name: (wrench[name], force[name], moment[name]) for name in names},
+        next((name for name in names if won.count(name) == len(names) - 1), None),
+    )

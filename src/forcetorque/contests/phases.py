@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, read_only
 from forcetorque.base.errors import RecordingError
 from forcetorque.sensor.temperature.drift import LEAST_RANGE_DEGC
 
@@ -133,30 +133,24 @@ _LEAST_SHARE = 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Trial:
+class Trial(ArrayRecord):
     """Means over the p phases of one run."""
 
     load_kg: float
     """Mass that hung there; kg."""
-    error: FloatArray
+    error: FloatArray = field(metadata=array("p", 6))
     """Measured less reference, offset removed; shape (p, 6); N, N m; NaN where no sample is."""
-    level: FloatArray
+    level: FloatArray = field(metadata=array(6))
     """Mean error without any offset removed: what runs differ by if the sensor drifts; shape (6,); N, N m."""
-    reference: FloatArray
+    reference: FloatArray = field(metadata=array("p", 6))
     """What mechanics demands; shape (p, 6); N, N m; NaN where no sample is."""
     time_s: float
     """Middle of the run, on a clock that all runs share; s; NaN where there is none."""
     temperature_degC: float = np.nan
     """Mean temperature of the sensor; degC; NaN where none was recorded."""
 
-    def __post_init__(self) -> None:
-        p = len(np.asarray(self.error))
-        for field in ("error", "reference"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(p, 6)))
-        object.__setattr__(self, "level", read_only(self.level, name="level", shape=(6,)))
 
-
-def trial_of(
+def trial_by_phase(
     phase: FloatArray,
     error: Any,
     reference: FloatArray,
@@ -239,14 +233,9 @@ def by_load(trials: Iterable[Trial]) -> dict[float, tuple[Trial, ...]]:
 _HOUR_S = 3600.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Change:
-    """How the offset of a contestant moves from run to run."""
-
-    per_unit: FloatArray
-    """Per hour, or per degree; shape (6,); N, N m."""
-    half_width: FloatArray | None
-    """Half of its 95 % interval; shape (6,); None where as many runs as unknowns leave none."""
+OffsetDrift = tuple[FloatArray, FloatArray | None]
+"""How the offset changes from run to run: slope per hour or per degree, and half of its 95 % interval; (6,) each; N,
+N m. No interval where there are no more runs than unknowns."""
 
 
 def repeatability(loads: Mapping[float, Sequence[Trial]], common: BoolArray) -> FloatArray | None:
@@ -267,7 +256,7 @@ def repeatability(loads: Mapping[float, Sequence[Trial]], common: BoolArray) -> 
     return np.sqrt(np.asarray(squares, dtype=np.float64) / free)
 
 
-def changes(loads: Mapping[float, Sequence[Trial]]) -> dict[str, Change]:
+def changes(loads: Mapping[float, Sequence[Trial]]) -> dict[str, OffsetDrift]:
     """Regress the mean error of runs on their times and temperatures, with a level of its own for every load.
 
     A wrong matrix errs alike in every run with one load, so that only what changes between them is left.
@@ -294,7 +283,7 @@ def changes(loads: Mapping[float, Sequence[Trial]]) -> dict[str, Change]:
     return _fitted(design, np.stack([trial.level for trial in every]), tuple(columns), levels.shape[1])
 
 
-def _fitted(design: FloatArray, levels: FloatArray, names: Sequence[str], first: int) -> dict[str, Change]:
+def _fitted(design: FloatArray, levels: FloatArray, names: Sequence[str], first: int) -> dict[str, OffsetDrift]:
     solution = np.linalg.lstsq(design, levels, rcond=None)[0]
     free = len(design) - design.shape[1]
     residual = levels - design @ solution
@@ -305,4 +294,4 @@ def _fitted(design: FloatArray, levels: FloatArray, names: Sequence[str], first:
 
         deviation = np.sqrt((residual**2).sum(axis=0) / free)
         widths = [float(stdtrit(free, 0.975)) * math.sqrt(spread[first + k]) * deviation for k in range(len(names))]
-    return {name: Change(per_unit=solution[first + k], half_width=widths[k]) for k, name in enumerate(names)}
+    return {name: (solution[first + k], widths[k]) for k, name in enumerate(names)}

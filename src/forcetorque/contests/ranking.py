@@ -11,19 +11,23 @@ from pydantic import Field
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, SensorError, SerialNumberError, ShapeError
-from forcetorque.base.noise.paired_comparison import Judgement
 from forcetorque.contests.entries import Entries
-from forcetorque.contests.methods import Phases, Reader, reader_of, trials_of
-from forcetorque.contests.pairwise_comparison import Parts, RatedPair, Standing, rated_pairs, rms_intervals
+from forcetorque.contests.methods import Phases, Reader, contestant_reader, contestant_trials
+from forcetorque.contests.pairwise_comparison import (
+    ContestPairRow,
+    compared_pairs,
+    mean_squares,
+    ranks_and_winner,
+    rms_intervals,
+)
 from forcetorque.contests.phases import Trial, by_load, changes, common_phases, repeatability, require_same_motion
 from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
 
 
 class ContestantRow(Row):
-    """What one contestant reached on loads that nobody was fitted on."""
+    """What one contestant reached on loads that were not fitted."""
 
     contestant: Annotated[str, Shown("contestant")]
     """Its name."""
@@ -57,7 +61,7 @@ class ContestantRow(Row):
     """Standard deviation between runs with one load, at the same phases: its precision; none where none was
     repeated."""
     full_scale: WrenchValues | None
-    """Full scale; N, N m; none where nobody says."""
+    """Full scale; N, N m; none where it is not stated."""
     rmse_percent_of_full_scale: WrenchValues | None
     """Root mean square error over the full scale; %."""
     drift_per_hour: WrenchValues | None
@@ -96,27 +100,6 @@ class ContestLoadRow(Row):
     """Upper end."""
 
 
-class ContestPairRow(Row):
-    """Two contestants."""
-
-    contestant: Annotated[str, Shown("contestant")]
-    """One."""
-    other: Annotated[str, Shown("against")]
-    """The other."""
-    error_of: Annotated[str, Shown("error of")]
-    """`wrench` (force and moment over the loads, together), `force` or `moment`."""
-    ratio: Annotated[float, Shown("ratio", digits=2)]
-    """Root mean square error of the one over that of the other."""
-    ratio_low: Annotated[float | None, Shown("at least", digits=2)]
-    """Lower end of an interval that holds for all pairs at once with 95 %."""
-    ratio_high: Annotated[float | None, Shown("at most", digits=2)]
-    """Upper end."""
-    stretches: Annotated[int, Shown("stretches")]
-    """Independent stretches of the motion that the interval comes from, of all loads."""
-    judgement: Annotated[Judgement, Shown("judgement")]
-    """What the interval says of the one."""
-
-
 class LeftOutRow(Row):
     """A contestant that could not take part."""
 
@@ -131,30 +114,31 @@ class LeftOutRow(Row):
 def contestant_row(
     reader: Reader,
     loads: dict[float, tuple[Trial, ...]],
-    parts: Parts,
+    squares: FloatArray,
     common: BoolArray,
     *,
     scale: tuple[float, float],
-    places: tuple[int, int, int],
+    ranks: tuple[int, int, int],
 ) -> ContestantRow:
-    """Say what a contestant reached.
+    """Compute the scores of a contestant.
 
     Args:
         reader: The contestant.
         loads: Its runs by load.
-        parts: Their squared errors.
+        squares: Their squared errors by `mean_squares`; shape (loads, q, 6).
         common: Phases that all runs have; shape (p,).
         scale: Root mean square force and moment that were judged; N, N m.
-        places: Its ranks by wrench, force and moment.
+        ranks: Its ranks by wrench, force and moment.
 
     Returns:
         The row.
     """
-    entry, squares = reader.entry, parts.squares.mean(axis=(0, 1))
-    rmse = np.sqrt(squares)
-    force, moment = float(np.sqrt(squares[:3].sum())), float(np.sqrt(squares[3:].sum()))
-    change = changes(loads)
-    hour, degree = change.get("per hour"), change.get("per degC")
+    entry, mean = reader.entry, squares.mean(axis=(0, 1))
+    rmse = np.sqrt(mean)
+    force, moment = float(np.sqrt(mean[:3].sum())), float(np.sqrt(mean[3:].sum()))
+    drift = changes(loads)
+    per_hour, hour_half_width = drift.get("per hour", (None, None))
+    per_degree, degree_half_width = drift.get("per degC", (None, None))
     sensor = reader.judged[0][1].sensor
     return ContestantRow(
         contestant=entry.name,
@@ -164,37 +148,37 @@ def contestant_row(
         source=reader.correction.source,
         runs=sum(map(len, loads.values())),
         fitted_loads_kg=reader.fitted_loads_kg,
-        rank=places[0],
+        rank=ranks[0],
         error_percent=100.0 * float(np.hypot(force / scale[0], moment / scale[1])),
         force_error_N=force,
-        rank_force=places[1],
+        rank_force=ranks[1],
         moment_error_Nm=moment,
-        rank_moment=places[2],
+        rank_moment=ranks[2],
         rmse=rmse,
         repeatability=repeatability(loads, common),
         full_scale=entry.full_scale,
         rmse_percent_of_full_scale=None if entry.full_scale is None else 100.0 * rmse / entry.full_scale,
-        drift_per_hour=None if hour is None else hour.per_unit,
-        drift_per_hour_half_width_95=None if hour is None else hour.half_width,
-        drift_per_degC=None if degree is None else degree.per_unit,
-        drift_per_degC_half_width_95=None if degree is None else degree.half_width,
+        drift_per_hour=per_hour,
+        drift_per_hour_half_width_95=hour_half_width,
+        drift_per_degC=per_degree,
+        drift_per_degC_half_width_95=degree_half_width,
     )
 
 
-def load_rows(name: str, loads: dict[float, tuple[Trial, ...]], parts: Parts) -> list[ContestLoadRow]:
-    """Say how a contestant errs under every load.
+def load_rows(name: str, loads: dict[float, tuple[Trial, ...]], squares: FloatArray) -> list[ContestLoadRow]:
+    """Compute the errors of a contestant under every load.
 
     Args:
         name: The contestant.
         loads: Its runs by load.
-        parts: Their squared errors.
+        squares: Their squared errors by `mean_squares`; shape (loads, q, 6).
 
     Returns:
         A row per load.
     """
     rows = []
-    for load, squares in zip(loads, parts.squares, strict=True):
-        rms, low, high = rms_intervals(squares)
+    for load, of_load in zip(loads, squares, strict=True):
+        rms, low, high = rms_intervals(of_load)
         known = bool(np.isfinite(high).all())
         rows.append(
             ContestLoadRow(
@@ -206,28 +190,6 @@ def load_rows(name: str, loads: dict[float, tuple[Trial, ...]], parts: Parts) ->
             )
         )
     return rows
-
-
-def pair_row(pair: RatedPair) -> ContestPairRow:
-    """Write a pair.
-
-    Args:
-        pair: The pair.
-
-    Returns:
-        Its row.
-    """
-    known = finite_or_none(pair.ratio.high) is not None
-    return ContestPairRow(
-        contestant=pair.first,
-        other=pair.second,
-        error_of=pair.quantity,
-        ratio=pair.ratio.ratio,
-        ratio_low=pair.ratio.low if known else None,
-        ratio_high=pair.ratio.high if known else None,
-        stretches=pair.ratio.stretches,
-        judgement=pair.ratio.judgement,
-    )
 
 
 def score_rows(rows: tuple[ContestantRow, ...]) -> list[ContestScoreRow]:
@@ -280,9 +242,9 @@ class Contest(Result):
     phases: int
     """Phases of the motion that all runs have."""
     loads_kg: tuple[float, ...]
-    """Loads that judged, on which nobody was fitted; kg."""
+    """Validation loads, on which no contestant was fitted; kg."""
     winner: str | None
-    """The one that errs less than every other beyond doubt, by force and moment together; none where nobody does."""
+    """The one that errs less than every other beyond doubt, by force and moment together; else none."""
     contestants: tuple[ContestantRow, ...]
     """Contestants, the best first."""
     loads: tuple[ContestLoadRow, ...]
@@ -356,21 +318,21 @@ def contest(entries: Entries, *, code_version: str, created: str) -> Contest:
         Ranks, scores and pairs; contestants that lack what their method needs are named, the others go on.
 
     Raises:
-        ExperimentError: If fewer than two can be judged, on loads that all share and nobody was fitted on.
+        ExperimentError: If fewer than two can be judged, on loads that all share and no contestant was fitted on.
     """
     readers, left_out = _readers(entries, code_version=code_version, created=created)
     judged_loads = _require_unfitted(readers)
     phases = Phases(entries.phases)
-    trials = {reader.entry.name: trials_of(reader, phases, entries.offset) for reader in readers}
+    trials = {reader.entry.name: contestant_trials(reader, phases, entries.offset) for reader in readers}
     require_same_motion(phases.paths, phases=entries.phases)
     common = common_phases(trials)
     loads = {name: by_load(own) for name, own in trials.items()}
-    parts = {name: Parts.of(own, common) for name, own in loads.items()}
+    squares = {name: mean_squares(own, common) for name, own in loads.items()}
     scale = _scale(trials, common)
-    pairs = rated_pairs(parts, scale=scale)
-    standing = Standing.of(tuple(parts), pairs)
+    pairs = compared_pairs(squares, scale=scale)
+    ranks, winner = ranks_and_winner(tuple(squares), pairs)
     rows = [
-        contestant_row(reader, loads[name], parts[name], common, scale=scale, places=standing.places[name])
+        contestant_row(reader, loads[name], squares[name], common, scale=scale, ranks=ranks[name])
         for reader in readers
         for name in [reader.entry.name]
     ]
@@ -380,10 +342,10 @@ def contest(entries: Entries, *, code_version: str, created: str) -> Contest:
         offset=entries.offset.value,
         phases=int(common.sum()),
         loads_kg=judged_loads,
-        winner=standing.winner,
+        winner=winner,
         contestants=tuple(rows),
-        loads=tuple(row for name in parts for row in load_rows(name, loads[name], parts[name])),
-        pairs=tuple(map(pair_row, pairs)),
+        loads=tuple(row for name in squares for row in load_rows(name, loads[name], squares[name])),
+        pairs=tuple(pairs),
         left_out=tuple(left_out),
         warnings=tuple(_doubts(rows)),
     )
@@ -394,7 +356,7 @@ def _readers(entries: Entries, *, code_version: str, created: str) -> tuple[list
     left_out: list[LeftOutRow] = []
     for entry in entries.contestants:
         try:
-            readers.append(reader_of(entry, entries.runs, code_version=code_version, created=created))
+            readers.append(contestant_reader(entry, entries.runs, code_version=code_version, created=created))
         except (ExperimentError, FitError, SensorError, SerialNumberError, ShapeError) as error:
             left_out.append(LeftOutRow(contestant=entry.name, method=entry.method.value, why=str(error)))
     every = {load for reader in readers for load in _loads(reader)}

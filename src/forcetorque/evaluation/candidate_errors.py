@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from itertools import pairwise
 from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, require_shape
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.robot.mechanics.estimate import Evaluator
@@ -130,42 +130,29 @@ _SAMPLES, _NUMBERS = 2048, 65536
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PooledErrors:
+class PooledErrors(ArrayRecord):
     """Mean errors of k candidates over all samples, or the standard errors of these means."""
 
-    mean_absolute: FloatArray
+    mean_absolute: FloatArray = field(metadata=array("k", 6))
     """Of the absolute error per component; shape (k, 6); N, N m."""
-    force_mean: FloatArray
+    force_mean: FloatArray = field(metadata=array("k"))
     """Of the norm of the force error; shape (k,); N."""
-    moment_mean: FloatArray
+    moment_mean: FloatArray = field(metadata=array("k"))
     """Of the norm of the moment error; shape (k,); N m."""
-
-    def __post_init__(self) -> None:
-        k = len(self.force_mean)
-        for field, shape in (("mean_absolute", (k, 6)), ("force_mean", (k,)), ("moment_mean", (k,))):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class CandidateErrors:
+class CandidateErrors(ArrayRecord):
     """Mean errors of k candidates in each of b contiguous blocks of time."""
 
-    count: IntArray
+    count: IntArray = field(metadata=array("b", dtype="int"))
     """Number of samples of each block; shape (b,)."""
-    mean_absolute: FloatArray
+    mean_absolute: FloatArray = field(metadata=array("k", "b", 6))
     """Mean absolute error per component; shape (k, b, 6); N, N m."""
-    force_mean: FloatArray
+    force_mean: FloatArray = field(metadata=array("k", "b"))
     """Mean norm of the force error; shape (k, b); N."""
-    moment_mean: FloatArray
+    moment_mean: FloatArray = field(metadata=array("k", "b"))
     """Mean norm of the moment error; shape (k, b); N m."""
-
-    def __post_init__(self) -> None:
-        count = np.array(self.count, dtype=np.int64)
-        count.setflags(write=False)
-        object.__setattr__(self, "count", count)
-        k, b = len(self.force_mean), len(count)
-        for field, shape in (("mean_absolute", (k, b, 6)), ("force_mean", (k, b)), ("moment_mean", (k, b))):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
 
     def pooled(self) -> PooledErrors:
         """Take the means over all samples.

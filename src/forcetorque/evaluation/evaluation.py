@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -13,14 +12,14 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import one_after_another
 from forcetorque.evaluation.load_cases.validation_evidence import (
-    JudgedExcitation,
     PriorComparison,
-    comparison_sentence,
     fewest_independent,
+    prior_comparison_text,
     prior_comparisons,
-    still_words,
+    static_loads_text,
+    validation_excitation,
 )
-from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_sentences, use_verdicts
+from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts, verdict_texts
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import (
@@ -61,7 +60,7 @@ if TYPE_CHECKING:
 
 
 _WORTH = ("independent", "excitation_N", "excitation_Nm")
-"""What tells how much an error is worth, in the second table."""
+"""Fields of the second table that show how many data an error rests on."""
 
 _VARYING = {"offset", "rmse", "force_error_mean_N", "moment_error_mean_Nm"}
 """What the first table has."""
@@ -94,7 +93,7 @@ def error_tables(
     yield _named(shown, names)
 
 
-def smoothing_words(run: SensorRun) -> str:
+def smoothing_text(run: SensorRun) -> str:
     """Say whether reading and reference are smoothed before they are compared.
 
     Args:
@@ -157,8 +156,8 @@ class CandidateErrors(JudgedRow):
 
     @property
     def hardly_moved_words(self) -> str | None:
-        """The same in words; None where the loads moved."""
-        return still_words(self.excitation_N, self.load_N, self.excitation_Nm, self.load_Nm)
+        """The same as a text; None where the loads moved."""
+        return static_loads_text((self.excitation_N, self.load_N), (self.excitation_Nm, self.load_Nm))
 
 
 class RecordingErrors(CandidateErrors):
@@ -210,7 +209,7 @@ class Evaluation(Result):
                 yield from error_tables(apart, caption, recordings=[row.recording for row in apart])
         yield f"{ERROR_WORDS}; {'; '.join(self.smoothing)}"
         yield from self._sentences()
-        yield from use_sentences(self.uses)
+        yield from verdict_texts(self.uses)
 
     def _sentences(self) -> Iterator[str]:
         """Say what every calibration is worth against its prior, with either offset."""
@@ -220,7 +219,7 @@ class Evaluation(Result):
         for row in self.comparisons:
             pairs.setdefault((row.sensor, row.candidate, row.offset), []).append(row)
         for (sensor, candidate, _), rows in pairs.items():
-            yield (f"{sensor}: " if several else "") + comparison_sentence(names[candidate], rows)
+            yield (f"{sensor}: " if several else "") + prior_comparison_text(names[candidate], rows)
 
     def records(self) -> list[dict[str, object]]:
         """Give the verdicts as flat lines, and where there are several recordings those on each.
@@ -232,17 +231,6 @@ class Evaluation(Result):
         if not self.recordings:
             return pooled
         return [{"recording": "", **row} for row in pooled] + [row.flat() for row in self.recordings]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Judged:
-    """What one candidate measures with one offset, and what it should."""
-
-    candidate: JudgedCandidate
-    offset: Offset
-    wrench: FloatArray
-    reference: FloatArray
-    time_s: FloatArray
 
 
 @with_recording_notes
@@ -267,12 +255,12 @@ def evaluate(runs: Runs, calibrations: Calibrations) -> Evaluation:
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
     campaign, judged = Campaign.of(runs), named(calibrations)
-    errors = judge_errors(campaign, judged)
+    errors = validation_errors(campaign, judged)
     return errors.model_copy(update={"uses": use_verdicts(campaign, judged)})
 
 
-def judge_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
-    """Judge calibrations by their errors alone, whatever they are to be used for.
+def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
+    """Compute the errors of calibrations on validation data, without verdicts on load cases.
 
     Args:
         runs: The sensor in one recording, or in several.
@@ -300,42 +288,31 @@ def judge_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluat
             [f"{campaign.recording(run)}: {sentence}" for sentence in doubts] if len(campaign.runs) > 1 else doubts
         )
     validity = readings_outside(campaign, calibrations)
-    judged = {recording: list(_judged(wrenches[recording])) for recording in wrenches}
-    apart = (
-        RecordingErrors(recording=recording, **_statistics(campaign, row, calibrations))
-        for rows in zip(*judged.values(), strict=True)
-        for recording, row in zip(judged, rows, strict=True)
-    )
-    verdicts = tuple(
-        CandidateErrors(**_statistics(campaign, _pooled(rows), calibrations))
-        for rows in zip(*judged.values(), strict=True)
-    )
+    verdicts: list[CandidateErrors] = []
+    recordings: list[RecordingErrors] = []
+    # a single recording is not copied: the last bits of a mean depend on how its numbers lie in memory
+    several = len(wrenches) > 1
+    first = next(iter(wrenches.values()))
+    reference = np.concatenate([judged.reference for judged in wrenches.values()]) if several else first.reference
+    time_s = one_after_another([judged.time_s for judged in wrenches.values()]) if several else first.time_s
+    for measured in zip(*(judged.with_either_offset() for judged in wrenches.values()), strict=True):
+        candidate, offset, wrench = measured[0]
+        if several:
+            wrench = np.concatenate([wrench for _, _, wrench in measured])
+        verdicts.append(_errors(campaign, candidate, offset, wrench, reference, time_s, calibrations))
+        if len(campaign.runs) == 1:
+            continue
+        for (candidate, offset, wrench), (recording, judged) in zip(measured, wrenches.items(), strict=True):
+            row = _errors(campaign, candidate, offset, wrench, judged.reference, judged.time_s, calibrations)
+            recordings.append(RecordingErrors(recording=recording, **dict(row)))
     return Evaluation(
         experiment="; ".join(campaign.recordings),
-        verdicts=verdicts,
-        recordings=tuple(apart) if len(campaign.runs) > 1 else (),
+        verdicts=tuple(verdicts),
+        recordings=tuple(recordings),
         comparisons=prior_comparisons(campaign.sensor.name, list(wrenches.values())),
-        smoothing=tuple(dict.fromkeys(map(smoothing_words, campaign.runs_with(Use.VALIDATION)))),
+        smoothing=tuple(dict.fromkeys(map(smoothing_text, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
         warnings=(*at_rest(verdicts), *sentences(validity), *warnings),
-    )
-
-
-def _judged(judged: JudgedWrenches) -> Iterator[_Judged]:
-    for candidate, offset, wrench in judged.with_either_offset():
-        yield _Judged(
-            candidate=candidate, offset=offset, wrench=wrench, reference=judged.reference, time_s=judged.time_s
-        )
-
-
-def _pooled(rows: Sequence[_Judged]) -> _Judged:
-    if len(rows) == 1:
-        return rows[0]
-    return replace(
-        rows[0],
-        wrench=np.concatenate([row.wrench for row in rows]),
-        reference=np.concatenate([row.reference for row in rows]),
-        time_s=one_after_another([row.time_s for row in rows]),
     )
 
 
@@ -352,31 +329,39 @@ def at_rest(verdicts: Sequence[CandidateErrors]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(f"{sensor}: {still}" for sensor, still in words if still is not None))
 
 
-def _statistics(campaign: Campaign, judged: _Judged, calibrations: Mapping[str, Calibration]) -> dict[str, Any]:
-    errors = wrench_errors(judged.wrench, judged.reference, judged.time_s)
-    excitation = JudgedExcitation.of(judged.reference, calibrations.values())
-    return {
-        "sensor": campaign.sensor.name,
-        "serial": campaign.sensor.serial,
-        "candidate": judged.candidate.name,
-        "offset": judged.offset,
-        "offset_source": judged.candidate.offset_source(judged.offset),
-        "prior": judged.candidate.prior,
-        "samples": errors.count,
-        "rmse": errors.rmse,
-        "bias": errors.bias,
-        "largest": errors.largest,
-        "force_error_mean_N": errors.force_mean,
-        "force_error_standard_error_N": finite_or_none(errors.force_mean_error),
-        "force_error_half_width_95_N": finite_or_none(errors.force_mean_half_width),
-        "force_error_largest_N": errors.force_largest,
-        "moment_error_mean_Nm": errors.moment_mean,
-        "moment_error_standard_error_Nm": finite_or_none(errors.moment_mean_error),
-        "moment_error_half_width_95_Nm": finite_or_none(errors.moment_mean_half_width),
-        "moment_error_largest_Nm": errors.moment_largest,
-        "independent": fewest_independent(judged.wrench - judged.reference, judged.time_s),
-        "excitation_N": excitation.force,
-        "excitation_Nm": excitation.moment,
-        "load_N": excitation.load_force,
-        "load_Nm": excitation.load_moment,
-    }
+def _errors(
+    campaign: Campaign,
+    candidate: JudgedCandidate,
+    offset: Offset,
+    wrench: FloatArray,
+    reference: FloatArray,
+    time_s: FloatArray,
+    calibrations: Mapping[str, Calibration],
+) -> CandidateErrors:
+    errors = wrench_errors(wrench, reference, time_s)
+    (moved_N, load_N), (moved_Nm, load_Nm) = validation_excitation(reference, calibrations.values())
+    return CandidateErrors(
+        sensor=campaign.sensor.name,
+        serial=campaign.sensor.serial,
+        candidate=candidate.name,
+        offset=offset,
+        offset_source=candidate.offset_source(offset),
+        prior=candidate.prior,
+        samples=errors.count,
+        rmse=errors.rmse,
+        bias=errors.bias,
+        largest=errors.largest,
+        force_error_mean_N=errors.force_mean,
+        force_error_standard_error_N=finite_or_none(errors.force_mean_error),
+        force_error_half_width_95_N=finite_or_none(errors.force_mean_half_width),
+        force_error_largest_N=errors.force_largest,
+        moment_error_mean_Nm=errors.moment_mean,
+        moment_error_standard_error_Nm=finite_or_none(errors.moment_mean_error),
+        moment_error_half_width_95_Nm=finite_or_none(errors.moment_mean_half_width),
+        moment_error_largest_Nm=errors.moment_largest,
+        independent=fewest_independent(wrench - reference, time_s),
+        excitation_N=moved_N,
+        excitation_Nm=moved_Nm,
+        load_N=load_N,
+        load_Nm=load_Nm,
+    )

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, require_shape
 from forcetorque.base.errors import SensorError, ShapeError
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import WRENCH_COMPONENTS
@@ -22,23 +22,19 @@ next to nothing; degC."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MatrixChecks:
+class MatrixChecks(ArrayRecord):
     """Full scale, resolution and condition of a calibration matrix."""
 
     resolution: AxisResolution
     """What one count is worth along each axis."""
     condition: float
     """See `matrix_condition`."""
-    stated_full_scale: FloatArray
+    stated_full_scale: FloatArray = field(metadata=array(6))
     """Full scale as sensors state it, which no load reaches: all channels at the limit; shape (6,); N, N m."""
     full_scale: ReachableFullScale | None
     """Full scale that is reached before a channel saturates; None where `no_full_scale` says why."""
     no_full_scale: str = ""
     """Why there is no reachable full scale."""
-
-    def __post_init__(self) -> None:
-        stated = read_only(self.stated_full_scale, name="stated_full_scale", shape=(6,))
-        object.__setattr__(self, "stated_full_scale", stated)
 
 
 def matrix_checks(matrix: FloatArray, offset: FloatArray, *, limit_counts: float) -> MatrixChecks:
@@ -105,25 +101,20 @@ def matrix_condition(matrix: FloatArray) -> float:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class OffsetChange:
+class OffsetChange(ArrayRecord):
     """How far the offsets of k recordings are apart, and what of it goes with temperature."""
 
-    change: FloatArray
+    change: FloatArray = field(metadata=array(6))
     """Largest less smallest offset per component; shape (6,); N, N m."""
     force_change: float
     """Largest norm of the difference of two offsets, force part; N."""
     temperature_span: float | None
     """Largest less smallest mean temperature; degC; None if it is not known."""
-    per_degree: FloatArray | None
+    per_degree: FloatArray | None = field(metadata=array(6))
     """Slope of the line through offset against temperature; shape (6,); N/degC, N m/degC; None if the temperature
     is not known or spans less than `LEAST_TEMPERATURE_SPAN`."""
-    left: FloatArray | None
+    left: FloatArray | None = field(metadata=array(6))
     """Largest distance from that line; shape (6,); N, N m; zero for two recordings."""
-
-    def __post_init__(self) -> None:
-        for name in ("change", "per_degree", "left"):
-            if getattr(self, name) is not None:
-                object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(6,)))
 
 
 def offset_change(offsets: FloatArray, temperature: FloatArray | None = None) -> OffsetChange:
@@ -183,26 +174,22 @@ class FeaturePosition(Row):
     """Distance from the median over 1.4826 times the median absolute deviation; NaN if half the others are equal."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PopulationPosition:
-    """Where a matrix stands among those of other sensors."""
+def most_unusual(features: Sequence[FeaturePosition]) -> FeaturePosition:
+    """Find the feature with the largest magnitude of `robust_z`; the condition, if the matrix is singular.
 
-    count: int
-    """Number of other sensors."""
-    features: tuple[FeaturePosition, ...]
-    """One per feature."""
+    Args:
+        features: Features of a matrix by `position_in_population`.
 
-    @property
-    def most_unusual(self) -> FeaturePosition:
-        """The feature with the largest magnitude of `robust_z`; the condition, if the matrix is singular.
+    Returns:
+        The feature.
 
-        Raises:
-            SensorError: If no feature has one.
-        """
-        known = [feature for feature in self.features if not np.isnan(feature.robust_z)]
-        if not known:
-            raise SensorError("population: half of the sensors have equal matrices, so that there is no scatter")
-        return max(known, key=lambda feature: abs(feature.robust_z))
+    Raises:
+        SensorError: If no feature has a `robust_z`.
+    """
+    known = [feature for feature in features if not np.isnan(feature.robust_z)]
+    if not known:
+        raise SensorError("population: half of the sensors have equal matrices, so that there is no scatter")
+    return max(known, key=lambda feature: abs(feature.robust_z))
 
 
 def matrix_features(matrix: FloatArray, others: Mapping[str, FloatArray]) -> dict[str, float]:
@@ -231,7 +218,7 @@ def matrix_features(matrix: FloatArray, others: Mapping[str, FloatArray]) -> dic
     return features
 
 
-def position_in_population(matrix: FloatArray, population: Mapping[str, FloatArray]) -> PopulationPosition:
+def position_in_population(matrix: FloatArray, population: Mapping[str, FloatArray]) -> tuple[FeaturePosition, ...]:
     """Compare a matrix with those of other sensors.
 
     Args:
@@ -253,11 +240,8 @@ def position_in_population(matrix: FloatArray, population: Mapping[str, FloatArr
         matrix_features(other, {name: rest for name, rest in population.items() if name != serial})
         for serial, other in population.items()
     ]
-    return PopulationPosition(
-        count=len(population),
-        features=tuple(
-            _position(name, value, np.array([elements[name] for elements in theirs])) for name, value in mine.items()
-        ),
+    return tuple(
+        _position(name, value, np.array([features[name] for features in theirs])) for name, value in mine.items()
     )
 
 

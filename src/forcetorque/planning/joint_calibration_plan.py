@@ -14,7 +14,7 @@ from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.calibration.joint.calibrate import JointData
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
+from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
 from forcetorque.evaluation.load_cases.prediction import predict, predict_prior
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -152,7 +152,7 @@ def plan_jointly(
         FitError: If no recording has an equation of every sensor that has a use.
     """
     data = JointData.of(experiments, sensors, progress)
-    cases = {name: loads_of_use(campaign.runs) for name, campaign in data.campaigns.items()}
+    cases = {name: operating_load_cases(campaign.runs) for name, campaign in data.campaigns.items()}
     if not any(cases.values()):
         raise ExperimentError(
             "a plan needs loads of use: nothing with a mass hangs on any sensor; state a [[load_case]]"

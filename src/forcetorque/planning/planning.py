@@ -13,8 +13,8 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, known_names
 from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.evaluation.load_cases.operating_loads import loads_of_use
-from forcetorque.evaluation.load_cases.prediction import PredictedError, predict_by
+from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
+from forcetorque.evaluation.load_cases.prediction import PredictedError, predict_from_posterior
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, Assumptions
@@ -136,7 +136,7 @@ def plan(
     rows: list[PlannedRecording] = []
     before = start.error
     for number, best in enumerate(wanted, start=1):
-        after = predict_by(best.after.posterior, start.case)
+        after = predict_from_posterior(best.after.posterior, start.case)
         planned.append(best)
         rows.append(recording_row(number, best, before, after, start.case))
         before = after
@@ -198,8 +198,8 @@ def _start(runs: Runs, calibration: Calibration | None, load_case: str | None) -
         matrix, assumptions = _assumed(own[0], calibration)
         posterior = calibration.posterior
         seconds = sum(span.end_ns - span.start_ns for span in calibration.provenance.intervals) * 1e-9
-    cases = loads_of_use(own, matrix=None if calibration is None else calibration.matrix)
-    errors = [predict_by(posterior, case) for case in cases]
+    cases = operating_load_cases(own, matrix=None if calibration is None else calibration.matrix)
+    errors = [predict_from_posterior(posterior, case) for case in cases]
     place = _chosen(cases, errors, load_case)
     nuisance = Nuisance.of(matrix, assumptions, with_prior=posterior.space == "wrench")
     known = Knowledge.of(posterior, seconds=seconds, nuisance=nuisance)

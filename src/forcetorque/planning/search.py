@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.evaluation.load_cases.prediction import moment_of_use
+from forcetorque.evaluation.load_cases.prediction import load_second_moment
 from forcetorque.experiment.calibration.posterior import Posterior
 
 
@@ -94,7 +94,7 @@ class Criterion:
         Returns:
             The expected square error over the allowed one, of force and moment together, without noise of a reading.
         """
-        square = np.einsum("jk,ijk->i", moment_of_use(posterior, self.case), posterior.covariance)
+        square = np.einsum("jk,ijk->i", load_second_moment(posterior, self.case), posterior.covariance)
         return float(self.row_weights(posterior) @ square)
 
     def shares(self, posterior: Posterior) -> FloatArray:
@@ -106,7 +106,7 @@ class Criterion:
         Returns:
             Parts of the value that come from loads along fx to tz alone; shape (6,).
         """
-        moment = np.diag(moment_of_use(posterior, self.case))[:6]
+        moment = np.diag(load_second_moment(posterior, self.case))[:6]
         own = np.diagonal(posterior.learnt_covariance, axis1=1, axis2=2)
         return (self.row_weights(posterior) @ own) * moment
 
@@ -127,7 +127,7 @@ class Criterion:
 
     def _moment(self, posterior: Posterior, centre: FloatArray) -> FloatArray:
         """Mean products at the loads of use of what the unknowns are multiplied by, for columns about their centre."""
-        use = moment_of_use(posterior, self.case)
+        use = load_second_moment(posterior, self.case)
         size = len(centre)
         places = [*range(size), size + len(posterior.sessions) - 1]
         turned = np.eye(size + 1)

@@ -23,7 +23,7 @@ from forcetorque.estimation.report_blocks import torque_section
 from forcetorque.evaluation.acceptance.acceptance import criteria_table
 from forcetorque.evaluation.evaluation import ERROR_WORDS, error_tables
 from forcetorque.evaluation.sphere.sphere import interval_table, mass_table, moment_table
-from forcetorque.evaluation.validation.contact_forces import WORTH, mean_contact_table
+from forcetorque.evaluation.validation.contact_forces import WORTH, constant_contact_table
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.inspection.inspect import finding_table
@@ -121,7 +121,7 @@ def _contacts(sensor: Assessment) -> Iterator[Block]:
         leave_out=WORTH,
     )
     yield without_vague(contacts)
-    yield mean_contact_table(sensor.contact_forces)
+    yield constant_contact_table(sensor.contact_forces)
     names = short_names([row.candidate for row in sensor.contact_forces])
     if len(names) > 1:
         yield List(points=tuple(best.sentence for best in sensor.best))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from forcetorque.calibration.summary import LITTLE_LEARNT, learnt_words
 from forcetorque.evaluation.evaluation import CandidateErrors
-from forcetorque.evaluation.load_cases.validation_evidence import OFFSET_WORDS, PriorComparison, comparison_sentence
+from forcetorque.evaluation.load_cases.validation_evidence import OFFSET_WORDS, PriorComparison, prior_comparison_text
 from forcetorque.evaluation.load_cases.verdict import Tone
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.number_text import with_error
@@ -78,7 +78,7 @@ def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
         start = f"{name} with {OFFSET_WORDS[row.offset]}, {row.samples} samples that were not fitted: "
         compared = [one for one in assessment.comparisons if (one.candidate, one.offset) == (row.candidate, row.offset)]
         if compared:
-            yield _unless_doubted(_tone(compared), assessment, row.candidate), comparison_sentence(name, compared)
+            yield _unless_doubted(_tone(compared), assessment, row.candidate), prior_comparison_text(name, compared)
         elif row.candidate in assessment.calibrations:
             yield "unknown", f"{start}{_plain(row)}; it has no prior to compare it with"
         elif not assessment.calibrations:

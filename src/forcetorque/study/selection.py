@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
 from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors, pushes
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.validation_offset import Offset, ValidationSet, mean_offset
@@ -215,7 +215,7 @@ def assembled(models: Sequence[WrenchModel], rows: Sequence[int], reference_valu
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SessionScore:
+class SessionScore(ArrayRecord):
     """A choice made on all other sessions, scored on one."""
 
     session: str
@@ -230,14 +230,10 @@ class SessionScore:
     """Its mean norm of the moment; N m."""
     by_axis: tuple[int, ...]
     """Candidate that is best on the other sessions, for every component."""
-    mean_absolute: FloatArray
+    mean_absolute: FloatArray = field(metadata=array(6))
     """Their mean absolute value on this session; shape (6,); N, N m."""
     workbench_force_mean: float | None
     """Mean norm of the force that the prior matrix gives on this session; N; None without prior."""
-
-    def __post_init__(self) -> None:
-        values = read_only(self.mean_absolute, name="mean_absolute", shape=(6,))
-        object.__setattr__(self, "mean_absolute", values)
 
 
 def scored_across_sessions(judgement: Judgement, determined: BoolArray) -> list[SessionScore]:

@@ -14,7 +14,7 @@ from forcetorque.evaluation.acceptance import acceptance_file as limits
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import OF_CALIBRATION, Bound, Criterion, Judged
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
-from forcetorque.evaluation.matrix_checks import LEAST_POPULATION, matrix_checks, position_in_population
+from forcetorque.evaluation.matrix_checks import LEAST_POPULATION, matrix_checks, most_unusual, position_in_population
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.workbench.faults import Examined, FaultRow, examine
 from forcetorque.workbench.loads import BenchLoads
@@ -88,8 +88,8 @@ def bench_subject(
         full_scale_stated=matrix.stated_full_scale,
         full_scale_positive=None if full_scale is None else full_scale.positive,
         full_scale_negative=None if full_scale is None else full_scale.negative,
-        population_count=None if position is None else position.count,
-        population=() if position is None else position.features,
+        population_count=None if position is None else len(others),
+        population=position or (),
         offsets=(),
         offset_change=None,
         offset_force_change_N=None,
@@ -127,12 +127,12 @@ def bench_criteria(subject: BenchSubject, spec: limits.AcceptanceFile) -> Iterat
 
 
 def _workbench(subject: BenchSubject, stated: limits.WorkbenchLimits) -> Iterator[Criterion]:
-    row, judge = subject.row, subject.judge
+    row = subject.row
     n = row.positions
-    yield from judge.at_limits("workbench.held_out", row.held_out, stated.held_out, count=n)
-    yield from judge.at_limit("workbench.rank", row.rank, stated.rank, bound=Bound.AT_LEAST, count=n)
-    yield from judge.at_limit("workbench.faults", subject.faults, stated.faults, count=n)
-    yield from judge.at_limit("workbench.unsound_blocks", subject.unsound, stated.unsound_blocks, count=n)
+    yield from subject.at_limits("workbench.held_out", row.held_out, stated.held_out, count=n)
+    yield from subject.at_limit("workbench.rank", row.rank, stated.rank, bound=Bound.AT_LEAST, count=n)
+    yield from subject.at_limit("workbench.faults", subject.faults, stated.faults, count=n)
+    yield from subject.at_limit("workbench.unsound_blocks", subject.unsound, stated.unsound_blocks, count=n)
 
 
 def next_words(recording: BenchRecording, blocks: Sequence[BlockRow]) -> str | None:
@@ -334,7 +334,7 @@ def _unusual(calibrations: Sequence[Calibration]) -> tuple[UnusualRow, ...]:
     for one in calibrations:
         serial = one.sensor.serial
         try:
-            feature = position_in_population(one.matrix, _others(calibrations, serial)).most_unusual
+            feature = most_unusual(position_in_population(one.matrix, _others(calibrations, serial)))
         except SensorError:
             continue  # equal matrices have no scatter to be unusual in
         rows.append(UnusualRow(serial=serial, feature=feature.feature, robust_z=feature.robust_z))

@@ -109,13 +109,13 @@ def test_moments_with_the_model() -> None:
     assert found is not None
     x, y, z = CENTRE_OF_MASS
     levers = np.sqrt([y**2 + z**2, x**2 + z**2, x**2 + y**2])
-    np.testing.assert_allclose(found.expected_half_widths, MASS * GRAVITY * levers, rtol=1e-10)
+    np.testing.assert_allclose(found.expected_half_width_Nm, MASS * GRAVITY * levers, rtol=1e-10)
     reach = MASS * GRAVITY * np.linalg.norm(MOMENT_MAP, axis=1)
-    assert ((found.low < reach) & (reach < found.high)).all()
-    np.testing.assert_allclose(found.errors, reach - found.expected_half_widths, atol=0.01)
-    np.testing.assert_allclose(found.centre, OFFSET[3:], atol=0.01)
+    assert ((found.low_Nm < reach) & (reach < found.high_Nm)).all()
+    np.testing.assert_allclose(found.error_Nm, reach - found.expected_half_width_Nm, atol=0.01)
+    np.testing.assert_allclose(found.centre_Nm, OFFSET[3:], atol=0.01)
     assert found.identifiable
-    assert found.stray < 1e-10
+    assert found.stray_share < 1e-10
 
 
 def test_moments_of_a_loose_limb_are_not_believed() -> None:

@@ -84,20 +84,21 @@ def test_drift_is_told_from_noise() -> None:
     shifted = _analysed(rng, matrix, offset + [0.0, 0.0, 4.0])
     stretched = _analysed(rng, np.diag([1.0, 1.08, 1.0]) @ matrix, offset)
     for one, other, third in zip(*map(_fits, (first, shifted, stretched)), strict=True):
-        there, back = drift_between(one, other), drift_between(other, one)
+        there, back = drift_between(one, other, gravity=GRAVITY), drift_between(other, one, gravity=GRAVITY)
         assert there is not None
         assert back is not None
-        np.testing.assert_allclose(there.centre, [0.0, 0.0, 4.0], atol=0.2)
-        np.testing.assert_allclose(back.centre, -there.centre)
-        np.testing.assert_allclose(back.intersections, -there.intersections)
-        assert (there.index, there.index_margin) == (-back.index, back.index_margin)
-        assert there.centre_exceeds[2]
-        assert there.intersections_exceed.sum() <= 1  # one in twenty does by chance
-        assert not there.index_exceeds
-        changed = drift_between(one, third)
+        np.testing.assert_allclose(there.centre_N, [0.0, 0.0, 4.0], atol=0.2)
+        np.testing.assert_allclose(back.centre_N, -there.centre_N)
+        np.testing.assert_allclose(back.mass_kg, -there.mass_kg)
+        assert (there.index_kg, there.index_margin_kg) == (-back.index_kg, back.index_margin_kg)
+        assert "centre z" in (there.exceeds or ())
+        assert sum(name.startswith("mass") for name in there.exceeds or ()) <= 1  # one in twenty does by chance
+        assert "index" not in (there.exceeds or ())
+        changed = drift_between(one, third, gravity=GRAVITY)
         assert changed is not None
-        assert changed.intersections_exceed.tolist() == [False, True, False]
-        assert changed.index_exceeds
+        assert changed.exceeds is not None
+        assert [name for name in changed.exceeds if name.startswith("mass")] == ["mass y"]
+        assert "index" in changed.exceeds
 
 
 def _mapped(rng: np.random.Generator) -> MappedFit:
@@ -115,9 +116,10 @@ def test_equal_trials_seldom_seem_to_drift() -> None:
     pairs = 40
     for _ in range(pairs):
         first, last = (_mapped(rng) for _ in range(2))
-        drift = drift_between(first.fit, last.fit)
+        drift = drift_between(first.fit, last.fit, gravity=GRAVITY)
         assert drift is not None
-        wrong += [*drift.intersections_exceed, *drift.centre_exceeds]
+        assert drift.exceeds is not None
+        wrong += [f"{what} {axis}" in drift.exceeds for what in ("mass", "centre") for axis in "xyz"]
     # 240 trials at 5 %: 12 expected, 24 is beyond three standard deviations
     assert wrong.sum() <= 24
 
@@ -127,12 +129,10 @@ def test_nothing_drifts_that_is_not_known() -> None:
     rng = np.random.default_rng(3)
     first = _analysed(rng, map_of(DEFORMED), np.zeros(3))
     last = _analysed(rng, map_of(DEFORMED), np.array([0.0, 0.0, 50.0]), half_deg=12.0)
-    drift = drift_between(first.free, last.free)
+    drift = drift_between(first.free, last.free, gravity=GRAVITY)
     if drift is not None:
         assert not drift.identifiable
-        assert not drift.index_exceeds
-        assert not drift.centre_exceeds.any()
-        assert not drift.intersections_exceed.any()
+        assert drift.exceeds is None
     assert not last.free.identifiable
 
 
@@ -141,8 +141,9 @@ def test_equal_trials_seldom_name_anything() -> None:
     rng = np.random.default_rng(4)
     named = 0
     for _ in range(60):
-        drift = drift_between(_mapped(rng).fit, _mapped(rng).fit)
+        drift = drift_between(_mapped(rng).fit, _mapped(rng).fit, gravity=GRAVITY)
         assert drift is not None
-        named += drift.index_exceeds or drift.intersections_exceed.any() or drift.centre_exceeds.any()
+        assert drift.exceeds is not None
+        named += bool(drift.exceeds)
     # three and two standard deviations; each number by itself would be named in one pair of six
     assert named <= 6

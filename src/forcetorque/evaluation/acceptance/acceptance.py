@@ -37,7 +37,7 @@ class Acceptance(Result):
     specification: str
     """Name of the specification."""
     accepted: bool = False
-    """Whether every criterion holds for every sensor; made from the criteria, whatever is given."""
+    """Whether every criterion holds for every sensor; computed from the criteria, a given value is ignored."""
     criteria: tuple[Criterion, ...]
     """One per sensor and limit: of errors of all recordings pooled, or of the worst recording."""
     recordings: tuple[RecordingCriterion, ...] = ()

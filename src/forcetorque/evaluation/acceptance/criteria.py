@@ -18,10 +18,10 @@ from forcetorque.calibration.summary import learnt_directions
 from forcetorque.evaluation.acceptance import acceptance_file as limits
 from forcetorque.evaluation.acceptance.acceptance_file import Component
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
-from forcetorque.evaluation.evaluation import CandidateErrors, judge_errors
+from forcetorque.evaluation.evaluation import CandidateErrors, validation_errors
 from forcetorque.evaluation.load_cases.section import LoadCaseTable
 from forcetorque.evaluation.load_cases.verdict import use_verdicts
-from forcetorque.evaluation.matrix_checks import PopulationPosition
+from forcetorque.evaluation.matrix_checks import most_unusual
 from forcetorque.evaluation.validation.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
@@ -78,16 +78,17 @@ class RecordingCriterion(Criterion):
     """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Judge:
-    """Holds what was measured of one candidate of a sensor to limits."""
+_Checked = TypeVar("_Checked")
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
-    candidate: str
-    """The calibration file, or the prior."""
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Judged:
+    """A calibration, or a prior, with what was measured of it."""
+
+    calibration: tuple[str, Calibration] | None
+    """Name and calibration; None to judge the prior."""
+    checks: StaticChecks
+    """What was measured of it without limits."""
 
     def at_limit(
         self,
@@ -122,9 +123,9 @@ class Judge:
         if measured is None or np.isnan(measured):
             raise ExperimentError(f"{name} was not measured")
         yield Criterion(
-            sensor=self.sensor,
-            serial=self.serial,
-            candidate=self.candidate,
+            sensor=self.checks.sensor,
+            serial=self.checks.serial,
+            candidate=self.checks.candidate,
             criterion=name,
             measured=float(measured),
             bound=bound,
@@ -168,24 +169,6 @@ class Judge:
         for component, unit, value in zip(WRENCH_COMPONENTS, WRENCH_UNITS, measured.tolist(), strict=True):
             limit = limits.get(component)
             yield from self.at_limit(f"{name}.{component}", value, limit, unit + per, bound=bound, count=count)
-
-
-_Checked = TypeVar("_Checked")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Judged:
-    """A calibration, or a prior, with what was measured of it."""
-
-    calibration: tuple[str, Calibration] | None
-    """Name and calibration; None to judge the prior."""
-    checks: StaticChecks
-    """What was measured of it without limits."""
-
-    @property
-    def judge(self) -> Judge:
-        """Makes its criteria."""
-        return Judge(sensor=self.checks.sensor, serial=self.checks.serial, candidate=self.checks.candidate)
 
     def fitted(self) -> tuple[str, Calibration]:
         """Give the calibration to those tables that judge one.
@@ -284,7 +267,7 @@ def _worst(
 
 def _evaluated(subject: Subject, offset: str) -> tuple[CandidateErrors, CandidateErrors]:
     """Errors of the prior, or again of the calibration where there is none, and of the calibration."""
-    verdicts = judge_errors(subject.campaign, dict([subject.fitted()])).verdicts
+    verdicts = validation_errors(subject.campaign, dict([subject.fitted()])).verdicts
     rows = [row for row in verdicts if row.offset == offset]
     return rows[0], rows[-1]
 
@@ -298,10 +281,10 @@ def _evaluate(subject: Subject, stated: limits.Evaluate) -> Iterator[Criterion]:
         ("moment_error_mean_Nm", errors.moment_error_mean_Nm, stated.moment_error_mean_Nm, "N m"),
         ("moment_error_largest_Nm", errors.moment_error_largest_Nm, stated.moment_error_largest_Nm, "N m"),
     ):
-        yield from subject.judge.at_limit(f"evaluate.{key}", measured, limit, unit, count=n)
-    yield from subject.judge.at_limits("evaluate.rmse", errors.rmse, stated.rmse, count=n)
-    yield from subject.judge.at_limits("evaluate.bias", np.abs(errors.bias), stated.bias, count=n)
-    yield from subject.judge.at_limits("evaluate.largest", errors.largest, stated.largest, count=n)
+        yield from subject.at_limit(f"evaluate.{key}", measured, limit, unit, count=n)
+    yield from subject.at_limits("evaluate.rmse", errors.rmse, stated.rmse, count=n)
+    yield from subject.at_limits("evaluate.bias", np.abs(errors.bias), stated.bias, count=n)
+    yield from subject.at_limits("evaluate.largest", errors.largest, stated.largest, count=n)
 
 
 def _improvement(subject: Subject, stated: limits.Improvement) -> Iterator[Criterion]:
@@ -313,7 +296,7 @@ def _improvement(subject: Subject, stated: limits.Improvement) -> Iterator[Crite
         ("force_error_ratio", _ratio(new.force_error_mean_N, prior.force_error_mean_N), stated.force_error_ratio),
         ("moment_error_ratio", _ratio(new.moment_error_mean_Nm, prior.moment_error_mean_Nm), stated.moment_error_ratio),
     ):
-        yield from subject.judge.at_limit(f"improvement.{key}", ratio, limit, count=new.samples)
+        yield from subject.at_limit(f"improvement.{key}", ratio, limit, count=new.samples)
 
 
 def _ratio(new: float, prior: float) -> float:
@@ -337,39 +320,39 @@ def _contact_errors(subject: Subject, stated: limits.Validate) -> ContactForceEr
 
 def _validate(subject: Subject, stated: limits.Validate) -> Iterator[Criterion]:
     errors = _contact_errors(subject, stated)
-    judge, n = subject.judge, errors.samples
-    yield from judge.at_limit("validate.force_mean_N", errors.force_mean_N, stated.force_mean_N, "N", count=n)
-    yield from judge.at_limit("validate.moment_mean_Nm", errors.moment_mean_Nm, stated.moment_mean_Nm, "N m", count=n)
-    yield from judge.at_limits("validate.mean_absolute", errors.mean_absolute, stated.mean_absolute, count=n)
+    n = errors.samples
+    yield from subject.at_limit("validate.force_mean_N", errors.force_mean_N, stated.force_mean_N, "N", count=n)
+    yield from subject.at_limit("validate.moment_mean_Nm", errors.moment_mean_Nm, stated.moment_mean_Nm, "N m", count=n)
+    yield from subject.at_limits("validate.mean_absolute", errors.mean_absolute, stated.mean_absolute, count=n)
 
 
 def _matrix(subject: Judged, stated: limits.Matrix) -> Iterator[Criterion]:
-    checks, judge = subject.checks, subject.judge
-    yield from judge.at_limit("matrix.condition", subject.measured("matrix", checks.condition), stated.condition)
+    checks = subject.checks
+    yield from subject.at_limit("matrix.condition", subject.measured("matrix", checks.condition), stated.condition)
     if stated.full_scale is not None and checks.full_scale_least is None:
         raise ExperimentError(f"full_scale: {checks.not_measured['full_scale']}")
-    yield from judge.at_limits("matrix.full_scale", checks.full_scale_least, stated.full_scale, bound=Bound.AT_LEAST)
-    yield from judge.at_limits("matrix.resolution_worst", checks.resolution_worst, stated.resolution_worst)
-    yield from judge.at_limits("matrix.resolution_rms", checks.resolution_rms, stated.resolution_rms)
+    yield from subject.at_limits("matrix.full_scale", checks.full_scale_least, stated.full_scale, bound=Bound.AT_LEAST)
+    yield from subject.at_limits("matrix.resolution_worst", checks.resolution_worst, stated.resolution_worst)
+    yield from subject.at_limits("matrix.resolution_rms", checks.resolution_rms, stated.resolution_rms)
 
 
 def _population(subject: Judged, stated: limits.Population) -> Iterator[Criterion]:
-    judge, features = subject.judge, subject.checks.population
+    features = subject.checks.population
     n = subject.measured("population", subject.checks.population_count)
     if stated.robust_z is not None:
-        worst = PopulationPosition(count=n, features=features).most_unusual
-        yield from judge.at_limit(
+        worst = most_unusual(features)
+        yield from subject.at_limit(
             "population.robust_z", abs(worst.robust_z), stated.robust_z, count=n, note=worst.feature
         )
     if stated.quantiles is not None:
         low = min(features, key=lambda feature: feature.quantile)
         high = max(features, key=lambda feature: feature.quantile)
         least, most = stated.quantiles
-        yield from judge.at_limit(
+        yield from subject.at_limit(
             "population.lowest_quantile", low.quantile, least, bound=Bound.AT_LEAST, count=n, note=low.feature
         )
-        yield from judge.at_limit("population.highest_quantile", high.quantile, most, count=n, note=high.feature)
-    yield from judge.at_limit("population.at_least_sensors", n, stated.at_least_sensors, bound=Bound.AT_LEAST)
+        yield from subject.at_limit("population.highest_quantile", high.quantile, most, count=n, note=high.feature)
+    yield from subject.at_limit("population.at_least_sensors", n, stated.at_least_sensors, bound=Bound.AT_LEAST)
 
 
 def _recording(subject: Subject, stated: limits.RecordingLimits) -> Iterator[Criterion]:
@@ -377,7 +360,7 @@ def _recording(subject: Subject, stated: limits.RecordingLimits) -> Iterator[Cri
         interval = max(subject.checks.recording, key=lambda row: share(row) or 0.0)
         if limit is not None and share(interval) is None:
             raise ExperimentError(f"{name}: stream {subject.run.sensor.stream!r} has no sequence numbers")
-        yield from subject.judge.at_limit(
+        yield from subject.at_limit(
             f"recording.{name}", share(interval), limit, count=interval.samples, note=interval.label
         )
 
@@ -387,16 +370,16 @@ def _recording(subject: Subject, stated: limits.RecordingLimits) -> Iterator[Cri
 
 
 def _offset(subject: Subject, stated: limits.OffsetLimits) -> Iterator[Criterion]:
-    checks, judge, n = subject.checks, subject.judge, len(subject.checks.offsets)
+    checks, n = subject.checks, len(subject.checks.offsets)
     change = subject.measured("offset", checks.offset_change)
-    yield from judge.at_limits("offset.change", change, stated.change, count=n)
-    yield from judge.at_limit(
+    yield from subject.at_limits("offset.change", change, stated.change, count=n)
+    yield from subject.at_limit(
         "offset.force_change_N", checks.offset_force_change_N, stated.force_change_N, "N", count=n
     )
     if stated.per_degree is not None and checks.offset_per_degC is None:
         raise ExperimentError(f"per_degree: {_no_slope(checks)}")
     slope = None if checks.offset_per_degC is None else np.abs(checks.offset_per_degC)
-    yield from judge.at_limits("offset.per_degree", slope, stated.per_degree, count=n, per="/degC")
+    yield from subject.at_limits("offset.per_degree", slope, stated.per_degree, count=n, per="/degC")
 
 
 def _no_slope(checks: StaticChecks) -> str:
@@ -414,21 +397,21 @@ def _uncertainty(subject: Judged, stated: limits.Uncertainty) -> Iterator[Criter
             raise ExperimentError(f"calibration {name!r} kept its prior: its matrix has no standard error")
         rows = np.linalg.norm(fitted.matrix_standard_error, axis=1) / np.linalg.norm(fitted.matrix, axis=1)
         worst = WRENCH_COMPONENTS[int(rows.argmax())]
-        yield from subject.judge.at_limit(
+        yield from subject.at_limit(
             "uncertainty.matrix_relative", rows.max(), stated.matrix_relative, count=n, note=worst
         )
     if stated.offset is not None and fitted.offset_standard_error is None:
         raise ExperimentError(f"calibration {name!r} has no standard error of its offset")
-    yield from subject.judge.at_limits("uncertainty.offset", fitted.offset_standard_error, stated.offset, count=n)
+    yield from subject.at_limits("uncertainty.offset", fitted.offset_standard_error, stated.offset, count=n)
 
 
 def _excitation(subject: Judged, stated: limits.Excitation) -> Iterator[Criterion]:
     _, fitted = subject.fitted()
     n, validity = fitted.provenance.samples, fitted.validity
     moved = sum(validity.excited)
-    yield from subject.judge.at_limit("excitation.directions", moved, stated.directions, bound=Bound.AT_LEAST, count=n)
+    yield from subject.at_limit("excitation.directions", moved, stated.directions, bound=Bound.AT_LEAST, count=n)
     condition = float("inf") if validity.condition is None else validity.condition
-    yield from subject.judge.at_limit("excitation.condition", condition, stated.condition, count=n)
+    yield from subject.at_limit("excitation.condition", condition, stated.condition, count=n)
 
 
 def _learnt(subject: Judged, stated: limits.Learnt) -> Iterator[Criterion]:
@@ -439,7 +422,7 @@ def _learnt(subject: Judged, stated: limits.Learnt) -> Iterator[Criterion]:
     for row in directions:
         limit = getattr(stated, row.direction)
         n = fitted.provenance.samples
-        yield from subject.judge.at_limit(f"learnt.{row.direction}", row.learnt, limit, bound=Bound.AT_LEAST, count=n)
+        yield from subject.at_limit(f"learnt.{row.direction}", row.learnt, limit, bound=Bound.AT_LEAST, count=n)
 
 
 def _load_case(subject: Subject, stated: Sequence[LoadCaseTable]) -> Iterator[Criterion]:
@@ -451,9 +434,9 @@ def _load_case(subject: Subject, stated: Sequence[LoadCaseTable]) -> Iterator[Cr
         start = f"load_case.{verdict.load_case}"
         for error in verdict.errors:
             key, note = f"{start}.{error.quantity}_error", "predicted, at most with 95 %"
-            yield from subject.judge.at_limit(key, error.after_at_most, error.allowed, error.unit, note=note)
+            yield from subject.at_limit(key, error.after_at_most, error.allowed, error.unit, note=note)
         note = "" if verdict.decision == "use" else verdict.reasons[0].text
-        yield from subject.judge.at_limit(
+        yield from subject.at_limit(
             f"{start}.use", float(verdict.decision == "use"), 1.0, bound=Bound.AT_LEAST, note=note
         )
 

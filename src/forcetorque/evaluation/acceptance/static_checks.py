@@ -14,7 +14,6 @@ from forcetorque.evaluation.matrix_checks import (
     FeaturePosition,
     MatrixChecks,
     OffsetChange,
-    PopulationPosition,
     matrix_checks,
     offset_change,
     position_in_population,
@@ -136,7 +135,7 @@ def check(
     change = attempt("offset", lambda: _change(offsets)) if offsets else None
     fitted = by_use.get(Use.CALIBRATION, offsets)
     matrix = attempt("matrix", lambda: _matrix(sensor, calibration, fitted))
-    position = attempt("population", lambda: _position(sensor, correction, population))
+    features = attempt("population", lambda: _features(sensor, correction, population))
     if matrix is not None and matrix.full_scale is None:
         reasons["full_scale"] = matrix.no_full_scale
     full_scale = None if matrix is None else matrix.full_scale
@@ -151,8 +150,8 @@ def check(
         full_scale_stated=None if matrix is None else matrix.stated_full_scale,
         full_scale_positive=None if full_scale is None else full_scale.positive,
         full_scale_negative=None if full_scale is None else full_scale.negative,
-        population_count=None if position is None else position.count,
-        population=() if position is None else position.features,
+        population_count=None if features is None else len(_others(sensor, population or {})),
+        population=features or (),
         offsets=offsets,
         offset_change=None if change is None else change.change,
         offset_force_change_N=None if change is None else change.force_change,
@@ -225,16 +224,19 @@ def _matrix(
     return matrix_checks(sensor.prior, offset, limit_counts=sensor.limit_counts)
 
 
-def _position(
+def _features(
     sensor: ExperimentSensor, correction: Correction, population: Mapping[str, FloatArray] | None
-) -> PopulationPosition:
+) -> tuple[FeaturePosition, ...]:
     if population is None:
         raise ExperimentError(
             "no matrices of other sensors were given; name them by --population, from Python population"
         )
     _require_counts(sensor)
-    others = {serial: matrix for serial, matrix in population.items() if serial != sensor.serial}
-    return position_in_population(correction.model.matrix, others)
+    return position_in_population(correction.model.matrix, _others(sensor, population))
+
+
+def _others(sensor: ExperimentSensor, population: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    return {serial: matrix for serial, matrix in population.items() if serial != sensor.serial}
 
 
 def _require_counts(sensor: ExperimentSensor) -> None:

@@ -75,7 +75,7 @@ def add_errors(columns, rows, count, matrices, constants, sums):
 
 
 @cache
-def judge_of(columns: int) -> Callable[..., None]:
+def compiled_error_sums(columns: int) -> Callable[..., None]:
     """Give the compiled sums for so many columns; the first machine to call it compiles it.
 
     The number is part of the code, so that the loop over columns is unrolled.

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.compiled import announced, frozen
-from forcetorque.evaluation.block.candidate_sums import judge_of
+from forcetorque.evaluation.block.candidate_sums import compiled_error_sums
 from forcetorque.evaluation.candidate_errors import CandidateInputs
 
 _SAMPLES = 16384
@@ -31,7 +31,7 @@ def run_compiled(
         threads: Number of threads; as many as there are processors if None.
         progress: Called with the number of samples done so far.
     """
-    judge = judge_of(inputs.matrices.shape[2])
+    judge = compiled_error_sums(inputs.matrices.shape[2])
     centre = frozen(inputs.columns_centre), frozen(inputs.reference_centre)
 
     def task(piece: tuple[int, slice, slice]) -> FloatArray:

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
-from forcetorque.evaluation.load_cases.verdict import UseError, UseVerdict
+from forcetorque.evaluation.load_cases.verdict import LoadCaseError, UseVerdict
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     REFERENCE_LINE,
@@ -80,7 +80,7 @@ def use_figure(verdicts: Sequence[UseVerdict], names: Mapping[str, str]) -> Figu
     return figure
 
 
-def _keys(rows: Sequence[UseError]) -> list[tuple[str, Mapping[str, Any]]]:
+def _keys(rows: Sequence[LoadCaseError]) -> list[tuple[str, Mapping[str, Any]]]:
     """What the legend names: what is drawn."""
     styles = [_style(row) for row in rows]
     return [
@@ -92,11 +92,11 @@ def _keys(rows: Sequence[UseError]) -> list[tuple[str, Mapping[str, Any]]]:
     ]
 
 
-def _style(row: UseError) -> dict[str, Any]:
+def _style(row: LoadCaseError) -> dict[str, Any]:
     return _AFTER_BEYOND if row.allowed is not None and row.after_at_most > row.allowed else _AFTER
 
 
-def _draw_row(panel: Axes, place: int, row: UseError) -> None:
+def _draw_row(panel: Axes, place: int, row: LoadCaseError) -> None:
     if row.before is not None and row.before_at_least is not None and row.before_at_most is not None:
         quantiles = row.before_at_least, row.before, row.before_at_most
         _draw_interval(panel, place + _BEFORE_AT, quantiles, f"before {_words(quantiles, row.unit)}", _BEFORE)
@@ -152,7 +152,7 @@ def _centre(low: float, high: float) -> float:
     return float(np.sqrt(low * high))
 
 
-def _set_axis(panel: Axes, rows: Sequence[UseError]) -> None:
+def _set_axis(panel: Axes, rows: Sequence[LoadCaseError]) -> None:
     """A logarithmic axis with room for the words above every interval, and for the limits."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
@@ -180,7 +180,7 @@ def _set_axis(panel: Axes, rows: Sequence[UseError]) -> None:
     panel.set_axisbelow(True)
 
 
-def _ends(rows: Sequence[UseError]) -> FloatArray:
+def _ends(rows: Sequence[LoadCaseError]) -> FloatArray:
     """Lower and upper ends of all intervals, above zero; shape (k, 2)."""
     pairs = [(row.after_at_least, row.after_at_most) for row in rows]
     pairs += [

@@ -10,16 +10,16 @@ from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, read_only_mapping, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, mapping, require_shape
 from forcetorque.base.errors import SensorError
 
 ALLOWED_SHARE: Final = 0.05
-"""Error that is allowed where nobody states it, as a share of the loads: root mean square over root mean square."""
+"""Error that is allowed by default, as a share of the loads: root mean square over root mean square."""
 _LEAST_LEVER_M: Final = 1e-9
 """Lever below which a moment is rounding; m."""
 
 
-class UseOffset(StrEnum):
+class LoadCaseOffset(StrEnum):
     """What offset the readings of a use are taken with."""
 
     FITTED = "fitted"
@@ -29,31 +29,30 @@ class UseOffset(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class LoadCase:
+class LoadCase(ArrayRecord):
     """Loads to come, as what they add to the mean load of the fitted data."""
 
     name: str
     """Name."""
     words: str
     """What the loads are, in words."""
-    wrench: FloatArray
+    wrench: FloatArray = field(metadata=array(None, 6))
     """The loads, each as likely as any other, in the sensor's frame and direction; shape (n, 6); N, N m."""
-    offset: UseOffset = UseOffset.FITTED
+    offset: LoadCaseOffset = LoadCaseOffset.FITTED
     """Offset that the readings are taken with."""
-    changes: Mapping[str, float] = field(default_factory=dict)
+    changes: Mapping[str, float] = field(default_factory=dict, metadata=mapping())
     """How far variables such as temperature are from where the offset holds, root mean square, by name."""
     allowed_force_N: float | None = None
     """Root mean square of the force error that the use allows; None for a share of the loads."""
     allowed_moment_Nm: float | None = None
     """The same of the moment error."""
     is_stated: bool = True
-    """Whether anybody stated it; else it is what is taken for granted."""
+    """Whether a file states it; else it is the default."""
 
     def __post_init__(self) -> None:
-        # a bare word would fail every `is`, and so read as the other one
-        object.__setattr__(self, "offset", UseOffset(self.offset))
-        object.__setattr__(self, "wrench", read_only(self.wrench, name=f"{self.name}: wrench", shape=(None, 6)))
-        object.__setattr__(self, "changes", read_only_mapping(self.changes))
+        check_arrays(self)
+        # a plain string would fail every `is` and count as the other offset
+        object.__setattr__(self, "offset", LoadCaseOffset(self.offset))
         if not len(self.wrench) or not np.isfinite(self.wrench).all() or not self.wrench.any():
             raise SensorError(f"load case {self.name!r}: expected loads of finite size, and not all of them zero")
         for unit, allowed in (("N", self.allowed_force_N), ("N m", self.allowed_moment_Nm)):
@@ -74,14 +73,14 @@ class LoadCase:
 
     @property
     def states_requirement(self) -> bool:
-        """Whether anybody stated what error is allowed."""
+        """Whether a file states the allowed error."""
         return self.allowed_force_N is not None or self.allowed_moment_Nm is not None
 
     @property
     def requirement(self) -> tuple[float, float]:
         """Error that is allowed: of the force in N, of the moment in N m; infinite for what is not judged.
 
-        Where nobody states any, both are `ALLOWED_SHARE` of the loads; where one is stated the other is free.
+        By default both are `ALLOWED_SHARE` of the loads; where one is stated the other is free.
         """
         if not self.states_requirement:
             return ALLOWED_SHARE * self.force_N or np.inf, ALLOWED_SHARE * self.moment_Nm or np.inf
@@ -98,7 +97,7 @@ LOADS: Final = 600
 _SEED: Final = 2026
 
 
-def pushes_within(force_N: float, radius_m: float) -> FloatArray:
+def pushes_around_sensor(force_N: float, radius_m: float) -> FloatArray:
     """Push with a force in any direction, anywhere within a radius of the sensor.
 
     Args:
@@ -152,7 +151,7 @@ def weights(mass_kg: float, centre_of_mass_m: Any, gravity: float) -> FloatArray
     return pushes_at(centre_of_mass_m, mass_kg * gravity, 0.0)
 
 
-def shares_of(full_scale: Any, share: float) -> FloatArray:
+def full_scale_loads(full_scale: Any, share: float) -> FloatArray:
     """Load all six components at once, each up to a share of its full scale in either direction.
 
     Args:

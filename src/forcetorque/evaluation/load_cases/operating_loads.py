@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a sensor is to be used for: the load cases of its experiment, or a default that is stated."""
+"""Load cases of a sensor: those of its experiment file, or the default one."""
 
 from __future__ import annotations
 
@@ -12,7 +12,13 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, RobotError
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.evaluation.load_cases.load_case import LoadCase, pushes_at, pushes_within, shares_of, weights
+from forcetorque.evaluation.load_cases.load_case import (
+    LoadCase,
+    full_scale_loads,
+    pushes_around_sensor,
+    pushes_at,
+    weights,
+)
 from forcetorque.evaluation.load_cases.section import LOAD_CASES, LoadCaseTable
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
@@ -23,9 +29,9 @@ from forcetorque.robot.tree import BodyTree, build_tree, outboard_bodies
 from forcetorque.simulation.motions.held_robot import joint_range
 
 DEFAULT_RADIUS_M: Final = 0.3
-"""How far from a sensor a push acts where nobody states it."""
+"""How far from a sensor a push acts by default."""
 SOLE_RADIUS_M: Final = 0.05
-"""How far from the origin of a sole the weight of the robot acts where nobody states it."""
+"""How far from the origin of a sole the weight of the robot acts by default."""
 _POSTURES, _SEED = 40, 5
 _SOLES = ("sole", "foot")
 
@@ -34,7 +40,7 @@ Refuse = Callable[[ForceTorqueError], None]
 """Called with why a load case cannot be had at a sensor."""
 
 
-def raise_refused(error: ForceTorqueError) -> None:
+def raise_rejection(error: ForceTorqueError) -> None:
     """Refuse all load cases because of one.
 
     Args:
@@ -46,14 +52,14 @@ def raise_refused(error: ForceTorqueError) -> None:
     raise error
 
 
-def loads_of_use(
+def operating_load_cases(
     runs: Sequence[SensorRun],
     more: Sequence[LoadCaseTable] = (),
     *,
     matrix: FloatArray | None = None,
-    refuse: Refuse = raise_refused,
+    refuse: Refuse = raise_rejection,
 ) -> tuple[LoadCase, ...]:
-    """Give what a sensor is to be used for.
+    """Give the load cases of a sensor.
 
     Args:
         runs: The sensor in its recordings, at least one.
@@ -64,12 +70,13 @@ def loads_of_use(
 
     Returns:
         The load cases that are stated for the sensor; without any the weight of the robot on its sole for a sensor in
-        a leg, else pushes as strong as what hangs on it, anywhere within 0.3 m; none where nothing hangs on it.
+        a leg, else pushes as strong as the weight beyond the sensor, anywhere within 0.3 m; none where nothing has
+        a mass beyond it.
 
     Raises:
         ExperimentError: If a stated load is beyond what the sensor can read, or its frame is not outboard of it.
     """
-    place = _Place(runs[0])
+    location = _SensorLocation(runs[0])
     tables: dict[str, LoadCaseTable] = {}
     for table in (*(table for run in runs for table in run.experiment.section(LOAD_CASES)), *more):
         earlier = tables.setdefault(table.name, table)
@@ -80,7 +87,7 @@ def loads_of_use(
     cases, refused = [], False
     for table in tables.values():
         try:
-            case = place.case(table)
+            case = location.case(table)
             if case is not None:
                 _require_readable(case, runs[0], matrix)
                 cases.append(case)
@@ -89,11 +96,11 @@ def loads_of_use(
             refuse(error)
     if cases or refused:
         return tuple(cases)
-    default = place.default(max(_Place(run).outboard_weight for run in runs))
+    default = location.default(max(_SensorLocation(run).outboard_weight for run in runs))
     return () if default is None else (default,)
 
 
-class _Place:
+class _SensorLocation:
     """Where a sensor sits in its robot, and what its outboard links do to it."""
 
     def __init__(self, run: SensorRun) -> None:
@@ -107,7 +114,7 @@ class _Place:
 
     @property
     def outboard_weight(self) -> float:
-        """Weight of all outboard links, with the heaviest load that hangs on them in an interval; N."""
+        """Weight of all outboard links, with the heaviest payload of all intervals; N."""
         used = [one for one in self.run.experiment.recording.intervals if one.use is not Use.IGNORE]
         models = [self.run.experiment.model_on(one.support) for one in used if one.support is not None]
         return self.gravity * max(
@@ -122,10 +129,10 @@ class _Place:
     def _passes_another(self, link: str) -> bool:
         """Whether what acts on a link passes another sensor of the experiment, whose load case it then is."""
         others = [sensor for sensor in self.run.experiment.sensors if sensor.name != self.run.sensor.name]
-        return any(_Place(SensorRun(self.run.experiment, sensor)).passes(link) for sensor in others)
+        return any(_SensorLocation(SensorRun(self.run.experiment, sensor)).passes(link) for sensor in others)
 
     def case(self, table: LoadCaseTable) -> LoadCase | None:
-        """The loads of a table at this sensor; None where they do not pass it and nobody says that they do."""
+        """The loads of a table at this sensor; None where they do not pass it and the table does not name it."""
         sensor = self.model.sensor(self.run.sensor.name)
         if table.sensor is not None and table.sensor not in (sensor.name, *sensor.aliases):
             return None
@@ -149,7 +156,7 @@ class _Place:
         )
 
     def default(self, weight: float) -> LoadCase | None:
-        """The use that is taken for granted where nobody states one; None where nothing with a mass hangs on it."""
+        """The default load case; None without a mass beyond the sensor."""
         sole = self._sole()
         if sole is not None:
             wrench, words = self._stood_upon(sole, SOLE_RADIUS_M)
@@ -157,7 +164,7 @@ class _Place:
         if weight <= 0.0:
             return None
         words = f"pushes of {weight:.3g} N, as much as hangs on the sensor, anywhere within {DEFAULT_RADIUS_M:g} m"
-        wrench = pushes_within(weight, DEFAULT_RADIUS_M)
+        wrench = pushes_around_sensor(weight, DEFAULT_RADIUS_M)
         return LoadCase(name="push", words=words, wrench=wrench, is_stated=False)
 
     def _loads(self, table: LoadCaseTable) -> tuple[FloatArray, str]:
@@ -165,7 +172,7 @@ class _Place:
             return self._stood_upon(table.weight_on, table.radius_m or 0.0)
         if table.full_scale_share is not None:
             words = f"up to {100.0 * table.full_scale_share:g} % of full scale in all components at once"
-            return shares_of(_full_scale(self.run), table.full_scale_share), words
+            return full_scale_loads(_full_scale(self.run), table.full_scale_share), words
         if table.mass_kg is not None and table.centre_of_mass_m is not None:
             wrench = weights(table.mass_kg, self._points(table.frame, table.centre_of_mass_m), self.gravity)
             return wrench, f"a tool of {table.mass_kg:g} kg in any orientation"
@@ -174,7 +181,8 @@ class _Place:
     def _pushes(self, table: LoadCaseTable, force_N: float) -> tuple[FloatArray, str]:
         radius = table.radius_m or 0.0
         if table.frame is None:
-            return pushes_within(force_N, radius), f"pushes of {force_N:g} N anywhere within {radius:g} m of the sensor"
+            text = f"pushes of {force_N:g} N anywhere within {radius:g} m of the sensor"
+            return pushes_around_sensor(force_N, radius), text
         near = f" and {radius:g} m around" if radius else ""
         words = f"pushes of {force_N:g} N at {table.frame}{near}"
         if table.direction is None:

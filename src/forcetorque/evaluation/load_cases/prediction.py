@@ -9,15 +9,16 @@ give its distribution exactly.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.evaluation.load_cases.load_case import LoadCase, UseOffset
+from forcetorque.evaluation.load_cases.load_case import LoadCase, LoadCaseOffset
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 
@@ -31,22 +32,13 @@ _DRAWS: Final = 4000
 _SEED: Final = 16
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ErrorSources:
-    """Root mean square of what each source adds to an error; matrix and offset of one fit lean against each other."""
-
-    matrix: float
-    """Error of the matrix."""
-    offset: float
-    """Error of the offset; 0 where it is taken anew."""
-    variables: float
-    """Error of the coefficients of variables such as temperature."""
-    noise: float
-    """Noise of a reading that is averaged over a second."""
+ErrorSource = Literal["matrix", "offset", "variables", "noise"]
+"""What adds to an error: the matrix; the offset, nothing where it is taken anew; coefficients of variables such as
+temperature; noise of a measurement that is averaged over a second."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ErrorSize:
+class ErrorMagnitude:
     """Root mean square error over the loads of a use, of force or moment."""
 
     typical: float
@@ -57,8 +49,8 @@ class ErrorSize:
     """Upper end of its 95 % interval."""
     axes: FloatArray
     """Expected root mean square of the three components; shape (3,)."""
-    sources: ErrorSources
-    """Where it comes from."""
+    sources: Mapping[ErrorSource, float]
+    """Root mean square of what each source adds; the errors of matrix and offset of one fit are correlated."""
     draws: FloatArray
     """Draws of it, from which any quantile follows; shape (m,)."""
 
@@ -67,9 +59,9 @@ class ErrorSize:
 class PredictedError:
     """Predicted error of readings at the loads of a use."""
 
-    force: ErrorSize
+    force: ErrorMagnitude
     """Of the force; N."""
-    moment: ErrorSize
+    moment: ErrorMagnitude
     """Of the moment; N m."""
 
     def within(self, force_N: float, moment_Nm: float) -> float:
@@ -99,10 +91,10 @@ def predict(calibration: Calibration, case: LoadCase) -> PredictedError:
     Raises:
         FitError: If the calibration has no posterior, or not the variables of the use.
     """
-    return predict_by(_posterior(calibration), case)
+    return predict_from_posterior(_posterior(calibration), case)
 
 
-def predict_by(posterior: Posterior, case: LoadCase) -> PredictedError:
+def predict_from_posterior(posterior: Posterior, case: LoadCase) -> PredictedError:
     """Predict the error at the loads of a use by what is known of a sensor.
 
     Args:
@@ -116,7 +108,7 @@ def predict_by(posterior: Posterior, case: LoadCase) -> PredictedError:
         FitError: If the posterior has not the variables of the use.
     """
     unknowns = posterior.to_wrench @ _draws(posterior)
-    return _error(unknowns, posterior, posterior.to_wrench, moment_of_use(posterior, case))
+    return _error(unknowns, posterior, posterior.to_wrench, load_second_moment(posterior, case))
 
 
 def predict_prior(calibration: Calibration, case: LoadCase) -> PredictedError | None:
@@ -141,9 +133,9 @@ def predict_prior(calibration: Calibration, case: LoadCase) -> PredictedError | 
     unknowns = to_wrench @ (posterior.mean + _draws(posterior))
     if posterior.space == "channel":
         unknowns[..., :6] -= np.eye(6)
-    if case.offset is UseOffset.FITTED:
+    if case.offset is LoadCaseOffset.FITTED:
         unknowns[..., _offset_place(posterior)] += calibration.prior.offset
-    return _error(unknowns, posterior, to_wrench, moment_of_use(posterior, case))
+    return _error(unknowns, posterior, to_wrench, load_second_moment(posterior, case))
 
 
 def _posterior(calibration: Calibration) -> Posterior:
@@ -168,7 +160,7 @@ def _offset_place(posterior: Posterior) -> int:
     return 6 + len(posterior.variables) + len(posterior.sessions) - 1
 
 
-def moment_of_use(posterior: Posterior, case: LoadCase) -> FloatArray:
+def load_second_moment(posterior: Posterior, case: LoadCase) -> FloatArray:
     """Average the products of what the unknowns of a row are multiplied by over the loads of a use.
 
     Args:
@@ -189,11 +181,11 @@ def moment_of_use(posterior: Posterior, case: LoadCase) -> FloatArray:
         )
     x = np.zeros((len(case.wrench), posterior.mean.shape[1]))
     x[:, :6] = case.wrench
-    if case.offset is UseOffset.FITTED:
+    if case.offset is LoadCaseOffset.FITTED:
         x[:, :6] += posterior.load_centre
         x[:, _offset_place(posterior)] = 1.0
     moment = x.T @ x / len(x)
-    # variables go either way, whatever the load
+    # variables rise or fall independently of the load
     for name, change in case.changes.items():
         place = 6 + posterior.variables.index(name)
         moment[place, place] += change**2
@@ -213,15 +205,15 @@ def _error(unknowns: FloatArray, posterior: Posterior, to_wrench: FloatArray, mo
     return PredictedError(force=sizes[0], moment=sizes[1])
 
 
-def _size(square: FloatArray, shares: list[float]) -> ErrorSize:
+def _size(square: FloatArray, shares: list[float]) -> ErrorMagnitude:
     draws = np.sqrt(square.sum(axis=1))
     matrix, offset, variables, noise = np.sqrt(shares).tolist()
     low, middle, high = np.quantile(draws, [_TAIL, 0.5, 1.0 - _TAIL]).tolist()
-    return ErrorSize(
+    return ErrorMagnitude(
         typical=middle,
         at_least=low,
         at_most=high,
         axes=np.sqrt(square.mean(axis=0)),
-        sources=ErrorSources(matrix=matrix, offset=offset, variables=variables, noise=noise),
+        sources={"matrix": matrix, "offset": offset, "variables": variables, "noise": noise},
         draws=draws,
     )

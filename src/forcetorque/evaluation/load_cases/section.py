@@ -14,7 +14,7 @@ from pydantic_core import PydanticCustomError
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.toml_file import NotNegative, Positive, Table, Text
-from forcetorque.evaluation.load_cases.load_case import UseOffset
+from forcetorque.evaluation.load_cases.load_case import LoadCaseOffset
 from forcetorque.experiment.section import Loading, Section
 from forcetorque.robot.model import RobotModel
 
@@ -50,7 +50,7 @@ class LoadCaseTable(Table):
     """Direction of the pushes, in the axes of the frame; any if left out."""
     centre_of_mass_m: Annotated[FloatArray, ArrayField((3,))] | None = None
     """Centre of mass of the tool, in the frame, or in that of the sensor."""
-    offset: UseOffset = UseOffset.FITTED
+    offset: LoadCaseOffset = LoadCaseOffset.FITTED
     """`fitted`: used without being switched off; `tared`: the offset is taken anew before use."""
     changes: dict[Text, NotNegative] = Field(default_factory=dict)
     """How far variables such as temperature go from where the offset holds, root mean square."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -54,7 +54,7 @@ class Evidence:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class JudgedStretch:
+class ValidationSegment:
     """What one candidate measured in a recording, or in as much of it as belongs to one session."""
 
     session: str
@@ -67,7 +67,7 @@ class JudgedStretch:
     """What mechanics demands; shape (n, 6); N, N m."""
 
 
-def evidence(stretches: Sequence[JudgedStretch]) -> Evidence:
+def evidence(stretches: Sequence[ValidationSegment]) -> Evidence:
     """Sum up the errors of one candidate in any number of recordings.
 
     Args:
@@ -119,7 +119,7 @@ def _measured(constants: Sequence[tuple[float, float]], square: FloatArray, squa
     )
 
 
-def judged_evidence(campaign: Campaign, calibrations: Mapping[str, Calibration]) -> dict[str, Evidence]:
+def evidence_by_calibration(campaign: Campaign, calibrations: Mapping[str, Calibration]) -> dict[str, Evidence]:
     """Sum up what every calibration measures on the validation intervals of all recordings.
 
     Args:
@@ -129,7 +129,7 @@ def judged_evidence(campaign: Campaign, calibrations: Mapping[str, Calibration])
     Returns:
         Evidence by name of the calibration; none where no recording has such an interval.
     """
-    stretches: dict[str, list[JudgedStretch]] = {name: [] for name in calibrations}
+    stretches: dict[str, list[ValidationSegment]] = {name: [] for name in calibrations}
     for run in campaign.runs:
         if not run.has(Use.VALIDATION):
             continue
@@ -139,7 +139,7 @@ def judged_evidence(campaign: Campaign, calibrations: Mapping[str, Calibration])
         for session, samples in _sessions(campaign, run, judged).items():
             for name in calibrations:
                 stretches[name].append(
-                    JudgedStretch(
+                    ValidationSegment(
                         session=session,
                         time_s=judged.time_s[samples],
                         measured=measured[name][samples],
@@ -162,66 +162,50 @@ HARDLY = 0.05
 """Share of the load below which it hardly moved."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class JudgedExcitation:
-    """How much the judged loads moved, and how large loads are."""
-
-    force: float
-    """Standard deviation of the reference force, all three components together; N."""
-    moment: float
-    """The same of the moment; N m."""
-    load_force: float
-    """The larger of the root mean square judged force and the standard deviation of the fitted ones; N."""
-    load_moment: float
-    """The same of the moment; N m."""
-
-    @classmethod
-    def of(
-        cls, reference: FloatArray, calibrations: Iterable[Calibration], *, moved: FloatArray | None = None
-    ) -> JudgedExcitation:
-        """Sum up judged loads.
-
-        Args:
-            reference: Expected wrenches of the judged samples; shape (n, 6); N, N m.
-            calibrations: Calibrations that are judged, for the loads that they were fitted to.
-            moved: The same about their means in each of several recordings; shape (n, 6); about one mean if left out.
-
-        Returns:
-            Their size and movement.
-        """
-        moving = np.sqrt((reference if moved is None else moved).var(axis=0))
-        load = np.sqrt((reference**2).mean(axis=0))
-        fitted = [calibration.validity.reference_deviation for calibration in calibrations]
-        force, moment = (
-            (float(np.linalg.norm(moving[part])), max(float(np.linalg.norm(one[part])) for one in (load, *fitted)))
-            for part in FORCE_AND_MOMENT
-        )
-        return cls(force=force[0], moment=moment[0], load_force=force[1], load_moment=moment[1])
-
-    @property
-    def words(self) -> str | None:
-        """That the loads hardly moved, in words; None where they moved."""
-        return still_words(self.force, self.load_force, self.moment, self.load_moment)
+MovedAndLoad = tuple[float, float]
+"""Standard deviation of a load in the validation data, all three components together, and its size; N or N m."""
 
 
-def still_words(force: float, load_force: float, moment: float, load_moment: float) -> str | None:
-    """Say that loads hardly moved while errors were measured.
+def validation_excitation(
+    reference: FloatArray, calibrations: Iterable[Calibration], *, moved: FloatArray | None = None
+) -> tuple[MovedAndLoad, MovedAndLoad]:
+    """Compute how much the loads of validation data moved, and how large loads are.
 
     Args:
-        force: Standard deviation of the force; N.
-        load_force: Size of the force; N.
-        moment: Standard deviation of the moment; N m.
-        load_moment: Size of the moment; N m.
+        reference: Expected wrenches of the validation samples; shape (n, 6); N, N m.
+        calibrations: Calibrations under test, for the loads that they were fitted to.
+        moved: The same about their means in each of several recordings; shape (n, 6); about one mean if left out.
 
     Returns:
-        Words; None where both moved.
+        Movement and size of the force, then of the moment. The size is the larger of the root mean square of the
+        validation loads and the standard deviation of the fitted ones.
     """
-    kinds = {"forces": (force, load_force, "N"), "moments": (moment, load_moment, "N m")}
-    still = {kind: sizes for kind, sizes in kinds.items() if hardly_moved(sizes[0], sizes[1])}
-    if not still:
+    moving = np.sqrt((reference if moved is None else moved).var(axis=0))
+    load = np.sqrt((reference**2).mean(axis=0))
+    loads = [load, *(calibration.validity.reference_deviation for calibration in calibrations)]
+    force, moment = (
+        (float(np.linalg.norm(moving[part])), max(float(np.linalg.norm(one[part])) for one in loads))
+        for part in FORCE_AND_MOMENT
+    )
+    return force, moment
+
+
+def static_loads_text(force: MovedAndLoad, moment: MovedAndLoad) -> str | None:
+    """State that loads hardly moved while errors were measured.
+
+    Args:
+        force: Movement and size of the force; N.
+        moment: Movement and size of the moment; N m.
+
+    Returns:
+        The text; None where both moved.
+    """
+    kinds = {"forces": (*force, "N"), "moments": (*moment, "N m")}
+    static = {kind: sizes for kind, sizes in kinds.items() if hardly_moved(sizes[0], sizes[1])}
+    if not static:
         return None
-    of = ", ".join(f"{moved:.2g} {unit} of {load:.2g} {unit}" for moved, load, unit in still.values())
-    what = "loads" if len(still) == len(kinds) else next(iter(still))
+    of = ", ".join(f"{moved:.2g} {unit} of {load:.2g} {unit}" for moved, load, unit in static.values())
+    what = "loads" if len(static) == len(kinds) else next(iter(static))
     wrong = "a wrong matrix" if what == "loads" else f"a matrix that is wrong for {what}"
     return f"the {what} hardly moved in the judged samples ({of}): {wrong} would show nothing"
 
@@ -318,23 +302,16 @@ class ErrorComparison(Row):
         return f"{self.ratio:.2f} of it, {self.ratio_low:.2f} to {self.ratio_high:.2f} over {stretches}"
 
 
-def ratio_fields(ratio: ErrorRatio) -> dict[str, Any]:
-    """Give a ratio as fields of a row.
+def known_interval(ratio: ErrorRatio) -> tuple[float, float] | tuple[None, None]:
+    """Give the 95 % interval of a ratio.
 
     Args:
         ratio: The ratio.
 
     Returns:
-        Fields of `ErrorComparison`.
+        Its ends; None twice where too few stretches give no upper end.
     """
-    known = finite_or_none(ratio.high) is not None
-    return {
-        "ratio": ratio.ratio,
-        "ratio_low": ratio.low if known else None,
-        "ratio_high": ratio.high if known else None,
-        "stretches": ratio.stretches,
-        "judgement": ratio.judgement,
-    }
+    return (None, None) if finite_or_none(ratio.high) is None else (ratio.low, ratio.high)
 
 
 class Independence(Row):
@@ -361,7 +338,7 @@ class PriorComparison(ErrorComparison):
     """Norm of the mean error vector: the part that another offset would take away."""
 
 
-def comparison_sentence(name: str, rows: Sequence[PriorComparison]) -> str:
+def prior_comparison_text(name: str, rows: Sequence[PriorComparison]) -> str:
     """Say how a calibration does against its prior, the same wherever it is said.
 
     Args:
@@ -437,7 +414,10 @@ def prior_comparisons(sensor: str, recordings: Sequence[JudgedWrenches]) -> tupl
         for name, prior in recordings[0].priors.items()
         for offset in (Offset.FITTED, Offset.JUDGED_MEAN)
         for row in _compared(
-            {"sensor": sensor, "candidate": name, "prior": prior, "offset": offset},
+            sensor,
+            name,
+            prior,
+            offset,
             [
                 PairedErrors.of(wrenches[name, False, offset], wrenches[prior, True, offset], judged.reference)
                 for wrenches, judged in zip(measured, recordings, strict=True)
@@ -446,7 +426,9 @@ def prior_comparisons(sensor: str, recordings: Sequence[JudgedWrenches]) -> tupl
     )
 
 
-def _compared(names: Mapping[str, Any], pairs: Sequence[PairedErrors]) -> Iterator[PriorComparison]:
+def _compared(
+    sensor: str, candidate: str, prior: str, offset: Offset, pairs: Sequence[PairedErrors]
+) -> Iterator[PriorComparison]:
     comparison = compare_errors(pairs)
     new, old = (np.concatenate(errors) for errors in zip(*((pair.first, pair.second) for pair in pairs), strict=True))
     quantities: tuple[tuple[Quantity, Literal["N", "N m"], slice, ErrorRatio], ...] = (
@@ -454,14 +436,22 @@ def _compared(names: Mapping[str, Any], pairs: Sequence[PairedErrors]) -> Iterat
         ("moment", "N m", MOMENT, comparison.moment),
     )
     for quantity, unit, axes, ratio in quantities:
+        low, high = known_interval(ratio)
         mean, prior_mean = (float(np.linalg.norm(error[:, axes], axis=1).mean()) for error in (new, old))
         yield PriorComparison(
-            **names,
+            sensor=sensor,
+            candidate=candidate,
+            prior=prior,
+            offset=offset,
             quantity=quantity,
             unit=unit,
             samples=comparison.count,
             mean=mean,
             prior_mean=prior_mean,
             constant=float(np.linalg.norm(new[:, axes].mean(axis=0))),
-            **ratio_fields(ratio),
+            ratio=ratio.ratio,
+            ratio_low=low,
+            ratio_high=high,
+            stretches=ratio.stretches,
+            judgement=ratio.judgement,
         )

@@ -11,17 +11,25 @@ import numpy as np
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.paired_comparison import ALIKE
 from forcetorque.base.wrench import FORCE, MOMENT
-from forcetorque.evaluation.load_cases.load_case import LoadCase, UseOffset
-from forcetorque.evaluation.load_cases.operating_loads import Refuse, loads_of_use, raise_refused
-from forcetorque.evaluation.load_cases.prediction import CONFIDENCE, ErrorSize, PredictedError, predict, predict_prior
+from forcetorque.evaluation.load_cases.load_case import LoadCase, LoadCaseOffset
+from forcetorque.evaluation.load_cases.operating_loads import Refuse, operating_load_cases, raise_rejection
+from forcetorque.evaluation.load_cases.prediction import (
+    CONFIDENCE,
+    ErrorMagnitude,
+    ErrorSource,
+    PredictedError,
+    predict,
+    predict_prior,
+)
 from forcetorque.evaluation.load_cases.section import LoadCaseTable
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
-    JudgedExcitation,
     MeasuredError,
     PriorComparison,
     compare_with_prior,
-    judged_evidence,
+    evidence_by_calibration,
+    static_loads_text,
+    validation_excitation,
 )
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
@@ -51,7 +59,7 @@ class Reason(Row):
     """What to do about it; None where the reason says it itself, or where nothing is to be done."""
 
 
-class UseError(Row):
+class LoadCaseError(Row):
     """Predicted root mean square error of readings, averaged over a second, at the loads of a use."""
 
     quantity: Annotated[Literal["force", "moment"], Shown("error of")]
@@ -114,7 +122,7 @@ class UseVerdict(Row):
     """What speaks against it and for it, the weightiest first."""
     within: float | None
     """Predicted probability that the error is no more than allowed; None where nothing predicts it."""
-    errors: tuple[UseError, ...]
+    errors: tuple[LoadCaseError, ...]
     """Predicted errors of force and moment; none without a covariance."""
 
     @property
@@ -123,7 +131,7 @@ class UseVerdict(Row):
         return TONES[self.decision]
 
 
-def use_sentences(verdicts: tuple[UseVerdict, ...]) -> list[str]:
+def verdict_texts(verdicts: tuple[UseVerdict, ...]) -> list[str]:
     """Give the verdicts as sentences, each with the name of its calibration.
 
     Args:
@@ -156,7 +164,7 @@ TARE: Final = 'Tare the sensor before use, and state offset = "tared" in [[load_
 """About a constant error."""
 FIT_GENERATIVE: Final = "Calibrate by the generative model, whose calibrations know their errors at any load."
 """About a calibration without a covariance."""
-_BY_SOURCE: Final = {
+_BY_SOURCE: Final[dict[ErrorSource, str]] = {
     "matrix": "the matrix: record more and larger loads, like those of the use, and calibrate again.",
     "offset": 'the offset: tare the sensor before use and state offset = "tared" in [[load_case]], or record loads '
     "that are known better.",
@@ -165,7 +173,7 @@ _BY_SOURCE: Final = {
 }
 
 
-def lower_the_predicted(after: PredictedError, allowed: tuple[float, float]) -> str:
+def error_reduction_advice(after: PredictedError, allowed: tuple[float, float]) -> str:
     """Say what lowers a predicted error, by what makes most of it where it is farthest beyond what is allowed.
 
     Args:
@@ -177,7 +185,7 @@ def lower_the_predicted(after: PredictedError, allowed: tuple[float, float]) -> 
     """
     force, moment = allowed
     worst = after.force if after.force.at_most / force >= after.moment.at_most / moment else after.moment
-    shares = {source: float(getattr(worst.sources, source)) for source in _BY_SOURCE}
+    shares = {source: worst.sources[source] for source in _BY_SOURCE}
     quantity = "force" if worst is after.force else "moment"
     return f"Most of the {quantity} error comes from {_BY_SOURCE[max(shares, key=shares.__getitem__)]}"
 
@@ -187,15 +195,15 @@ HOPELESS: Final = 0.1
 FEWEST_S: Final = 5
 """Seconds of judged data below which they test nothing."""
 CONSTANT_SHARE: Final = 0.01
-"""Constant error that is allowed where nobody states an error, as a share of the loads."""
+"""Constant error that is allowed by default, as a share of the loads."""
 _QUANTITIES: Final[tuple[tuple[Literal["force", "moment"], Literal["N", "N m"], slice], ...]] = (
     ("force", "N", FORCE),
     ("moment", "N m", MOMENT),
 )
 
 
-class UseJudge:
-    """Holds one calibration to one use."""
+class LoadCaseAssessment:
+    """Assesses one calibration at one load case."""
 
     def __init__(
         self,
@@ -268,7 +276,7 @@ class UseJudge:
             return
         share = self.after.within(*self.case.requirement)
         words = self._predicted_words()
-        remedy = lower_the_predicted(self.after, self.case.requirement)
+        remedy = error_reduction_advice(self.after, self.case.requirement)
         if share >= CONFIDENCE:
             yield Reason(against=None, text=words)
         elif share <= HOPELESS:
@@ -281,7 +289,7 @@ class UseJudge:
         """Such as `it errs by some 4.1 N, at most 6.3 N, where 16 N are allowed, and by some 0.1 N m, ...`."""
         parts, prior = [], []
         for (quantity, unit, _), allowed in zip(_QUANTITIES, self.case.requirement, strict=True):
-            size: ErrorSize = getattr(self.after, quantity)
+            size: ErrorMagnitude = getattr(self.after, quantity)
             limit = "" if np.isinf(allowed) else f" ({amount(allowed, unit)} allowed)"
             parts.append(f"by some {amount(size.typical, unit)}, at most {amount(size.at_most, unit)}{limit}")
             if self.before is not None:
@@ -289,7 +297,7 @@ class UseJudge:
         before = f"; the prior by some {' and '.join(prior)}" if prior else ""
         return f"it errs {' and '.join(parts)}{before}"
 
-    def errors(self) -> Iterator[UseError]:
+    def errors(self) -> Iterator[LoadCaseError]:
         """Predict the errors.
 
         Yields:
@@ -299,9 +307,9 @@ class UseJudge:
             return
         loads = (self.case.force_N, self.case.moment_Nm)
         for (quantity, unit, _), allowed, load in zip(_QUANTITIES, self.case.requirement, loads, strict=True):
-            after: ErrorSize = getattr(self.after, quantity)
-            before: ErrorSize | None = None if self.before is None else getattr(self.before, quantity)
-            yield UseError(
+            after: ErrorMagnitude = getattr(self.after, quantity)
+            before: ErrorMagnitude | None = None if self.before is None else getattr(self.before, quantity)
+            yield LoadCaseError(
                 quantity=quantity,
                 unit=unit,
                 load=load,
@@ -314,17 +322,17 @@ class UseJudge:
                 allowed=None if np.isinf(allowed) else allowed,
                 measured=self._measured_size(quantity),
                 axes=tuple(after.axes.tolist()),
-                from_matrix=after.sources.matrix,
-                from_offset=after.sources.offset,
-                from_variables=after.sources.variables,
-                from_noise=after.sources.noise,
+                from_matrix=after.sources["matrix"],
+                from_offset=after.sources["offset"],
+                from_variables=after.sources["variables"],
+                from_noise=after.sources["noise"],
             )
 
     def _measured_size(self, quantity: str) -> float | None:
         if self.measured is None:
             return None
         error: MeasuredError = getattr(self.measured, quantity)
-        return error.rest if self.case.offset is UseOffset.TARED else float(np.hypot(error.constant, error.rest))
+        return error.rest if self.case.offset is LoadCaseOffset.TARED else float(np.hypot(error.constant, error.rest))
 
     def _measured(self) -> Iterator[Reason]:
         if self.measured is None:
@@ -349,14 +357,16 @@ class UseJudge:
                 )
                 yield Reason(against="data", text=text, remedy=LOOK_FOR_CAUSE)
         # sessions at rest, each in a posture of its own, do not move: offsets take up what a wrong matrix makes of it
-        seen = JudgedExcitation.of(self.measured.reference, [self.calibration], moved=self.measured.moved)
-        if seen.words is not None:
-            yield Reason(against="data", text=f"{seen.words}; judge data that move", remedy=JUDGE_WHAT_MOVES)
+        static = static_loads_text(
+            *validation_excitation(self.measured.reference, [self.calibration], moved=self.measured.moved)
+        )
+        if static is not None:
+            yield Reason(against="data", text=f"{static}; judge data that move", remedy=JUDGE_WHAT_MOVES)
 
     def _constant(
         self, error: MeasuredError, quantity: str, unit: str, allowed: float, load: float
     ) -> Iterator[Reason]:
-        if self.case.offset is UseOffset.TARED or np.isinf(allowed):
+        if self.case.offset is LoadCaseOffset.TARED or np.isinf(allowed):
             return
         limit = allowed if self.case.states_requirement else CONSTANT_SHARE * load
         if error.constant_at_least > limit:
@@ -374,7 +384,7 @@ class UseJudge:
             name="judged",
             words="",
             wrench=self.measured.moved,
-            offset=UseOffset.TARED,
+            offset=LoadCaseOffset.TARED,
         )
         predicted = predict(self.calibration, there)
         slow = self.posterior.to_wrench**2 @ np.array([row.white**2 * row.ratio for row in self.posterior.noise])
@@ -402,7 +412,7 @@ def use_verdicts(
     calibrations: Calibrations,
     more: Sequence[LoadCaseTable] = (),
     *,
-    refuse: Refuse = raise_refused,
+    refuse: Refuse = raise_rejection,
 ) -> tuple[UseVerdict, ...]:
     """Say of every calibration whether it may be used for the loads to come.
 
@@ -427,15 +437,15 @@ def use_verdicts(
     for name, calibration in judged.items():
         for run in campaign.runs:
             require_unseen_if_judged(name, calibration, run)
-    measured = judged_evidence(campaign, judged)
+    measured = evidence_by_calibration(campaign, judged)
     compared = compare_with_prior(campaign, judged) if measured else ()
     worse = [row for row in compared if row.judgement == "worse"]
     verdicts = []
     for name, calibration in judged.items():
         informing = tuple(dict.fromkeys(_informing(campaign, name, calibration)))
-        for case in loads_of_use(campaign.runs, more, matrix=calibration.matrix, refuse=refuse):
+        for case in operating_load_cases(campaign.runs, more, matrix=calibration.matrix, refuse=refuse):
             try:
-                judge = UseJudge(
+                judge = LoadCaseAssessment(
                     case,
                     calibration,
                     measured.get(name),
@@ -458,11 +468,11 @@ def _informing(campaign: Campaign, name: str, calibration: Calibration) -> Itera
                 yield Reason(against=None, text=sentence)
 
 
-_COMPARED: Final = {UseOffset.FITTED: Offset.FITTED, UseOffset.TARED: Offset.JUDGED_MEAN}
+_COMPARED: Final = {LoadCaseOffset.FITTED: Offset.FITTED, LoadCaseOffset.TARED: Offset.JUDGED_MEAN}
 """With which offset judged data compare a calibration and its prior for a use."""
 
 
-def _verdict(campaign: Campaign, name: str, judge: UseJudge, informing: tuple[Reason, ...]) -> UseVerdict:
+def _verdict(campaign: Campaign, name: str, judge: LoadCaseAssessment, informing: tuple[Reason, ...]) -> UseVerdict:
     decision, reasons = judge.verdict()
     case = judge.case
     return UseVerdict(

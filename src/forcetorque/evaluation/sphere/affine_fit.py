@@ -9,17 +9,17 @@ on which axes have no intersection but a half-width.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.evaluation.sphere.algebraic_fit import inverse_lengths
 from forcetorque.evaluation.sphere.cloud import reach, sums_of_products
 from forcetorque.evaluation.sphere.fit_results import (
     EllipsoidFit,
+    beyond_measured_extent,
     ellipsoid_of_map,
-    far_from,
     index_ends,
     lengths_of,
     lowest_index,
@@ -29,59 +29,49 @@ from forcetorque.evaluation.sphere.fit_results import (
 )
 from forcetorque.evaluation.sphere.model_free_fit import is_flat
 from forcetorque.evaluation.sphere.resampling import FEWEST, Resampled, resampled, whole
+from forcetorque.results.table import AxisValues, Row
 
 _ROUNDING = 1e-14
 """Square of a radius, relative to that of the largest, at which an ellipsoid is flat."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MappedFit:
+class MappedFit(ArrayRecord):
     """An ellipsoid that is the image of the model's sphere."""
 
-    matrix: FloatArray
+    matrix: FloatArray = field(metadata=array(3, 3))
     """Map of reference forces to measured ones; shape (3, 3)."""
-    centre: FloatArray
+    centre: FloatArray = field(metadata=array(3))
     """What the sensor reads without force; shape (3,); N."""
     radius: float
     """Radius of the model's sphere: weight on the sensor; N."""
     fit: EllipsoidFit
     """The ellipsoid."""
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", read_only(self.matrix, name="matrix", shape=(3, 3)))
-        object.__setattr__(self, "centre", read_only(self.centre, name="centre", shape=(3,)))
 
+class MomentRow(Row):
+    """How far moments reach while the force goes over its sphere, with the model."""
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MomentFit:
-    """How far moments reach while the force goes over its sphere, by the sensor and by the model."""
-
-    centre: FloatArray
-    """What the sensor reads without force; shape (3,); N m."""
-    half_widths: FloatArray
-    """Largest moment about each axis that the sensor would read; shape (3,); N m."""
-    expected_half_widths: FloatArray
-    """Largest moment about each axis by the model; shape (3,); N m."""
-    low: FloatArray
-    """Lower ends of the 95 % intervals of the half-widths; shape (3,); N m."""
-    high: FloatArray
-    """Upper ends; shape (3,); N m."""
-    stray: float
-    """Root mean square of the model's moment that is no function of its force, relative to the largest
-    half-width; 0 for a stiff limb."""
     identifiable: bool
     """Whether the half-widths are worth comparing."""
     why: tuple[str, ...]
-    """What speaks against it; empty if it is identifiable."""
-
-    def __post_init__(self) -> None:
-        for name in ("centre", "half_widths", "expected_half_widths", "low", "high"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(3,)))
-
-    @property
-    def errors(self) -> FloatArray:
-        """Measured minus expected half-widths; shape (3,); N m."""
-        return self.half_widths - self.expected_half_widths
+    """What speaks against it."""
+    centre_Nm: AxisValues
+    """What the sensor reads without force."""
+    half_width_Nm: AxisValues
+    """Largest moment about each axis that the sensor would read."""
+    low_Nm: AxisValues
+    """Lower ends of their intervals."""
+    high_Nm: AxisValues
+    """Upper ends."""
+    expected_half_width_Nm: AxisValues
+    """Largest moment about each axis by the model."""
+    error_Nm: AxisValues
+    """Measured minus expected."""
+    index_Nm: float
+    """Sample standard deviation of the three errors."""
+    stray_share: float
+    """Root mean square of the model's moment that does not follow its force, relative to the largest half-width."""
 
 
 def fit_mapped(force: FloatArray, reference: FloatArray, *, radius: float, tolerance: float) -> MappedFit | None:
@@ -152,7 +142,7 @@ def image_of_sphere(
     low, high = estimates.jackknifed
     mean = float(ellipsoid.axis_intersections.mean())
     why = _against(len(error), relative_margin(low[:3], high[:3], mean), tolerance)
-    far = far_from(ellipsoid, max(extent, radius)) if why else None
+    far = beyond_measured_extent(ellipsoid, max(extent, radius)) if why else None
     if far is not None:
         return no_ellipsoid(*why, far)
     tilt = not why and relative_margin(low[3:], high[3:], mean) <= tolerance
@@ -178,7 +168,7 @@ def image_of_sphere(
 
 def fit_moment(
     moment: FloatArray, reference_moment: FloatArray, reference: FloatArray, *, radius: float, tolerance: float
-) -> MomentFit | None:
+) -> MomentRow | None:
     """Fit the maps of reference forces to measured and to reference moments.
 
     Args:
@@ -209,15 +199,18 @@ def fit_moment(
     if share > tolerance:
         why += (f"the limb is not stiff: {percent(share)} of its largest moment does not follow the force",)
     low, high = estimates.ranged if why else estimates.jackknifed
-    return MomentFit(
-        centre=centre,
-        half_widths=estimates.whole,
-        expected_half_widths=reach,
-        low=np.maximum(low, 0.0),
-        high=high,
-        stray=share,
+    errors = estimates.whole - reach
+    return MomentRow(
         identifiable=not why,
         why=why,
+        centre_Nm=centre,
+        half_width_Nm=estimates.whole,
+        low_Nm=np.maximum(low, 0.0),
+        high_Nm=high,
+        expected_half_width_Nm=reach,
+        error_Nm=errors,
+        index_Nm=float(np.std(errors, ddof=1)),
+        stray_share=share,
     )
 
 

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, read_only
 from forcetorque.base.errors import FitError, ShapeError, UnitError
 from forcetorque.evaluation.sphere.resampling import split
 
@@ -135,23 +135,19 @@ _ROWS = 8192
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class QuadricMoments:
+class QuadricMoments(ArrayRecord):
     """Sums of products of the ten monomials of a quadric, for each of b blocks.
 
     The monomials are x2, y2, z2, 2yz, 2xz, 2xy, 2x, 2y, 2z and 1 of points that were moved by `shift` and
     divided by `scale`, so that they lie about the origin and are of the order of 1.
     """
 
-    shift: FloatArray
+    shift: FloatArray = field(metadata=array(3))
     """Mean of the cloud; shape (3,)."""
     scale: float
     """Root mean square distance from it."""
-    sums: FloatArray
+    sums: FloatArray = field(metadata=array(None, 10, 10))
     """Sums of products; shape (b, 10, 10)."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "shift", read_only(self.shift, name="shift", shape=(3,)))
-        object.__setattr__(self, "sums", read_only(self.sums, name="sums", shape=(None, 10, 10)))
 
     @classmethod
     def of(cls, cloud: FloatArray) -> QuadricMoments:

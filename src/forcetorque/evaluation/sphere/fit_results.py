@@ -4,30 +4,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, read_only
 from forcetorque.base.errors import FitError
 from forcetorque.evaluation.sphere.resampling import Resampled
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Ellipsoid:
+class Ellipsoid(ArrayRecord):
     """Points x with `(x - centre)^T shape (x - centre) = 1`; lengths in the unit of x."""
 
-    centre: FloatArray
+    centre: FloatArray = field(metadata=array(3))
     """Centre; shape (3,)."""
-    shape: FloatArray
+    shape: FloatArray = field(metadata=array(3, 3))
     """Symmetric and positive definite; shape (3, 3); one over the square of a length."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "centre", read_only(self.centre, name="centre", shape=(3,)))
-        given = read_only(self.shape, name="shape", shape=(3, 3))
-        even = read_only(0.5 * (given + given.T), name="shape", shape=(3, 3))
+        check_arrays(self)
+        even = read_only(0.5 * (self.shape + self.shape.T), name="shape", shape=(3, 3))
         if not (np.isfinite(even).all() and np.linalg.eigvalsh(even)[0] > 0.0):
             raise FitError("ellipsoid: expected a positive definite shape, got that of an open surface")
         object.__setattr__(self, "shape", even)
@@ -44,7 +43,7 @@ class Ellipsoid:
     def half_widths(self) -> FloatArray:
         """Half of its extent along each axis, `sqrt((shape^-1)_ii)`; shape (3,).
 
-        The most that the sensor reads along an axis, whatever it reads along the others.
+        The most that the sensor reads along an axis, for any reading along the others.
         """
         return np.sqrt(np.diag(np.linalg.inv(self.shape)))
 
@@ -86,7 +85,7 @@ TOLERANCE = 0.1
 _FAR = 5.0
 """Longest radius, relative to the extent of the cloud and to the weight, beyond which nothing was measured there.
 
-Sensors had 1.6 times the weight at most; on grids of 10 to 60 degrees to each side, whatever the noise, ellipsoids that
+Sensors had 1.6 times the weight at most; on grids of 10 to 60 degrees to each side, at any noise, ellipsoids that
 are identifiable without the model had less than 2.5 times the extent of their cloud.
 """
 
@@ -113,10 +112,10 @@ class CloudForm(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class RadiusFit:
+class RadiusFit(ArrayRecord):
     """A sphere of one radius through a cloud: what a perfect sensor would read."""
 
-    centre: FloatArray | None
+    centre: FloatArray | None = field(metadata=array(3))
     """Centre by the geometric fit; shape (3,); None where it went on opening."""
     algebraic: float
     """Radius by linear least squares; infinite for a plane."""
@@ -133,31 +132,27 @@ class RadiusFit:
     why: tuple[str, ...]
     """What speaks against it; empty if it is identifiable."""
 
-    def __post_init__(self) -> None:
-        if self.centre is not None:
-            object.__setattr__(self, "centre", read_only(self.centre, name="centre", shape=(3,)))
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class EllipsoidFit:
+class EllipsoidFit(ArrayRecord):
     """An ellipsoid with the uncertainty of its axis intersections."""
 
     ellipsoid: Ellipsoid | None
     """The ellipsoid; None where the cloud or the reference is flat to rounding."""
-    low: FloatArray
+    low: FloatArray = field(metadata=array(3))
     """Lower ends of the axis intersections; shape (3,)."""
-    high: FloatArray
+    high: FloatArray = field(metadata=array(3))
     """Upper ends; infinite where the surface may be open; shape (3,)."""
-    half_width_low: FloatArray
+    half_width_low: FloatArray = field(metadata=array(3))
     """Lower ends of the half-widths; shape (3,)."""
-    half_width_high: FloatArray
+    half_width_high: FloatArray = field(metadata=array(3))
     """Upper ends; infinite where the surface may be open; shape (3,)."""
     index_low: float
     """Lower end of the sample standard deviation of the three axis intersections; 0 where their intervals share a
     value."""
     index_high: float
     """Its upper end; infinite where the surface may be open."""
-    centre_margin: FloatArray
+    centre_margin: FloatArray = field(metadata=array(3))
     """Half of the 95 % interval of the centre; infinite without an ellipsoid; shape (3,)."""
     rms: float
     """Root mean square distance from the ellipsoid; with the model from where the map has each sample on it, which is
@@ -169,10 +164,6 @@ class EllipsoidFit:
     intersections and nothing in between."""
     why: tuple[str, ...]
     """What speaks against the intersections; empty if they are identifiable."""
-
-    def __post_init__(self) -> None:
-        for name in ("low", "high", "half_width_low", "half_width_high", "centre_margin"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(3,)))
 
     @property
     def index(self) -> float:
@@ -226,7 +217,7 @@ def no_ellipsoid(*reasons: str) -> EllipsoidFit:
     )
 
 
-def far_from(ellipsoid: Ellipsoid, extent: float) -> str | None:
+def beyond_measured_extent(ellipsoid: Ellipsoid, extent: float) -> str | None:
     """Find whether an ellipsoid lies where nothing was measured.
 
     Args:

@@ -187,7 +187,7 @@ _ITERATIONS = 60
 _CONVERGED = 1e-7
 """Step, relative to the size of the cloud, at which a fit has converged."""
 _OPEN = 1e3
-"""Radius, relative to the size of the cloud, beyond which nobody tells a surface from a flat one."""
+"""Radius, relative to the size of the cloud, beyond which a surface cannot be distinguished from a plane."""
 _ROUNDING = 1e-12
 """Decrease of the sum of squares, relative to itself, that is no decrease."""
 _DAMPING, _LARGEST_DAMPING = 1e-6, 1e8

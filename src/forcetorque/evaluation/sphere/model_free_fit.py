@@ -22,7 +22,7 @@ from forcetorque.evaluation.sphere.fit_results import (
     Ellipsoid,
     EllipsoidFit,
     RadiusFit,
-    far_from,
+    beyond_measured_extent,
     index_ends,
     indices_of,
     lengths_of,
@@ -147,7 +147,7 @@ def fit_ellipsoid(cloud: FloatArray, radius: RadiusFit, *, tolerance: float) -> 
     else:
         ellipsoid = Ellipsoid(centre=first.centre[0], shape=first.shape[0])
     why = _against(len(cloud), direct, weighted, geometric, slice(0, 3), tolerance) + _squashed(ellipsoid)
-    far = far_from(ellipsoid, reach(cloud)) if why else None
+    far = beyond_measured_extent(ellipsoid, reach(cloud)) if why else None
     if far is not None:
         return no_ellipsoid(*why, far)
     low, high, index_low, index_high = _intervals(direct, weighted, geometric, radius if why else None)

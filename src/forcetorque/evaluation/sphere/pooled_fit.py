@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, read_only
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.sphere.affine_fit import image_of_sphere, inverse_lengths_of
 from forcetorque.evaluation.sphere.algebraic_fit import direct_shape_with_own_centres, inverse_lengths
@@ -36,14 +36,11 @@ from forcetorque.evaluation.sphere.resampling import BLOCKS, jackknife_margin, r
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class OwnCentres:
+class OwnCentres(ArrayRecord):
     """An ellipsoid that is fitted to several clouds at once."""
 
-    parameters: FloatArray
+    parameters: FloatArray = field(metadata=array(None))
     """Centre of each cloud, then the lower triangle of L as in `orthogonal`; shape (3 t + 6,)."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "parameters", read_only(self.parameters, name="parameters", shape=(None,)))
 
     @property
     def centres(self) -> FloatArray:
@@ -111,23 +108,18 @@ def _direct(clouds: Sequence[FloatArray]) -> OwnCentres | None:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PooledSphere:
+class PooledSphere(ArrayRecord):
     """What several trials say together."""
 
     free: EllipsoidFit
     """Ellipsoid without the model; its centre is zero; N."""
-    free_centres: FloatArray | None
+    free_centres: FloatArray | None = field(metadata=array(None, 3))
     """Centre of each trial, in their order; shape (t, 3); N; None without an ellipsoid."""
     mapped: EllipsoidFit | None
     """Ellipsoid with the model; its centre is zero; N; None where a trial has no reference."""
-    mapped_centres: FloatArray | None
+    mapped_centres: FloatArray | None = field(metadata=array(None, 3))
     """What the sensor read without force in each trial; shape (t, 3); N; None without its
     ellipsoid."""
-
-    def __post_init__(self) -> None:
-        for name in ("free_centres", "mapped_centres"):
-            if getattr(self, name) is not None:
-                object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(None, 3)))
 
 
 def pool_trials(

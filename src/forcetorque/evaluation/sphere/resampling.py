@@ -14,13 +14,13 @@ References:
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from itertools import combinations
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, read_only
 
 BLOCKS = 10
 """Contiguous blocks of time, where there are samples enough."""
@@ -36,22 +36,17 @@ _WINDOWS = (3, 4)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Resampled:
+class Resampled(ArrayRecord):
     """k numbers estimated by one method from the whole recording and from parts of it."""
 
-    whole: FloatArray
+    whole: FloatArray = field(metadata=array("k"))
     """From all; shape (k,)."""
-    without_one: FloatArray
+    without_one: FloatArray = field(metadata=array(None, "k"))
     """From all blocks but one; shape (b, k)."""
-    halves: FloatArray
+    halves: FloatArray = field(metadata=array(None, "k"))
     """From every half of the blocks that moves enough; shape (h, k)."""
-    windows: FloatArray
+    windows: FloatArray = field(metadata=array(None, "k"))
     """From contiguous windows that move enough; shape (w, k)."""
-
-    def __post_init__(self) -> None:
-        k = len(self.whole)
-        for name, shape in (("whole", (k,)), ("without_one", (None, k)), ("halves", (None, k)), ("windows", (None, k))):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=shape))
 
     @property
     def margin(self) -> FloatArray:

@@ -5,10 +5,8 @@ from __future__ import annotations
 
 from typing import Self
 
-import numpy as np
-
 from forcetorque.base.arrays import FloatArray
-from forcetorque.evaluation.sphere.affine_fit import MomentFit
+from forcetorque.evaluation.sphere.affine_fit import MomentRow
 from forcetorque.evaluation.sphere.fit_results import CloudForm, EllipsoidFit, RadiusFit
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, SphereAnalysis
 from forcetorque.results.number_text import finite_or_none
@@ -175,54 +173,6 @@ class MomentEllipsoidRow(Row):
         )
 
 
-class MomentRow(Row):
-    """How far moments reach while the force goes over its sphere, with the model."""
-
-    identifiable: bool
-    """Whether the half-widths are worth comparing."""
-    why: tuple[str, ...]
-    """What speaks against it."""
-    centre_Nm: AxisValues
-    """What the sensor reads without force."""
-    half_width_Nm: AxisValues
-    """Largest moment about each axis that the sensor would read."""
-    low_Nm: AxisValues
-    """Lower ends of their intervals."""
-    high_Nm: AxisValues
-    """Upper ends."""
-    expected_half_width_Nm: AxisValues
-    """Largest moment about each axis by the model."""
-    error_Nm: AxisValues
-    """Measured minus expected."""
-    index_Nm: float
-    """Sample standard deviation of the three errors."""
-    stray_share: float
-    """Root mean square of the model's moment that does not follow its force, relative to the largest half-width."""
-
-    @classmethod
-    def of(cls, fit: MomentFit) -> Self:
-        """Take the half-widths of moments with the model.
-
-        Args:
-            fit: The fit; N m.
-
-        Returns:
-            Its row.
-        """
-        return cls(
-            identifiable=fit.identifiable,
-            why=fit.why,
-            centre_Nm=fit.centre,
-            half_width_Nm=fit.half_widths,
-            low_Nm=fit.low,
-            high_Nm=fit.high,
-            expected_half_width_Nm=fit.expected_half_widths,
-            error_Nm=fit.errors,
-            index_Nm=float(np.std(fit.errors, ddof=1)),
-            stray_share=fit.stray,
-        )
-
-
 class SphereRow(Row):
     """One sensor, read in one way."""
 
@@ -239,7 +189,7 @@ class SphereRow(Row):
     samples: int
     """Number of samples."""
     model_mass_kg: float | None
-    """Mass that hangs on the sensor by the model."""
+    """Mass beyond the sensor by the model."""
     form: CloudForm
     """What part of a sphere the forces can be told to be."""
     force_scatter: float | None
@@ -270,7 +220,7 @@ class SphereRow(Row):
             Its row.
         """
         analysis = sphere.analysis
-        mapped, moment, free_moment = analysis.mapped, analysis.moment, analysis.free_moment
+        mapped, free_moment = analysis.mapped, analysis.free_moment
         return cls(
             sensor=sphere.sensor,
             serial=sphere.serial,
@@ -287,7 +237,7 @@ class SphereRow(Row):
             without_reference=EllipsoidRow.of(analysis.free, analysis),
             with_reference=None if mapped is None else EllipsoidRow.of(mapped.fit, analysis),
             moment_without_reference=None if free_moment is None else MomentEllipsoidRow.of(free_moment),
-            moment_with_reference=None if moment is None else MomentRow.of(moment),
+            moment_with_reference=analysis.moment,
         )
 
 

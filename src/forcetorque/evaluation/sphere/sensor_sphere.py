@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, ShapeError, UnitError, known_names
-from forcetorque.evaluation.sphere.affine_fit import MappedFit, MomentFit, fit_mapped, fit_moment
+from forcetorque.evaluation.sphere.affine_fit import MappedFit, MomentRow, fit_mapped, fit_moment
 from forcetorque.evaluation.sphere.cloud import is_one_point, require_cloud, share_of_directions
 from forcetorque.evaluation.sphere.fit_results import TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, percent
 from forcetorque.evaluation.sphere.model_free_fit import fit_ellipsoid, fit_radius, may_be_flat
@@ -48,7 +48,7 @@ def axis_errors(masses: Any, *, reference_mass: float, gravity: float) -> FloatA
 
     Args:
         masses: Apparent masses by the axis intersections; shape (3,); kg.
-        reference_mass: What hangs on the sensor; kg.
+        reference_mass: Mass beyond the sensor; kg.
         gravity: Magnitude of gravity; m/s2.
 
     Returns:
@@ -94,7 +94,7 @@ class SphereAnalysis:
     """Ellipsoid through the forces with the model; N; None without reference."""
     free_moment: EllipsoidFit | None
     """Ellipsoid through the moments without the model; N m; None where the moment does not change."""
-    moment: MomentFit | None
+    moment: MomentRow | None
     """Moments with the model; None without reference."""
 
     def masses(self, fit: EllipsoidFit) -> FloatArray | None:
@@ -318,7 +318,7 @@ def sensor_spheres(
         ForceTorqueError: If a fit fails.
         ExperimentError: If there is no way to read the sensor, a calibration may not be applied, something touches
             beyond the sensor in every interval, or the supports of the intervals are on both sides of the sensor, so
-            that not the same mass hangs on it.
+            that the mass beyond it differs.
         SerialNumberError: If a calibration is of another sensor.
     """
     where = f"sensor {run.sensor.name!r}"
@@ -421,7 +421,7 @@ def _analysed(
 
 
 def _one_mass(run: SensorRun, intervals: Sequence[Interval]) -> float | None:
-    """Mass that hangs on the sensor in all intervals; kg."""
+    """Mass beyond the sensor in all intervals; kg."""
     masses = [_mass(run, interval) for interval in intervals]
     first = masses[0] or 0.0
     for interval, mass in zip(intervals, masses, strict=True):
@@ -435,7 +435,7 @@ def _one_mass(run: SensorRun, intervals: Sequence[Interval]) -> float | None:
 
 
 def _mass(run: SensorRun, interval: Interval) -> float | None:
-    """Mass that hangs on the sensor, from the force that it reads at rest, in whatever posture; kg."""
+    """Mass beyond the sensor, from the force that it reads at rest in any posture; kg."""
     question = _question(run, interval)
     joints = required_joints_of(question)
     rest = JointMotion.at_rest(joints, np.zeros((1, len(joints))))

@@ -286,7 +286,7 @@ def compare(
     Args:
         paths: Experiment files, in the order of the trials.
         sensors: Names of sensors, each in one file at least; None for all.
-        calibrations: Calibrations by name, each for the sensor of its name and serial number in whatever file.
+        calibrations: Calibrations by name, each for the sensor of its name and serial number in any of the files.
         intervals: Labels or kinds of the intervals whose motion draws the sphere; None for what each file says.
         by_interval: Whether each interval is a trial of its own; else all of a file are taken together.
         progress: Called with a line for people at every file, and at every group that is pooled.

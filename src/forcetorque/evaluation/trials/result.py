@@ -6,10 +6,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Self
 
-from forcetorque.base.arrays import BoolArray
 from forcetorque.evaluation.sphere.fit_results import CloudForm, EllipsoidFit
-from forcetorque.evaluation.sphere.result import EllipsoidRow, bounded
-from forcetorque.evaluation.trials.trials import Drift, TrialGroup, TrialSphere
+from forcetorque.evaluation.sphere.result import EllipsoidRow
+from forcetorque.evaluation.trials.trials import DriftRow, TrialGroup, TrialSphere
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import AxisValues, Row
 
@@ -40,7 +39,7 @@ class TrialRow(Row):
     gravity_m_s2: float
     """Magnitude of gravity."""
     model_mass_kg: float | None
-    """Mass that hangs on the sensor by the model."""
+    """Mass beyond the sensor by the model."""
     form: CloudForm
     """What part of a sphere the forces can be told to be."""
     no_reference: str | None
@@ -81,27 +80,6 @@ class TrialRow(Row):
             with_reference=None if mapped is None else EllipsoidRow.of(mapped.fit, analysis),
             without_reference=EllipsoidRow.of(analysis.free, analysis),
         )
-
-
-class DriftRow(Row):
-    """What changed from the first trial to the last; margins are for all seven numbers at once, from both intervals."""
-
-    identifiable: bool
-    """Whether both trials are; else nothing is said to have changed."""
-    index_kg: float
-    """Change of the index."""
-    index_margin_kg: float | None
-    """Its margin; none where it has no end."""
-    mass_kg: AxisValues
-    """Change of the apparent mass of each axis."""
-    mass_margin_kg: tuple[float | None, ...]
-    """Their margins."""
-    centre_N: AxisValues
-    """Change of what the sensor reads without force."""
-    centre_margin_N: tuple[float | None, ...]
-    """Its margins."""
-    exceeds: tuple[str, ...] | None
-    """What changed by more than its margin; none where it is not identifiable."""
 
 
 class GroupFitRow(Row):
@@ -184,7 +162,7 @@ def _ranks(groups: Sequence[TrialGroup], *, with_reference: bool) -> list[int | 
 
 def _group_fit(group: TrialGroup, rank: int | None, *, with_reference: bool) -> GroupFitRow:
     mean, drift = group.mean(with_reference=with_reference), group.drift(with_reference=with_reference)
-    fit, analysis, centres = group.pooled_fit(with_reference=with_reference), group.first.sphere.analysis, None
+    fit, centres = group.pooled_fit(with_reference=with_reference), None
     if group.pooled is not None:
         centres = group.pooled.mapped_centres if with_reference else group.pooled.free_centres
     return GroupFitRow(
@@ -195,29 +173,10 @@ def _group_fit(group: TrialGroup, rank: int | None, *, with_reference: bool) -> 
         pooled=None if fit is None else _pooled_row(fit, group),
         pooled_centre_N=None if centres is None else tuple(centres),
         rank=rank,
-        drift=None if drift is None else _drift_row(drift, analysis.gravity),
+        drift=drift,
     )
 
 
 def _pooled_row(fit: EllipsoidFit, group: TrialGroup) -> EllipsoidRow:
     # it has no centre of its own: each trial has one
     return EllipsoidRow.of(fit, group.first.sphere.analysis).model_copy(update={"centre_N": None})
-
-
-def _drift_row(drift: Drift, gravity: float) -> DriftRow:
-    exceeds = ["index"] if drift.index_exceeds else []
-    exceeds += _named("mass", drift.intersections_exceed) + _named("centre", drift.centre_exceeds)
-    return DriftRow(
-        identifiable=drift.identifiable,
-        index_kg=drift.index / gravity,
-        index_margin_kg=finite_or_none(drift.index_margin / gravity),
-        mass_kg=drift.intersections / gravity,
-        mass_margin_kg=bounded(drift.intersection_margin / gravity),
-        centre_N=drift.centre,
-        centre_margin_N=bounded(drift.centre_margin),
-        exceeds=tuple(exceeds) if drift.identifiable else None,
-    )
-
-
-def _named(what: str, exceed: BoolArray) -> list[str]:
-    return [f"{what} {axis}" for axis, beyond in zip("xyz", exceed, strict=True) if beyond]

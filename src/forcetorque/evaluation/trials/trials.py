@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, MissingFileError, known_names
 from forcetorque.evaluation.sphere.fit_results import EllipsoidFit
 from forcetorque.evaluation.sphere.pooled_fit import PooledSphere, pool_trials
 from forcetorque.evaluation.sphere.resampling import BLOCKS
-from forcetorque.evaluation.sphere.result import FailureRow
+from forcetorque.evaluation.sphere.result import FailureRow, bounded
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
 from forcetorque.evaluation.trials.section import TRIAL
 from forcetorque.experiment.additions import added_to
@@ -25,6 +25,8 @@ from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval
+from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.table import AxisValues, Row
 
 _UPPER = 0.975
 """Quantile at the upper end of a 95 % interval."""
@@ -70,49 +72,28 @@ def mean_of_trials(indices: Sequence[float]) -> TrialMean:
     return TrialMean(count=count, mean=mean, low=max(0.0, mean - margin), high=mean + margin)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Drift:
-    """What changed from one fit to another, last minus first.
+class DriftRow(Row):
+    """What changed from the first trial to the last; margins are for all seven numbers at once, from both intervals."""
 
-    Margins are for all seven numbers at once: where nothing changed, one trial in twenty has any number beyond its own.
-    """
-
-    index: float
-    """Change of the index; N."""
-    index_margin: float
-    """Its margin; N."""
-    intersections: FloatArray
-    """Change of the axis intersections; shape (3,); N."""
-    intersection_margin: FloatArray
-    """Their margins; shape (3,); N."""
-    centre: FloatArray
-    """Change of the centre; shape (3,); N."""
-    centre_margin: FloatArray
-    """Its margins; shape (3,); N."""
     identifiable: bool
-    """Whether both fits are: else nothing is said to have changed."""
-
-    def __post_init__(self) -> None:
-        for name in ("intersections", "intersection_margin", "centre", "centre_margin"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(3,)))
-
-    @property
-    def index_exceeds(self) -> bool:
-        """Whether the index changed by more than the intervals of both fits explain."""
-        return self.identifiable and abs(self.index) > self.index_margin
-
-    @property
-    def intersections_exceed(self) -> BoolArray:
-        """The same for each axis intersection; shape (3,)."""
-        return self.identifiable & (np.abs(self.intersections) > self.intersection_margin)
-
-    @property
-    def centre_exceeds(self) -> BoolArray:
-        """The same for the centre along each axis; shape (3,)."""
-        return self.identifiable & (np.abs(self.centre) > self.centre_margin)
+    """Whether both trials are; else nothing is said to have changed."""
+    index_kg: float
+    """Change of the index."""
+    index_margin_kg: float | None
+    """Its margin; none where it has no end."""
+    mass_kg: AxisValues
+    """Change of the apparent mass of each axis."""
+    mass_margin_kg: tuple[float | None, ...]
+    """Their margins."""
+    centre_N: AxisValues
+    """Change of what the sensor reads without force."""
+    centre_margin_N: tuple[float | None, ...]
+    """Its margins."""
+    exceeds: tuple[str, ...] | None
+    """What changed by more than its margin; none where it is not identifiable."""
 
 
-def drift_between(first: EllipsoidFit, last: EllipsoidFit) -> Drift | None:
+def drift_between(first: EllipsoidFit, last: EllipsoidFit, *, gravity: float) -> DriftRow | None:
     """Compare two trials.
 
     The margin of a difference has the halves of the two intervals that face each other as its sides, and is wider by
@@ -121,6 +102,7 @@ def drift_between(first: EllipsoidFit, last: EllipsoidFit) -> Drift | None:
     Args:
         first: Fit to the first trial.
         last: Fit to the last trial.
+        gravity: Magnitude of gravity in both; m/s2.
 
     Returns:
         The change; None where one has no ellipsoid.
@@ -128,19 +110,27 @@ def drift_between(first: EllipsoidFit, last: EllipsoidFit) -> Drift | None:
     if first.ellipsoid is None or last.ellipsoid is None:
         return None
     before, after = first.ellipsoid.axis_intersections, last.ellipsoid.axis_intersections
-    index, index_margin = _change(
+    (index,), (index_margin,) = _change(
         [first.index], [last.index], [first.index_low], [first.index_high], [last.index_low], [last.index_high]
     )
     wider = _wider_together()
     change, margin = _change(before, after, first.low, first.high, last.low, last.high)
-    return Drift(
-        index=float(index[0]),
-        index_margin=wider * float(index_margin[0]),
-        intersections=change,
-        intersection_margin=wider * margin,
-        centre=last.ellipsoid.centre - first.ellipsoid.centre,
-        centre_margin=wider * np.hypot(first.centre_margin, last.centre_margin),
-        identifiable=first.identifiable and last.identifiable,
+    margin, index_margin = wider * margin, wider * index_margin
+    centre = last.ellipsoid.centre - first.ellipsoid.centre
+    centre_margin = wider * np.hypot(first.centre_margin, last.centre_margin)
+    identifiable = first.identifiable and last.identifiable
+    exceeds = ["index"] if abs(index) > index_margin else []
+    for what, difference, limit in (("mass", change, margin), ("centre", centre, centre_margin)):
+        exceeds += [f"{what} {axis}" for axis, beyond in zip("xyz", np.abs(difference) > limit, strict=True) if beyond]
+    return DriftRow(
+        identifiable=identifiable,
+        index_kg=float(index) / gravity,
+        index_margin_kg=finite_or_none(float(index_margin) / gravity),
+        mass_kg=change / gravity,
+        mass_margin_kg=bounded(margin / gravity),
+        centre_N=centre,
+        centre_margin_N=bounded(centre_margin),
+        exceeds=tuple(exceeds) if identifiable else None,
     )
 
 
@@ -236,7 +226,7 @@ def read_trials(
     Args:
         paths: Experiment files.
         sensors: Names of sensors, each in one file at least; None for all.
-        calibrations: Calibrations by name, each for the sensor of its name and serial number in whatever file.
+        calibrations: Calibrations by name, each for the sensor of its name and serial number in any of the files.
         intervals: Labels or kinds of the intervals whose motion draws the sphere; None for what each file says.
         by_interval: Whether each interval is a trial of its own; else all of a file are taken together.
         progress: Called with a line for people at every file.
@@ -375,7 +365,7 @@ class TrialGroup:
         known = [fit.index / gravity for gravity, fit in fits if fit is not None and fit.identifiable]
         return mean_of_trials(known) if known else None
 
-    def drift(self, *, with_reference: bool) -> Drift | None:
+    def drift(self, *, with_reference: bool) -> DriftRow | None:
         """Compare the first trial with the last.
 
         Args:
@@ -390,7 +380,7 @@ class TrialGroup:
         ends = [trial.fit(with_reference=with_reference) for trial in (self.trials[0], self.trials[-1])]
         if len(self.trials) < 2 or ends[0] is None or ends[1] is None:
             return None
-        return drift_between(ends[0], ends[1])
+        return drift_between(ends[0], ends[1], gravity=self.first.gravity)
 
     def index(self, *, with_reference: bool) -> float | None:
         """Give the index by which the group may be compared with others.

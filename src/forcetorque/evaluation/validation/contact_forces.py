@@ -13,9 +13,9 @@ from forcetorque.base.noise.paired_comparison import PairedErrors, compare_error
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.evaluation.load_cases.validation_evidence import (
     ErrorComparison,
-    JudgedExcitation,
     fewest_independent,
-    ratio_fields,
+    known_interval,
+    validation_excitation,
 )
 from forcetorque.evaluation.validation.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
 from forcetorque.experiment.additions import with_recording_notes
@@ -89,7 +89,7 @@ class BestCandidate(Row):
         return f"{self.sensor}, offset {self.offset}: {'; '.join(words)}"
 
 
-def judged_best(
+def best_candidate(
     sensor: str,
     offset: Offset,
     candidates: Sequence[tuple[int, Offset]],
@@ -112,21 +112,29 @@ def judged_best(
     norms = {key: float(np.linalg.norm(sizes[key][:, :3], axis=1).mean()) for key in candidates}
     least = min(candidates, key=norms.__getitem__)
     names = {key: pooled.candidates[key[0]].name for key in candidates}
-    comparisons = tuple(
-        CandidateComparison(
-            candidate=names[least],
-            offset=offset,
-            quantity="force",
-            unit="N",
-            samples=len(sizes[least]),
-            mean=norms[least],
-            other=names[key],
-            other_mean=norms[key],
-            **ratio_fields(compare_errors(_pairs(recordings, least, key)).force),
+    comparisons = []
+    for key in candidates:
+        if key == least:
+            continue
+        ratio = compare_errors(_pairs(recordings, least, key)).force
+        low, high = known_interval(ratio)
+        comparisons.append(
+            CandidateComparison(
+                candidate=names[least],
+                offset=offset,
+                quantity="force",
+                unit="N",
+                samples=len(sizes[least]),
+                mean=norms[least],
+                other=names[key],
+                other_mean=norms[key],
+                ratio=ratio.ratio,
+                ratio_low=low,
+                ratio_high=high,
+                stretches=ratio.stretches,
+                judgement=ratio.judgement,
+            )
         )
-        for key in candidates
-        if key != least
-    )
     by_axis = np.argmin([sizes[key].mean(axis=0) for key in candidates], axis=0)
     return BestCandidate(
         sensor=sensor,
@@ -134,7 +142,7 @@ def judged_best(
         by_magnitude=names[least],
         by_axis=tuple(names[candidates[place]] for place in by_axis),
         judgement=_judgement(comparisons),
-        comparisons=comparisons,
+        comparisons=tuple(comparisons),
     )
 
 
@@ -306,13 +314,13 @@ def contact_force_blocks(
     for sensor in dict.fromkeys(row.sensor for row in verdicts):
         rows = [row for row in verdicts if row.sensor == sensor]
         yield without_vague(_table(rows))
-        yield mean_contact_table(rows)
+        yield constant_contact_table(rows)
         apart = [row for row in recordings if row.sensor == sensor]
         if apart:
             names = [row.recording for row in apart]
             caption = f"{sensor} ({apart[0].serial}), each recording by itself"
             yield with_first_column(without_vague(table_of(apart, caption, leave_out=WORTH)), "recording", names)
-            yield with_first_column(mean_contact_table(apart), "recording", names)
+            yield with_first_column(constant_contact_table(apart), "recording", names)
     if len({row.candidate for row in verdicts}) > 1:
         yield from (candidate.sentence for candidate in best)
 
@@ -330,7 +338,7 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
     expected = contacts.expected[np.isfinite(contacts.expected).all(axis=1)]
     if not len(expected):
         return
-    moved = JudgedExcitation.of(expected, ())
+    (moved_N, _), (moved_Nm, _) = validation_excitation(expected, ())
     for index, offset in _judgeable(contacts):
         wrenches = contacts.wrenches[index, offset]
         candidate, errors = contacts.candidates[index], errors_from_zero(wrenches, contacts.time_s[index, offset])
@@ -350,8 +358,8 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
             mean_absolute=errors.mean_absolute,
             bias=errors.bias,
             independent=fewest_independent(wrenches, contacts.time_s[index, offset]),
-            excitation_N=moved.force,
-            excitation_Nm=moved.moment,
+            excitation_N=moved_N,
+            excitation_Nm=moved_Nm,
         )
 
 
@@ -368,7 +376,7 @@ def _best(
     for index, offset in _judgeable(contacts):
         groups.setdefault(contacts.candidates[index].offset(offset), []).append((index, offset))
     for offset, candidates in groups.items():
-        yield judged_best(sensor.name, offset, candidates, contacts, recordings)
+        yield best_candidate(sensor.name, offset, candidates, contacts, recordings)
 
 
 def _table(rows: Sequence[ContactForceErrors]) -> Table:
@@ -383,7 +391,7 @@ def _table(rows: Sequence[ContactForceErrors]) -> Table:
     )
 
 
-def mean_contact_table(rows: Sequence[ContactForceErrors]) -> Table:
+def constant_contact_table(rows: Sequence[ContactForceErrors]) -> Table:
     """Put the constant part of contact wrenches into a table, with what tells how much the wrenches are worth.
 
     Args:

@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names, require_shape
 from forcetorque.base.errors import EstimationError, ShapeError, known_names
 from forcetorque.base.noise.means import one_after_another
 from forcetorque.base.pose import invert_pose
@@ -27,28 +27,20 @@ from forcetorque.robot.motion import JointMotion, RootMotion
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ContactForces:
+class ContactForces(ArrayRecord):
     """Contact wrenches of a sub-model that nothing touches, by each of k candidates over n samples."""
 
     validation: ContactForceValidation
     """What was validated."""
-    candidates: tuple[str, ...]
+    candidates: tuple[str, ...] = field(metadata=names("k"))
     """Names of the candidates."""
-    at_sensor: FloatArray
+    at_sensor: FloatArray = field(metadata=array("k", "n", 6))
     """Contact wrenches in the frame of the judged sensor and in its direction (4.1); shape (k, n, 6); N, N m; NaN in
     a sample with a gap."""
-    free_reading: FloatArray
+    free_reading: FloatArray = field(metadata=array("n", 6))
     """Reading of the judged sensor with which there would be no contact; shape (n, 6); N, N m."""
-    sensor_H_contact: FloatArray
+    sensor_H_contact: FloatArray = field(metadata=array(None, 4, 4))
     """Pose of the contact frame in the frame of the reading; shape (n, 4, 4) or (1, 4, 4); m."""
-
-    def __post_init__(self) -> None:
-        free = read_only(self.free_reading, name="free_reading", shape=(None, 6))
-        object.__setattr__(self, "free_reading", free)
-        wrenches = read_only(self.at_sensor, name="at_sensor", shape=(len(self.candidates), len(free), 6))
-        object.__setattr__(self, "at_sensor", wrenches)
-        pose = read_only(self.sensor_H_contact, name="sensor_H_contact", shape=(None, 4, 4))
-        object.__setattr__(self, "sensor_H_contact", pose)
 
     def of(self, candidate: str) -> FloatArray:
         """Give the wrenches of one candidate.

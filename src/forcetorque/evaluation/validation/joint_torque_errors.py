@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names, require_shape
 from forcetorque.base.errors import RobotError, ShapeError, known_names
 from forcetorque.base.noise.means import mean_error, one_after_another
 from forcetorque.base.pose import invert_pose
@@ -69,19 +69,16 @@ def joints_of_sensor(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TorqueMap:
+class TorqueMap(ArrayRecord):
     """Joint torques per unit of a sensor's reading, over n samples: the transposed Jacobian of the sensor."""
 
     sensor: str
     """Sensor."""
-    joints: tuple[str, ...]
+    joints: tuple[str, ...] = field(metadata=names("k"))
     """Joints whose torque depends on it."""
-    rows: FloatArray
+    rows: FloatArray = field(metadata=array(None, "k", 6))
     """Torque per component of the reading, in its frame and direction; shape (n, joints, 6); m and 1, where prismatic
     1 and 1/m."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "rows", read_only(self.rows, name="rows", shape=(None, len(self.joints), 6)))
 
     def torques(self, wrench: Any) -> FloatArray:
         """Give what a wrench in place of, or on top of, a reading adds to the torques.
@@ -293,7 +290,7 @@ class TorqueSamples:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class JudgedTorques:
+class TorqueErrorSamples:
     """Errors of the torques that depend on one sensor, over all judged intervals, in the order of time."""
 
     candidates: tuple[JudgedCandidate, ...]
@@ -304,7 +301,7 @@ class JudgedTorques:
     """Torques that the log does not allow to estimate, or to judge in an interval, in words."""
 
 
-def judged_torques(free: FreeSubModel, calibrations: Mapping[str, Calibration]) -> JudgedTorques:
+def torque_error_samples(free: FreeSubModel, calibrations: Mapping[str, Calibration]) -> TorqueErrorSamples:
     """Estimate the torques of the joints that depend on a sensor by every candidate, and compare with the model.
 
     Args:
@@ -333,14 +330,14 @@ def judged_torques(free: FreeSubModel, calibrations: Mapping[str, Calibration]) 
                 left_out |= dict.fromkeys(_gaps(interval, candidates, over))
                 for key, samples in over.items():
                     pieces.setdefault(key, []).append(samples)
-    return JudgedTorques(
+    return TorqueErrorSamples(
         candidates=candidates,
         samples={key: _joined(samples) for key, samples in pieces.items()},
         left_out=tuple(left_out),
     )
 
 
-def pooled_torques(recordings: Mapping[str, JudgedTorques]) -> JudgedTorques:
+def pooled_torque_errors(recordings: Mapping[str, TorqueErrorSamples]) -> TorqueErrorSamples:
     """Put together what several recordings say.
 
     Args:
@@ -356,7 +353,7 @@ def pooled_torques(recordings: Mapping[str, JudgedTorques]) -> JudgedTorques:
     for torques in recordings.values():
         for key, samples in torques.samples.items():
             pieces.setdefault(key, []).append(samples)
-    return JudgedTorques(
+    return TorqueErrorSamples(
         candidates=first.candidates,
         samples={key: _joined(samples, instants=one_after_another) for key, samples in pieces.items()},
         left_out=tuple(f"{name}: {words}" for name, torques in recordings.items() for words in torques.left_out),

@@ -9,9 +9,9 @@ from typing import Annotated, Literal
 import numpy as np
 
 from forcetorque.evaluation.validation.joint_torque_errors import (
-    JudgedTorques,
-    judged_torques,
-    pooled_torques,
+    TorqueErrorSamples,
+    pooled_torque_errors,
+    torque_error_samples,
     torque_errors,
 )
 from forcetorque.experiment.additions import with_recording_notes
@@ -118,11 +118,11 @@ def joint_torques(
     """
     campaign = Campaign.of(runs)
     choice = SubModelChoice(others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
-    recordings = choice.in_campaign(campaign, lambda free: judged_torques(free, calibrations))
-    return joint_torques_of(campaign, pooled_torques(recordings))
+    recordings = choice.in_campaign(campaign, lambda free: torque_error_samples(free, calibrations))
+    return joint_torques_of(campaign, pooled_torque_errors(recordings))
 
 
-def joint_torques_of(campaign: Campaign, torques: JudgedTorques) -> JointTorques:
+def joint_torques_of(campaign: Campaign, torques: TorqueErrorSamples) -> JointTorques:
     """Judge candidates of a sensor by given errors of joint torques.
 
     Args:
@@ -163,7 +163,7 @@ def _place(rows: Sequence[JointTorqueErrors]) -> Callable[[JointTorqueErrors], t
     return lambda row: (joints.index(row.joint), offsets.index(row.offset))
 
 
-def _rows(campaign: Campaign, torques: JudgedTorques) -> Iterator[JointTorqueErrors]:
+def _rows(campaign: Campaign, torques: TorqueErrorSamples) -> Iterator[JointTorqueErrors]:
     joints = {name: joint for run in campaign.runs for name, joint in run.experiment.model.joints.items()}
     for key, samples in torques.samples.items():
         if np.isnan(samples.from_model).all():

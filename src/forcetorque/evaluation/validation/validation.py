@@ -9,8 +9,8 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.evaluation.evaluation import smoothing_words
-from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_sentences, use_verdicts
+from forcetorque.evaluation.evaluation import smoothing_text
+from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts, verdict_texts
 from forcetorque.evaluation.validation.contact_forces import (
     BestCandidate,
     ContactForceErrors,
@@ -20,7 +20,11 @@ from forcetorque.evaluation.validation.contact_forces import (
     contact_forces_of,
 )
 from forcetorque.evaluation.validation.contact_wrenches import ContactWrenches, contact_wrenches
-from forcetorque.evaluation.validation.joint_torque_errors import JudgedTorques, judged_torques, pooled_torques
+from forcetorque.evaluation.validation.joint_torque_errors import (
+    TorqueErrorSamples,
+    pooled_torque_errors,
+    torque_error_samples,
+)
 from forcetorque.evaluation.validation.joint_torques import (
     JointTorqueErrors,
     RecordingJointTorques,
@@ -83,7 +87,7 @@ class Validation(Result):
             yield from self._without_offset(sensor)
             torques = [row for row in self.joint_torques if row.sensor == sensor]
             yield joint_torque_table(torques) if torques else f"{sensor}: no joint torque is estimated from it"
-        yield from use_sentences(self.uses)
+        yield from verdict_texts(self.uses)
         others = "the model expects" if self.other_sensors == "model" else "they measured"
         yield "; ".join((f"other sensors: as {others}", *self.smoothing))
 
@@ -105,7 +109,7 @@ class Validation(Result):
         ]
 
     def _without_offset(self, sensor: str) -> Iterator[str]:
-        """Say what candidates are read by whose wrenches have whatever offset the sensor has."""
+        """List the candidates whose wrenches keep the unknown offset of the sensor, with what reads them."""
         for row in self.contact_forces:
             if row.sensor == sensor and row.offset is Offset.NONE:
                 yield f"{sensor}, {row.candidate}, offset {row.offset}: read by {row.offset_source}"
@@ -144,7 +148,7 @@ def validate(
     answers = choice.in_campaign(campaign, lambda free: _torques_and_contacts(free, judged_by))
     torques = {name: answer[0] for name, answer in answers.items()}
     contacts = {name: answer[1] for name, answer in answers.items()}
-    judged = joint_torques_of(campaign, pooled_torques(torques))
+    judged = joint_torques_of(campaign, pooled_torque_errors(torques))
     forces = contact_forces_of(campaign.sensor, contacts)
     name = campaign.sensor.name
     validity, unknown = _validity(campaign, judged_by)
@@ -161,7 +165,7 @@ def validate(
         recordings=tuple(_forces_apart(campaign, contacts)) if several else (),
         recording_torques=tuple(_torques_apart(campaign, torques)) if several else (),
         left_out=left_out,
-        smoothing=tuple(dict.fromkeys(map(smoothing_words, campaign.runs_with(Use.VALIDATION)))),
+        smoothing=tuple(dict.fromkeys(map(smoothing_text, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
         uses=uses,
         warnings=(*sentences(validity), *(f"left out: {words}" for words in left_out)),
@@ -170,9 +174,9 @@ def validate(
 
 def _torques_and_contacts(
     free: FreeSubModel, calibrations: Mapping[str, Calibration]
-) -> tuple[JudgedTorques, ContactWrenches]:
+) -> tuple[TorqueErrorSamples, ContactWrenches]:
     """Torques first: they need the motion of more joints, in which that of the contact force is found."""
-    return judged_torques(free, calibrations), contact_wrenches(free, calibrations)
+    return torque_error_samples(free, calibrations), contact_wrenches(free, calibrations)
 
 
 def _validity(
@@ -201,7 +205,7 @@ def _forces_apart(campaign: Campaign, recordings: Mapping[str, ContactWrenches])
             yield RecordingContactForces(recording=name, **dict(row))
 
 
-def _torques_apart(campaign: Campaign, recordings: Mapping[str, JudgedTorques]) -> Iterator[RecordingJointTorques]:
+def _torques_apart(campaign: Campaign, recordings: Mapping[str, TorqueErrorSamples]) -> Iterator[RecordingJointTorques]:
     for name, torques in recordings.items():
         for row in joint_torques_of(campaign, torques).verdicts:
             yield RecordingJointTorques(recording=name, **dict(row))
