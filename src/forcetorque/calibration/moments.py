@@ -50,7 +50,7 @@ def load_error_of(solution: LoadSolution) -> LoadError | None:
     uncertain = variance > _ROUNDING * variance.max(initial=0.0)
     # S^-1/2, in the directions in which loads are uncertain
     root = directions[:, uncertain] / np.sqrt(variance[uncertain]) / size[:, None]
-    sessions = [name.name for name in solution.sessions]
+    sessions = [session.session for session in solution.sessions]
     factor = np.zeros((6, 6 + len(sessions), root.shape[1]))
     for row in range(6):
         factor[row, :6] = solution.covariance[np.ix_(places(listed, Kind.MATRIX, row), loads)] @ root

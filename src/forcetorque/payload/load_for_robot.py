@@ -14,9 +14,8 @@ from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.diagnostics import overweight_loads
-from forcetorque.payload.identification.load_estimates import Hypothesis
+from forcetorque.payload.identification.load_estimates import HypothesisRow
 from forcetorque.payload.payload import WeighedLoad
-from forcetorque.payload.result import HypothesisRow
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
 from forcetorque.payload.robot_files.robot_load import RobotLoad
@@ -127,7 +126,7 @@ def robot_load(
 
 def _contradictions(run: SensorRun, hanging: WristLoads, weighed: WeighedLoad | None) -> Iterator[str]:
     """What says that the load is not what hangs there, or the bias not that of the sensor."""
-    accounts: Sequence[Hypothesis | HypothesisRow] = ()
+    accounts: Sequence[HypothesisRow] = ()
     if weighed is not None:
         accounts = weighed.hypotheses
     elif run.has(Use.CALIBRATION) and hanging.table.applied is None:

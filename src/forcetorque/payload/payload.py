@@ -25,22 +25,24 @@ from forcetorque.payload.diagnostics import (
     payload_doubts,
     reversed_sense,
 )
-from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution
+from forcetorque.payload.identification.load_estimates import (
+    BiasRow,
+    BiasTestRow,
+    DriftRow,
+    HypothesisRow,
+    LoadEstimate,
+    LoadSolution,
+    OutlierRow,
+    VariableRow,
+)
 from forcetorque.payload.identification.load_problem import LoadProblem, together
 from forcetorque.payload.identification.prediction import instants, load_wrench
 from forcetorque.payload.identification.solve import solve
 from forcetorque.payload.link_loads import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import (
-    BiasRow,
-    BiasTestRow,
-    DriftRow,
-    HypothesisRow,
     JudgedLoadRow,
     LoadRow,
     RecordingLoadRow,
-    RowThatDisagrees,
-    VariableRow,
-    six,
 )
 from forcetorque.payload.wrist_load import WristLoads, wrist_loads
 from forcetorque.recording.recording import Use
@@ -188,7 +190,7 @@ class WeighedLoad(Result):
     """Rotation vector of gravity about x and y of the world; none where it was not asked for."""
     open: tuple[str, ...]
     """What the rows leave open, in sentences."""
-    disagreeing: tuple[RowThatDisagrees, ...]
+    disagreeing: tuple[OutlierRow, ...]
     """Rows that disagree with all others."""
     hypotheses: tuple[HypothesisRow, ...]
     """Other accounts of the rows that explain them better, the best first."""
@@ -261,18 +263,15 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         rows=len(solution.residual),
         left_out=sum(hanging_on(run).left_out(run.experiment) for run in campaign.runs if run.has(Use.CALIBRATION)),
         loads=tuple(LoadRow.of(load, links.get(load.name)) for load in solution.loads),
-        sessions=tuple(BiasRow.of(session) for session in solution.sessions),
-        variables=tuple(
-            VariableRow(variable=one.name, coefficients=six(one.coefficients), half_width_95=six(one.half_width))
-            for one in solution.variables
-        ),
-        drift=DriftRow.of(solution.drift),
-        bias_tests=tuple(BiasTestRow.of_test(test) for test in solution.bias_tests),
+        sessions=solution.sessions,
+        variables=solution.variables,
+        drift=solution.drift,
+        bias_tests=solution.bias_tests,
         mount_rad=None if table is None or table.mount is None else _vector(solution),
         tilt_rad=None if table is None or table.tilt is None else (float(solution.tilt[0]), float(solution.tilt[1])),
-        open=tuple(entry.words for entry in solution.open_directions),
-        disagreeing=tuple(RowThatDisagrees.of(row) for row in solution.disagreeing),
-        hypotheses=tuple(HypothesisRow.of(one) for one in solution.hypotheses),
+        open=solution.open_directions,
+        disagreeing=solution.disagreeing,
+        hypotheses=solution.hypotheses,
         judged=tuple(row for run in campaign.runs for row in _judged(campaign, run, solution)),
         residual_rms=solution.residual_rms,
         spanned_directions=solution.spanned,

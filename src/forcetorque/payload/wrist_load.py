@@ -55,7 +55,7 @@ def inertia_of_estimated(solution: LoadSolution, estimate: LoadEstimate) -> Iner
         ExperimentError: If they leave it open, or fit a negative mass.
     """
     if not estimate.is_determined:
-        words = "; ".join(entry.words for entry in solution.open_directions) or "no calibration interval has it"
+        words = "; ".join(solution.open_directions) or "no calibration interval has it"
         raise ExperimentError(
             f"load {estimate.name!r}: the calibration intervals do not determine it: {words}; `forcetorque payload` "
             "says what they do determine, and mass_kg with centre_of_mass_m state the load"

@@ -247,11 +247,11 @@ def test_a_row_that_disagrees_is_named_and_counts_less() -> None:
     reading = _reading()
     reading[11, :3] += [3.0, -2.0, 4.0]
     solution = solve(problem_of(reading, GRAVITY))
-    assert [row.name for row in solution.disagreeing] == ["row 12"]
+    assert [row.row for row in solution.disagreeing] == ["row 12"]
     np.testing.assert_allclose(solution.disagreeing[0].residual[:3], [3.0, -2.0, 4.0], atol=0.3)
     assert solution.disagreeing[0].weight < 0.05
     assert abs(solution.loads[0].mass - MASS) < solution.loads[0].mass_half_width
-    assert abs(solution.drift.mass_without[0] - MASS) > 2.0 * solution.loads[0].mass_half_width
+    assert abs(solution.drift.plain_mass_without_kg[0] - MASS) > 2.0 * solution.loads[0].mass_half_width
 
 
 def test_sound_rows_are_seldom_named() -> None:

@@ -44,16 +44,6 @@ _ROUNDING = 1e-10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Prior:
-    """What is known of r directions before the rows."""
-
-    precision: FloatArray
-    """Shape (r, r)."""
-    sides: FloatArray
-    """Precision times what is expected of the directions; shape (r,)."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Estimate:
     """Unknowns in r directions that the rows determine."""
 
@@ -113,24 +103,27 @@ class _Shape:
     worth: FloatArray  # independent values that each direction of the parameters has of this group, (p,)
 
 
-def estimate(groups: Sequence[Group], basis: FloatArray, prior: Prior, shapes: Sequence[SlowNoise]) -> Estimate:
+def estimate(
+    groups: Sequence[Group], basis: FloatArray, prior: tuple[FloatArray, FloatArray], shapes: Sequence[SlowNoise]
+) -> Estimate:
     """Estimate what the rows determine.
 
     Args:
         groups: Forces, and moments.
         basis: Parameters of the directions that are estimated; shape (p, r).
-        prior: What is known of these directions before the rows.
+        prior: Prior precision of these directions, shape (r, r), and that times their prior mean, shape (r,).
         shapes: Shapes of noise that are tried.
 
     Returns:
         Mean and covariance of the directions.
     """
+    precision, expected = prior
     tried = [_tried(group, basis, shapes) for group in groups]
     pairs = list(product(*tried))
     weight = np.array([np.exp(sum(one.log_weight for one in pair)) for pair in pairs])
     weight /= weight.sum()
-    spread = np.linalg.inv(prior.precision + np.array([sum(one.products for one in pair) for pair in pairs]))
-    sides = prior.sides + np.array([sum(one.sides for one in pair) for pair in pairs])
+    spread = np.linalg.inv(precision + np.array([sum(one.products for one in pair) for pair in pairs]))
+    sides = expected + np.array([sum(one.sides for one in pair) for pair in pairs])
     mean = np.einsum("krs,ks->kr", spread, sides)
     centre = weight @ mean
     apart = mean - centre
