@@ -74,7 +74,7 @@ def hypotheses(fitted: Fit, *, drift: bool) -> tuple[HypothesisRow, ...]:
         for name, words, limit, other in _others(problem):
             share = unexplained(other.rows, plain_fit(other, drift=drift)[1]) / stated
             if share < limit:
-                named.append(HypothesisRow(name=name, words=words, residual_share=share), severity="contradiction")
+                named.append(HypothesisRow(name=name, words=words, residual_share=share, severity="contradiction"))
     named += scales(problem, guess, other_sizes=not named)
     named += _lag(problem, residual, drift=drift)
     named += _of_nothing(fitted) if not named else ()
