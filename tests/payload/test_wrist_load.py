@@ -18,11 +18,11 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.payload import diagnostics as sense
 from forcetorque.payload import wrist_load
-from forcetorque.payload.diagnostics import overweight_loads, reference_doubts
 from forcetorque.payload.identification.load_estimates import LoadSolution
-from forcetorque.payload.identification.solve import solve
-from forcetorque.payload.payload import weigh_load
-from forcetorque.payload.wrist_load import wrist_loads
+from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.identify import weigh_load
+from forcetorque.payload.load_on_wrist_sensor import wrist_loads
+from forcetorque.payload.warnings_and_text import overweight_loads, reference_doubts
 from forcetorque.recording.recording import Use
 
 MASS, CENTRE = 1.1, np.array([0.01, -0.005, 0.07])

@@ -19,10 +19,10 @@ from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.campaign_intervals import CampaignInterval, CampaignRecording
 from forcetorque.experiment.raw_counts import full_scale_of
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.diagnostics import reference_doubts
 from forcetorque.payload.identification.load_estimates import LoadSolution
-from forcetorque.payload.identification.parameters import OF_LOAD, Kind, places
-from forcetorque.payload.link_loads import link_loads
+from forcetorque.payload.identification.parameter_vector import OF_LOAD, Kind, places
+from forcetorque.payload.loads_on_robot_links import link_loads
+from forcetorque.payload.warnings_and_text import reference_doubts
 from forcetorque.recording.recording import Use
 
 _ROUNDING = 1e-12

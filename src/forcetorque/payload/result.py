@@ -9,7 +9,7 @@ from typing import Annotated, Any, Self
 import numpy as np
 
 from forcetorque.payload.identification.load_estimates import LoadEstimate, Three, three
-from forcetorque.payload.identification.parameters import six_of
+from forcetorque.payload.identification.parameter_vector import six_of
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import Row, Shown
 

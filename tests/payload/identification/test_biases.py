@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.payload.identification.bias_checks import bias_tests, choose_drift
-from forcetorque.payload.identification.fit import fit
-from forcetorque.payload.identification.load_problem import LoadProblem, together
-from forcetorque.payload.identification.solve import load_estimates, session_estimates, solve
+from forcetorque.payload.identification.bias_drift_and_jumps import bias_tests, choose_drift
+from forcetorque.payload.identification.estimation_problem import LoadProblem, together
+from forcetorque.payload.identification.loads_with_intervals import load_estimates, session_estimates, solve
+from forcetorque.payload.identification.robust_fit import fit
 from tests.payload.identification.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, weight
 
 SEEDS = 200

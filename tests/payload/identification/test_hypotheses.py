@@ -12,10 +12,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.payload.identification.fit import fit, plain_fit, scales
-from forcetorque.payload.identification.hypotheses import hypotheses
-from forcetorque.payload.identification.load_problem import Load, LoadProblem
-from forcetorque.payload.identification.solve import solve
+from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
+from forcetorque.payload.identification.frame_unit_and_clock_errors import hypotheses
+from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.identification.robust_fit import fit, plain_fit, scales
 from tests.payload.identification.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, slow, weight
 
 BIAS = np.array([5.0, -3.0, 12.0, 0.5, -0.2, 0.1])

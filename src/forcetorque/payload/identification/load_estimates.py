@@ -11,8 +11,8 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.inertia import Inertia
-from forcetorque.payload.identification.load_problem import INERTIAL
-from forcetorque.payload.identification.parameters import Guess
+from forcetorque.payload.identification.estimation_problem import INERTIAL
+from forcetorque.payload.identification.parameter_vector import Guess
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import Row, Shown, ShownWrench, WrenchValues
 

@@ -15,12 +15,18 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, MeasureDirection
-from forcetorque.payload.identification.bias_checks import strongest_jump
-from forcetorque.payload.identification.fit import Fit, plain_fit, scales
+from forcetorque.payload.identification.bias_drift_and_jumps import strongest_jump
+from forcetorque.payload.identification.estimation_problem import LoadProblem, LoadRows
 from forcetorque.payload.identification.load_estimates import HypothesisRow
-from forcetorque.payload.identification.load_problem import LoadProblem, LoadRows
-from forcetorque.payload.identification.parameters import Kind
-from forcetorque.payload.identification.prediction import first_mount, masses, quarter_turns, turn_words, turned_by
+from forcetorque.payload.identification.measurement_model import (
+    first_mount,
+    masses,
+    quarter_turns,
+    turn_words,
+    turned_by,
+)
+from forcetorque.payload.identification.parameter_vector import Kind
+from forcetorque.payload.identification.robust_fit import Fit, plain_fit, scales
 
 _BETTER = 0.5
 """A hypothesis is named if it leaves less than this part of what the problem as stated leaves."""

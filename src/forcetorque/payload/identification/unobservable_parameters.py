@@ -8,10 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.payload.identification.fit import Fit
-from forcetorque.payload.identification.load_problem import LoadProblem
-from forcetorque.payload.identification.parameters import AXES, Kind, Parameter
-from forcetorque.payload.identification.prediction import load_wrench
+from forcetorque.payload.identification.estimation_problem import LoadProblem
+from forcetorque.payload.identification.measurement_model import load_wrench
+from forcetorque.payload.identification.parameter_vector import AXES, Kind, Parameter
+from forcetorque.payload.identification.robust_fit import Fit
 
 _TAKES_PART = 1e-4
 """Unknowns with less than this part of the largest one of a direction have no part in it."""

@@ -14,17 +14,7 @@ from forcetorque.base.noise.means import means_over
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.diagnostics import (
-    bias_words,
-    disagreements,
-    drift_words,
-    inertia_words,
-    load_doubts,
-    load_words,
-    overweight_loads,
-    payload_doubts,
-    reversed_sense,
-)
+from forcetorque.payload.identification.estimation_problem import LoadProblem, together
 from forcetorque.payload.identification.load_estimates import (
     BiasRow,
     BiasTestRow,
@@ -35,16 +25,26 @@ from forcetorque.payload.identification.load_estimates import (
     OutlierRow,
     VariableRow,
 )
-from forcetorque.payload.identification.load_problem import LoadProblem, together
-from forcetorque.payload.identification.prediction import instants, load_wrench
-from forcetorque.payload.identification.solve import solve
-from forcetorque.payload.link_loads import LinkLoads, joined_problem, link_loads
+from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.identification.measurement_model import instants, load_wrench
+from forcetorque.payload.load_on_wrist_sensor import WristLoads, wrist_loads
+from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import (
     JudgedLoadRow,
     LoadRow,
     RecordingLoadRow,
 )
-from forcetorque.payload.wrist_load import WristLoads, wrist_loads
+from forcetorque.payload.warnings_and_text import (
+    bias_words,
+    disagreements,
+    drift_words,
+    inertia_words,
+    load_doubts,
+    load_words,
+    overweight_loads,
+    payload_doubts,
+    reversed_sense,
+)
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, WrenchValues, table_of

@@ -14,9 +14,10 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.slow_noise import SHAPES
 from forcetorque.base.units import SI_FACTORS
 from forcetorque.base.wrench import FORCE, MOMENT
+from forcetorque.payload.identification.estimation_problem import LoadProblem
 from forcetorque.payload.identification.load_estimates import HypothesisRow
-from forcetorque.payload.identification.load_problem import LoadProblem
-from forcetorque.payload.identification.noise import (
+from forcetorque.payload.identification.measurement_model import changes, expected, first_mount, inertial, load_wrench
+from forcetorque.payload.identification.noise_model import (
     Estimate,
     Group,
     estimate,
@@ -24,8 +25,7 @@ from forcetorque.payload.identification.noise import (
     noise_sizes,
     sizes_under,
 )
-from forcetorque.payload.identification.parameters import OF_LOAD, Guess, Kind, places, unknowns_of
-from forcetorque.payload.identification.prediction import changes, expected, first_mount, inertial, load_wrench
+from forcetorque.payload.identification.parameter_vector import OF_LOAD, Guess, Kind, places, unknowns_of
 
 FALSE_ALARMS = 0.01
 """Share of problems without a fault in which some row is said to disagree."""

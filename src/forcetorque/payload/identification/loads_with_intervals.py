@@ -8,9 +8,9 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.pose import skew
-from forcetorque.payload.identification.bias_checks import bias_tests, choose_drift
-from forcetorque.payload.identification.fit import Fit, fit
-from forcetorque.payload.identification.hypotheses import hypotheses
+from forcetorque.payload.identification.bias_drift_and_jumps import bias_tests, choose_drift
+from forcetorque.payload.identification.estimation_problem import INERTIAL, Load, LoadProblem
+from forcetorque.payload.identification.frame_unit_and_clock_errors import hypotheses
 from forcetorque.payload.identification.load_estimates import (
     BiasRow,
     LoadEstimate,
@@ -19,10 +19,10 @@ from forcetorque.payload.identification.load_estimates import (
     VariableRow,
     six,
 )
-from forcetorque.payload.identification.load_problem import INERTIAL, Load, LoadProblem
-from forcetorque.payload.identification.parameters import Kind, inertia_of, places, six_of
-from forcetorque.payload.identification.prediction import inertial, instants
-from forcetorque.payload.identification.unobservable import open_directions, spanned_by
+from forcetorque.payload.identification.measurement_model import inertial, instants
+from forcetorque.payload.identification.parameter_vector import Kind, inertia_of, places, six_of
+from forcetorque.payload.identification.robust_fit import Fit, fit
+from forcetorque.payload.identification.unobservable_parameters import open_directions, spanned_by
 
 _NAMED = 0.5
 """Rows that count less than this are named."""

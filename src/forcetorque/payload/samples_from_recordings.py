@@ -21,8 +21,8 @@ from forcetorque.base.wrench import reading_sign
 from forcetorque.experiment.calibration.assumptions import FLATTENED
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sample_quality import sample_quality
-from forcetorque.payload.identification.load_problem import Load, LoadProblem, LoadRows
-from forcetorque.payload.identification.parameters import inertia_of
+from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
+from forcetorque.payload.identification.parameter_vector import inertia_of
 from forcetorque.recording.alignment import interpolate, seconds_since
 from forcetorque.recording.recording import Interval, Recording, Use
 from forcetorque.robot.mechanics.estimate import estimate
@@ -34,7 +34,7 @@ from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 
 if TYPE_CHECKING:
-    from forcetorque.payload.wrist_load import WristLoads
+    from forcetorque.payload.load_on_wrist_sensor import WristLoads
 
 
 MOST_ROWS = 3600

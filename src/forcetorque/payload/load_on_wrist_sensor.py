@@ -14,11 +14,11 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
+from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution
-from forcetorque.payload.identification.load_problem import Load, LoadProblem
-from forcetorque.payload.identification.solve import solve
-from forcetorque.payload.load_samples import load_problem, samples_left_out
-from forcetorque.payload.load_tables import Load as LoadTable
+from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.samples_from_recordings import load_problem, samples_left_out
+from forcetorque.payload.toml_tables import Load as LoadTable
 from forcetorque.recording.recording import MovingSupport, Support, Use
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
 

@@ -15,15 +15,15 @@ from forcetorque.base.wrench import MeasureDirection, reading_sign
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.draft.gravity import hanging
 from forcetorque.payload.identification.load_estimates import BiasTestRow, DriftRow, LoadSolution
-from forcetorque.payload.identification.parameters import SECOND_MOMENTS, SIX_PLACES, six_of
-from forcetorque.payload.link_loads import LinkLoads, link_loads
+from forcetorque.payload.identification.parameter_vector import SECOND_MOMENTS, SIX_PLACES, six_of
+from forcetorque.payload.load_on_wrist_sensor import inertia_of_stated, wrist_loads
+from forcetorque.payload.loads_on_robot_links import LinkLoads, link_loads
 from forcetorque.payload.result import LoadRow, RecordingLoadRow
-from forcetorque.payload.wrist_load import inertia_of_stated, wrist_loads
 from forcetorque.recording.recording import Support, Use
 from forcetorque.results.number_text import with_error
 
 if TYPE_CHECKING:
-    from forcetorque.payload.payload import WeighedLoad
+    from forcetorque.payload.identify import WeighedLoad
 
 
 def reversed_sense(run: SensorRun) -> Iterator[str]:

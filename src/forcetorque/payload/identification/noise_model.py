@@ -13,8 +13,8 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.noise.slow_noise import CONFIDENCE, SlowNoise, Timeline, half_width, log_prior
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.payload.identification.load_problem import LoadRows
-from forcetorque.payload.identification.prediction import instants
+from forcetorque.payload.identification.estimation_problem import LoadRows
+from forcetorque.payload.identification.measurement_model import instants
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
