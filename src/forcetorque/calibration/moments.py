@@ -21,8 +21,8 @@ from forcetorque.experiment.raw_counts import full_scale_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.load_estimates import LoadSolution
 from forcetorque.payload.identification.parameter_vector import OF_LOAD, Kind, places
+from forcetorque.payload.load_warnings import reference_doubts
 from forcetorque.payload.loads_on_robot_links import link_loads
-from forcetorque.payload.warnings_and_text import reference_doubts
 from forcetorque.recording.recording import Use
 
 _ROUNDING = 1e-12

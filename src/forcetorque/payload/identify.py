@@ -4,10 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal
 
 import numpy as np
-from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import means_over
@@ -16,38 +14,27 @@ from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
 from forcetorque.payload.identification.load_estimates import (
-    BiasRow,
-    BiasTestRow,
-    DriftRow,
-    HypothesisRow,
     LoadEstimate,
     LoadSolution,
-    OutlierRow,
-    VariableRow,
 )
 from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.measurement_model import instants, load_wrench
 from forcetorque.payload.load_on_wrist_sensor import WristLoads, wrist_loads
+from forcetorque.payload.load_warnings import (
+    load_doubts,
+    overweight_loads,
+    payload_doubts,
+    reversed_sense,
+)
 from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import (
     JudgedLoadRow,
     LoadRow,
     RecordingLoadRow,
-)
-from forcetorque.payload.warnings_and_text import (
-    bias_words,
+    WeighedLoad,
     disagreements,
-    drift_words,
-    inertia_words,
-    load_doubts,
-    load_words,
-    overweight_loads,
-    payload_doubts,
-    reversed_sense,
 )
 from forcetorque.recording.recording import Use
-from forcetorque.results.result import Result
-from forcetorque.results.table import Table, WrenchValues, table_of
 
 
 def hanging_on(run: SensorRun) -> WristLoads | LinkLoads:
@@ -154,91 +141,6 @@ _TOUCHED = 0.2
 """Share of the weight of a load that nothing but a contact leaves, on intervals that were not fitted (heuristic)."""
 _LASTING_S = 0.25
 """What lasts shorter is a jerk of the motion, or a tap; s."""
-
-
-class WeighedLoad(Result):
-    """What hangs on a wrist sensor or on a robot, and the sensor's biases."""
-
-    of_several: ClassVar[tuple[str, ...]] = ("recordings", "disagreements")
-    interval_uses = ()
-
-    schema_name: Literal["forcetorque/payload/2"] = Field(default="forcetorque/payload/2", alias="schema")
-    """Form of the result."""
-    experiment: str
-    """Name of the experiment."""
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
-    rows: int
-    """Number of means or poses that were fitted."""
-    left_out: int
-    """Samples that lack a finite reading or motion."""
-    loads: tuple[LoadRow, ...]
-    """Loads, in the order of the file."""
-    sessions: tuple[BiasRow, ...]
-    """Bias of every session, in the order of time."""
-    variables: tuple[VariableRow, ...]
-    """What the variables of the sensor add."""
-    drift: DriftRow
-    """Whether biases move evenly in time, and why."""
-    bias_tests: tuple[BiasTestRow, ...]
-    """Whether one bias would do."""
-    mount_rad: tuple[float, float, float] | None
-    """Rotation vector from the axes of the motion to those of the sensor; none where it was not asked for."""
-    tilt_rad: tuple[float, float] | None
-    """Rotation vector of gravity about x and y of the world; none where it was not asked for."""
-    open: tuple[str, ...]
-    """What the rows leave open, in sentences."""
-    disagreeing: tuple[OutlierRow, ...]
-    """Rows that disagree with all others."""
-    hypotheses: tuple[HypothesisRow, ...]
-    """Other accounts of the rows that explain them better, the best first."""
-    judged: tuple[JudgedLoadRow, ...]
-    """Validation intervals, held against the loads."""
-    residual_rms: WrenchValues
-    """Root mean square residual; N, N m."""
-    spanned_directions: int
-    """Directions of wrench, of six, that the loads move: one centre of mass moves three, two five."""
-    recordings: tuple[RecordingLoadRow, ...] = ()
-    """What each of several recordings says by itself."""
-    disagreements: tuple[str, ...] = ()
-    """Where they differ by more than their intervals, in sentences."""
-
-    def blocks(self) -> Iterator[Table | str]:
-        """Give the loads, then biases, what is open and what disagrees.
-
-        Yields:
-            Sentences and tables.
-        """
-        source = f"{self.sensor} ({self.serial}), {self.rows} rows"
-        for load in self.loads:
-            yield f"{source}: {load_words(load)}"
-            if (inertia := inertia_words(load)) is not None:
-                yield inertia
-        yield table_of(self.sessions, "bias: reading without load")
-        if self.variables:
-            yield table_of(self.variables, "what variables add to the reading, per unit")
-        yield drift_words(self.drift)
-        yield from (bias_words(test, self.loads) for test in self.bias_tests)
-        yield from self.open
-        if self.disagreeing:
-            yield table_of(self.disagreeing, "rows that disagree with all others, and count less")
-        if self.recordings:
-            yield table_of(self.recordings, "what each recording says by itself, ± half a 95 % interval")
-            yield from self.disagreements or ("the recordings agree within their intervals",)
-        if self.judged:
-            yield table_of(self.judged, "what the loads leave of intervals that were not fitted, about its middle")
-        rms = ", ".join(f"{value:.4f}" for value in self.residual_rms)
-        yield f"residual RMS {rms} N, N m; the loads move {self.spanned_directions} of 6 directions of wrench"
-
-    def records(self) -> list[dict[str, object]]:
-        """Give a line for every load and session.
-
-        Returns:
-            The lines: a load beside the bias of a session.
-        """
-        return [load.flat() | session.flat() for load in self.loads for session in self.sessions]
 
 
 @with_recording_notes

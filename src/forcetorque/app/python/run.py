@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from forcetorque.evaluation.evaluation import Evaluation
     from forcetorque.evaluation.sphere.sphere import Spheres
     from forcetorque.evaluation.validation.validation import Validation
-    from forcetorque.payload.identify import WeighedLoad
+    from forcetorque.payload.result import WeighedLoad
     from forcetorque.payload.tare_offset import Tare
     from forcetorque.planning.planning import Plan
     from forcetorque.report.assessment import Demands

@@ -14,8 +14,9 @@ from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.load_estimates import HypothesisRow
-from forcetorque.payload.identify import WeighedLoad
 from forcetorque.payload.load_on_wrist_sensor import LOAD_LINK, WristLoads, wrist_loads
+from forcetorque.payload.load_warnings import overweight_loads
+from forcetorque.payload.result import WeighedLoad
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
 from forcetorque.payload.robot_files.robot_load import RobotLoad
@@ -25,7 +26,6 @@ from forcetorque.payload.robot_files.ros import (
     ft_tools_text,
     gravity_filter_text,
 )
-from forcetorque.payload.warnings_and_text import overweight_loads
 from forcetorque.recording.recording import Use
 
 _WITHOUT_COMMENTS = (LoadFormat.MC_RTC, LoadFormat.HRPSYS)
