@@ -31,7 +31,7 @@ def test_a_name_is_imported_without_the_others() -> None:
     listed = "import sys; print(*(name for name in sys.modules if name.startswith('forcetorque')))"
     code = f"from forcetorque.payload import weigh_load; {listed}; from forcetorque.device import *; "
     one, more = (set(line.split()) for line in _run(f"{code}from forcetorque.skin import *; {listed}").splitlines())
-    assert "forcetorque.payload.payload" in one
+    assert "forcetorque.payload.identify" in one
     others = {"forcetorque.device.design", "forcetorque.skin.wrench.wrench"}
     assert not others & one
     assert others < more

@@ -14,11 +14,11 @@ from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.moments import load_error_of
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.moments import WindowMeans
+from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
 from forcetorque.payload.identification.load_estimates import LoadSolution
-from forcetorque.payload.identification.load_problem import Load, LoadProblem, LoadRows
-from forcetorque.payload.identification.partly_known_matrix import MatrixSpread, settled
-from forcetorque.payload.identification.prediction import load_wrench
-from forcetorque.payload.identification.solve import solve
+from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.identification.matrix_uncertainty import MatrixSpread, settled
+from forcetorque.payload.identification.measurement_model import load_wrench
 
 POSES = 24
 NOISE = np.repeat([0.02, 0.002], 3)

@@ -22,8 +22,9 @@ from forcetorque.experiment.calibration.estimation_type import EstimationType, e
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.draft.draft import draft_experiment
-from forcetorque.payload.diagnostics import circular_loads, reversed_sense
-from forcetorque.payload.payload import WeighedLoad, weigh_load
+from forcetorque.payload.identify import weigh_load
+from forcetorque.payload.load_warnings import circular_loads, reversed_sense
+from forcetorque.payload.result import WeighedLoad
 from tests.scenes.robots import example_robot
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "27_arm_and_tools.py"

@@ -13,8 +13,8 @@ from forcetorque.base.errors import RecordingError
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.payload import weigh_load
-from forcetorque.payload.wrist_load import wrist_loads
+from forcetorque.payload.identify import weigh_load
+from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 

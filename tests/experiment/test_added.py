@@ -34,7 +34,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.locomotion.logged_signals import motion_signals
 from forcetorque.locomotion.movement import motion
 from forcetorque.locomotion.net_force.net_force import coherence
-from forcetorque.payload.zeroing import tare
+from forcetorque.payload.tare_offset import tare
 from forcetorque.results.result import Result, result_classes
 from forcetorque.sensor.gains.gains import select_gains
 from tests.scenes.experiments import PARQUET, add

@@ -17,7 +17,7 @@ from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset, OffsetEstimate, OffsetPolicy, mean_offset
-from forcetorque.payload.zeroing import tare
+from forcetorque.payload.tare_offset import tare
 from forcetorque.simulation.recordings import write_scenario
 from forcetorque.simulation.scenario.scenario import build_scenario, simulate
 from tests.scenes.switchings import short_switching

@@ -24,7 +24,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import inspect_experiment
-from forcetorque.payload.payload import weigh_load
+from forcetorque.payload.identify import weigh_load
 from forcetorque.recording.sample_quality import UnusableCounts
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream
 from tests.scenes.experiments import JOINTS, MOUNTED, PARQUET, RATE_HZ

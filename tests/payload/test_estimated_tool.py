@@ -17,7 +17,7 @@ from forcetorque.calibration.moments import recording_moments
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments, read_moments
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.link_loads import link_loads
+from forcetorque.payload.loads_on_robot_links import link_loads
 from tests.scenes.robots import example_robot
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "27_arm_and_tools.py"

@@ -14,7 +14,7 @@ import pytest
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
-from forcetorque.payload.payload import weigh_load
+from forcetorque.payload.identify import weigh_load
 from forcetorque.recording.storage import read_recording, write_recording
 from tests.app.json_schema import faults
 from tests.app.outcome import Run

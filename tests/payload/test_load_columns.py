@@ -14,7 +14,7 @@ from forcetorque.base.noise.means import means_over, window_for
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.payload.link_loads import link_loads
+from forcetorque.payload.loads_on_robot_links import link_loads
 from forcetorque.recording.recording import Use
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.urdf import read_urdf

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from forcetorque.app.python.experiment import load_experiment
 from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.load_for_robot import robot_load
+from forcetorque.payload.robot_files.export import robot_load
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import read_mc_rtc
 from forcetorque.payload.robot_files.ros import read_ft_tools

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.app.python.experiment import load_experiment
-from forcetorque.payload.payload import WeighedLoad
+from forcetorque.payload.result import WeighedLoad
 from tests.scenes.moving_tool import BIAS, CENTRE, INERTIA, MASS, write_moving_tool
 
 SPEEDS = (1.0, 3.0, 7.0)

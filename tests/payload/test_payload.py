@@ -12,7 +12,8 @@ from scipy.spatial.transform import Rotation
 from forcetorque.app.python.experiment import load_experiment
 from forcetorque.experiment.loading import load_experiment as read
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.payload import WeighedLoad, weigh_load
+from forcetorque.payload.identify import weigh_load
+from forcetorque.payload.result import WeighedLoad
 from tests.scenes.axia import EXAMPLES, write_axia
 
 HALVES = """[[interval]]

@@ -16,13 +16,13 @@ from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES,
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import inspect_experiment
-from forcetorque.payload import diagnostics as sense
-from forcetorque.payload import wrist_load
-from forcetorque.payload.diagnostics import overweight_loads, reference_doubts
+from forcetorque.payload import load_on_wrist_sensor
+from forcetorque.payload import load_warnings as sense
 from forcetorque.payload.identification.load_estimates import LoadSolution
-from forcetorque.payload.identification.solve import solve
-from forcetorque.payload.payload import weigh_load
-from forcetorque.payload.wrist_load import wrist_loads
+from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.identify import weigh_load
+from forcetorque.payload.load_on_wrist_sensor import wrist_loads
+from forcetorque.payload.load_warnings import overweight_loads, reference_doubts
 from forcetorque.recording.recording import Use
 
 MASS, CENTRE = 1.1, np.array([0.01, -0.005, 0.07])
@@ -126,7 +126,7 @@ def _solution(path: Path) -> LoadSolution:
 def test_nothing_is_estimated_before_it_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Loading asks for nothing; whoever needs the loaded robot asks, and once."""
     calls = []
-    monkeypatch.setattr(wrist_load, "solve", lambda problem: calls.append(problem) or solve(problem))
+    monkeypatch.setattr(load_on_wrist_sensor, "solve", lambda problem: calls.append(problem) or solve(problem))
     experiment = load_experiment(_write(tmp_path))
     assert calls == []
     run = SensorRun(experiment, experiment.sensors[0])

@@ -34,8 +34,8 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.free_sub_model import possible_touch
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import doubtful_spans
-from forcetorque.payload.diagnostics import contradicted_statements, load_doubts
-from forcetorque.payload.wrist_load import wrist_loads
+from forcetorque.payload.load_on_wrist_sensor import wrist_loads
+from forcetorque.payload.load_warnings import contradicted_statements, load_doubts
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Table, table_of

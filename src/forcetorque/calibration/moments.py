@@ -19,10 +19,10 @@ from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.campaign_intervals import CampaignInterval, CampaignRecording
 from forcetorque.experiment.raw_counts import full_scale_of
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.diagnostics import reference_doubts
 from forcetorque.payload.identification.load_estimates import LoadSolution
-from forcetorque.payload.identification.parameters import OF_LOAD, Kind, places
-from forcetorque.payload.link_loads import link_loads
+from forcetorque.payload.identification.parameter_vector import OF_LOAD, Kind, places
+from forcetorque.payload.load_warnings import reference_doubts
+from forcetorque.payload.loads_on_robot_links import link_loads
 from forcetorque.recording.recording import Use
 
 _ROUNDING = 1e-12
@@ -50,7 +50,7 @@ def load_error_of(solution: LoadSolution) -> LoadError | None:
     uncertain = variance > _ROUNDING * variance.max(initial=0.0)
     # S^-1/2, in the directions in which loads are uncertain
     root = directions[:, uncertain] / np.sqrt(variance[uncertain]) / size[:, None]
-    sessions = [name.name for name in solution.sessions]
+    sessions = [session.session for session in solution.sessions]
     factor = np.zeros((6, 6 + len(sessions), root.shape[1]))
     for row in range(6):
         factor[row, :6] = solution.covariance[np.ix_(places(listed, Kind.MATRIX, row), loads)] @ root

@@ -39,7 +39,7 @@ from forcetorque.experiment.validity import (
     require_unseen,
     sentences,
 )
-from forcetorque.payload.diagnostics import circular_loads
+from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result

@@ -7,9 +7,9 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.payload.load_for_robot import export_load, robot_load
-    from forcetorque.payload.payload import weigh_load
-    from forcetorque.payload.zeroing import tare
+    from forcetorque.payload.identify import weigh_load
+    from forcetorque.payload.robot_files.export import export_load, robot_load
+    from forcetorque.payload.tare_offset import tare
 
 CAPABILITY = Capability(
     needs=("inspection",),
@@ -30,9 +30,9 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "export_load": "forcetorque.payload.load_for_robot",
-        "robot_load": "forcetorque.payload.load_for_robot",
-        "tare": "forcetorque.payload.zeroing",
-        "weigh_load": "forcetorque.payload.payload",
+        "export_load": "forcetorque.payload.robot_files.export",
+        "robot_load": "forcetorque.payload.robot_files.export",
+        "tare": "forcetorque.payload.tare_offset",
+        "weigh_load": "forcetorque.payload.identify",
     },
 )

@@ -94,7 +94,7 @@ def write_load(
         log: Where that goes.
     """
     from forcetorque.base.pose import make_pose, rotation_from_rpy
-    from forcetorque.payload.load_for_robot import export_load
+    from forcetorque.payload.robot_files.export import export_load
 
     pose = None if sensor_pose is None else make_pose(rotation_from_rpy(sensor_pose[3:]), sensor_pose[:3])
     convention = export_load(load, output, to, world_frame=world_frame, body_H_sensor=pose)
@@ -121,8 +121,8 @@ def payload(
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.loading import load_experiment
     from forcetorque.experiment.sensor_run import SensorRun
-    from forcetorque.payload.load_for_robot import robot_load
-    from forcetorque.payload.payload import weigh_load
+    from forcetorque.payload.identify import weigh_load
+    from forcetorque.payload.robot_files.export import robot_load
 
     log = start_logging()
     refuse_load_file(output, to, output_format, force=force)
@@ -168,8 +168,8 @@ def tare(
     """
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.sensor_run import SensorRun
-    from forcetorque.payload.load_for_robot import robot_load
-    from forcetorque.payload.zeroing import Tare, tare
+    from forcetorque.payload.robot_files.export import robot_load
+    from forcetorque.payload.tare_offset import Tare, tare
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
 
     log = start_logging()

@@ -1,55 +1,31 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows of what the readings of a wrist sensor tell of its loads and biases."""
+"""The result of `forcetorque payload`: loads with the half-widths of their 95 % intervals, biases, and their text."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import combinations
+from math import floor, hypot, log10
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
+from pydantic import Field
 
 from forcetorque.payload.identification.load_estimates import (
-    BiasTest,
-    DisagreeingRow,
-    DriftChoice,
-    Hypothesis,
+    BiasRow,
+    BiasTestRow,
+    DriftRow,
+    HypothesisRow,
     LoadEstimate,
-    SessionEstimate,
+    OutlierRow,
+    Three,
+    VariableRow,
+    three,
 )
-from forcetorque.payload.identification.parameters import six_of
-from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.table import Row, Shown, ShownWrench, WrenchValues
-
-Three = tuple[float | None, float | None, float | None]
-"""x, y, z; none where it is open."""
-Six = tuple[float | None, float | None, float | None, float | None, float | None, float | None]
-"""fx fy fz (N) tx ty tz (N m); none where it is open."""
-
-
-def three(values: Iterable[float]) -> Three:
-    """Give three numbers that JSON can hold.
-
-    Args:
-        values: Three numbers.
-
-    Returns:
-        Them; None for what is infinite or NaN.
-    """
-    x, y, z = (finite_or_none(value) for value in values)
-    return x, y, z
-
-
-def six(values: Iterable[float]) -> Six:
-    """Give six numbers that JSON can hold.
-
-    Args:
-        values: Six numbers.
-
-    Returns:
-        Them; None for what is infinite or NaN.
-    """
-    fx, fy, fz, tx, ty, tz = (finite_or_none(value) for value in values)
-    return fx, fy, fz, tx, ty, tz
+from forcetorque.payload.identification.parameter_vector import SECOND_MOMENTS, SIX_PLACES, six_of
+from forcetorque.results.number_text import finite_or_none, with_error
+from forcetorque.results.result import Result
+from forcetorque.results.table import Row, Shown, Table, WrenchValues, table_of
 
 
 class LoadRow(Row):
@@ -117,145 +93,6 @@ def _matrix(values: Iterable[Iterable[float]]) -> tuple[Three, Three, Three]:
     return first, second, third
 
 
-class BiasRow(Row):
-    """What the sensor reads without load in one session, from switching it on to switching it off."""
-
-    session: Annotated[str, Shown("session")]
-    """Name of the session."""
-    rows: Annotated[int, Shown("rows")]
-    """Number of means or poses in it."""
-    at_s: Annotated[float | None, Shown("at", "s", digits=0)]
-    """Instant of the bias; s from the earliest stamp."""
-    bias: Annotated[Six, ShownWrench(digits=4)]
-    """Bias; N, N m."""
-    bias_half_width_95: Six
-    """Half-widths of its 95 % intervals; N, N m."""
-    drift_per_s: Six | None
-    """Change of the bias; N/s, N m/s; none where it is constant."""
-    drift_half_width_95_per_s: Six | None
-    """Half-widths of its 95 % intervals; N/s, N m/s."""
-
-    @classmethod
-    def of(cls, session: SessionEstimate) -> Self:
-        """Tell an estimate.
-
-        Args:
-            session: The estimate.
-
-        Returns:
-            Its row.
-        """
-        return cls(
-            session=session.name,
-            rows=session.rows,
-            at_s=finite_or_none(session.at_s),
-            bias=six(session.bias),
-            bias_half_width_95=six(session.bias_half_width),
-            drift_per_s=None if session.drift is None else six(session.drift),
-            drift_half_width_95_per_s=None if session.drift_half_width is None else six(session.drift_half_width),
-        )
-
-
-class VariableRow(Row):
-    """What a variable, such as the temperature, adds to the reading."""
-
-    variable: Annotated[str, Shown("variable")]
-    """Its name and unit."""
-    coefficients: Annotated[Six, ShownWrench(digits=5)]
-    """What a unit adds; N, N m per unit."""
-    half_width_95: Six
-    """Half-widths of their 95 % intervals."""
-
-
-class DriftRow(Row):
-    """Whether biases move evenly in time, and why."""
-
-    taken: bool
-    """Whether a drift was taken."""
-    chosen: bool
-    """Whether rows that were held out chose; else the file states it, or there were too few rows."""
-    error_without: float | None
-    """Root mean square error of rows that were held out, over their noise, with a constant bias."""
-    error_with: float | None
-    """The same with a drift."""
-    plain_mass_without_kg: tuple[float | None, ...]
-    """Mass of each load by plain least squares with a constant bias."""
-    plain_mass_with_kg: tuple[float | None, ...]
-    """The same with a drift."""
-
-    @classmethod
-    def of(cls, choice: DriftChoice) -> Self:
-        """Tell a choice.
-
-        Args:
-            choice: The choice.
-
-        Returns:
-            Its row.
-        """
-        return cls(
-            taken=choice.taken,
-            chosen=choice.chosen,
-            error_without=finite_or_none(choice.error_without),
-            error_with=finite_or_none(choice.error_with),
-            plain_mass_without_kg=tuple(finite_or_none(mass) for mass in choice.mass_without),
-            plain_mass_with_kg=tuple(finite_or_none(mass) for mass in choice.mass_with),
-        )
-
-
-class BiasTestRow(Row):
-    """Whether one bias would do."""
-
-    of: str
-    """`sessions`, each with a bias; or `intervals` of one session, which has one."""
-    p_value: float | None
-    """How often differences as large come from one bias; none where biases are open."""
-    largest_difference: Six
-    """Largest difference of biases; N, N m."""
-    plain_mass_with_one_bias_kg: tuple[float | None, ...]
-    """Mass of each load by plain least squares with one bias."""
-
-    @classmethod
-    def of_test(cls, test: BiasTest) -> Self:
-        """Tell a test.
-
-        Args:
-            test: The test.
-
-        Returns:
-            Its row.
-        """
-        return cls(
-            of=test.of,
-            p_value=finite_or_none(test.p_value),
-            largest_difference=six(test.largest_difference),
-            plain_mass_with_one_bias_kg=tuple(finite_or_none(mass) for mass in test.mass_with_one),
-        )
-
-
-class RowThatDisagrees(Row):
-    """A row that disagrees with all others, and was weighed down."""
-
-    row: Annotated[str, Shown("row")]
-    """Where it is from."""
-    weight: Annotated[float, Shown("weight", digits=3)]
-    """What it counts, from 0 to 1."""
-    residual: Annotated[WrenchValues, ShownWrench(digits=3)]
-    """Reading less what is expected; N, N m."""
-
-    @classmethod
-    def of(cls, row: DisagreeingRow) -> Self:
-        """Tell a row.
-
-        Args:
-            row: The row.
-
-        Returns:
-            Its row.
-        """
-        return cls(row=row.name, weight=row.weight, residual=row.residual)
-
-
 class RecordingLoadRow(LoadRow):
     """What one of several recordings says of a load by itself."""
 
@@ -277,36 +114,6 @@ class RecordingLoadRow(LoadRow):
         return cls(recording=recording, **dict(LoadRow.of(load, link)))
 
 
-class HypothesisRow(Row):
-    """Another account of the rows that explains them better."""
-
-    name: str
-    """Such as `swapped columns`."""
-    words: str
-    """What is to be changed."""
-    residual_share: float
-    """What it leaves of the residual of the file as it is; 1 where it is told by sizes alone."""
-    severity: Literal["contradiction", "caution"]
-    """`caution` where it changes a load little, such as a bias that steps or a reading that comes late."""
-
-    @classmethod
-    def of(cls, hypothesis: Hypothesis) -> Self:
-        """Tell a hypothesis.
-
-        Args:
-            hypothesis: The hypothesis.
-
-        Returns:
-            Its row.
-        """
-        return cls(
-            name=hypothesis.name,
-            words=hypothesis.words,
-            residual_share=hypothesis.residual_share,
-            severity=hypothesis.severity,
-        )
-
-
 class JudgedLoadRow(Row):
     """An interval that was not fitted, held against the loads that were."""
 
@@ -322,3 +129,218 @@ class JudgedLoadRow(Row):
     """Largest of what the loads leave of the force about its middle, in means over a quarter of a second."""
     touched: Annotated[bool, Shown("touched")]
     """Whether that is over a fifth of the weight of the load: something else than the load pulls (a heuristic)."""
+
+
+_MOST_DIGITS = 9
+"""Digits behind the point of an inertia; kg m2."""
+
+
+def load_words(load: LoadRow) -> str:
+    """Say where a load is and what it weighs.
+
+    Args:
+        load: The load.
+
+    Returns:
+        A sentence without the sensor.
+    """
+    mass = with_error(load.mass_kg, load.mass_half_width_95_kg, digits=4)
+    pairs = zip(load.centre_of_mass_m, load.centre_of_mass_half_width_95_m, strict=True)
+    centre = ", ".join(
+        with_error(None if place is None else 1e3 * place, None if half is None else 1e3 * half, digits=2)
+        for place, half in pairs
+    )
+    name = "" if load.load == "load" else f"{load.load}: "
+    half = "± half a 95 % interval" if load.estimated else "as stated"
+    return f"{name}{mass} kg at ({centre}) mm, {half}"
+
+
+def inertia_words(load: LoadRow) -> str | None:
+    """Say what the inertia of a load is.
+
+    Args:
+        load: The load.
+
+    Returns:
+        A sentence; None where the inertia was not asked for.
+    """
+    values, halves = load.inertia_kgm2, load.inertia_half_width_95_kgm2
+    if values is None or halves is None or all(half == 0.0 for row in halves for half in row):
+        return None
+    pairs = {SECOND_MOMENTS[k]: (values[i][j], halves[i][j]) for k, (i, j) in enumerate(zip(*SIX_PLACES, strict=True))}
+    known = [half for _, half in pairs.values() if half]
+    digits = min(max(1 - floor(log10(min(known))), 0), _MOST_DIGITS) if known else 0
+    numbers = ", ".join(f"{pair} {with_error(*both, digits=digits)}" for pair, both in pairs.items())
+    name = "" if load.load == "load" else f"{load.load}: "
+    return f"{name}inertia about the centre of mass {numbers} kg m2"
+
+
+def drift_words(drift: DriftRow) -> str:
+    """Say whether a drift was taken, and why.
+
+    Args:
+        drift: The choice.
+
+    Returns:
+        A sentence.
+    """
+    taken = "biases drift evenly in time" if drift.taken else "biases are constant"
+    if drift.error_with is None or drift.error_without is None:
+        return f"{taken}: there are too few rows to choose"
+    masses = (
+        f"; by plain least squares the mass is {_masses(drift.plain_mass_with_kg)} kg with a drift and "
+        f"{_masses(drift.plain_mass_without_kg)} kg without"
+    )
+    why = "chosen by rows that were held out" if drift.chosen else "as stated; rows that were held out"
+    return f"{taken}, {why}: error {drift.error_with:.2f} with, {drift.error_without:.2f} without drift{masses}"
+
+
+def bias_words(test: BiasTestRow, loads: Sequence[LoadRow]) -> str:
+    """Say whether one bias would do.
+
+    Args:
+        test: The test.
+        loads: Loads as they were estimated.
+
+    Returns:
+        A sentence.
+    """
+    if test.p_value is None:
+        return f"whether the biases of the {test.of} differ is not told"
+    numbers = [value or 0.0 for value in test.largest_difference]
+    difference = f"by up to {max(numbers[:3]):.3g} N and {max(numbers[3:]):.2g} N m (p = {test.p_value:.2g})"
+    if test.of == "intervals":
+        return f"the biases of the intervals within a session differ {difference}"
+    errors = ", ".join(
+        f"{one - load.mass_kg:+.3g}"
+        for one, load in zip(test.plain_mass_with_one_bias_kg, loads, strict=True)
+        if one is not None and load.mass_kg is not None and load.estimated
+    )
+    error = f"; with one bias for all the mass would be off by {errors} kg" if errors else ""
+    return f"the biases of the sessions differ {difference}{error}"
+
+
+def disagreements(rows: Sequence[RecordingLoadRow]) -> Iterator[str]:
+    """Name what recordings say of a load beyond their intervals.
+
+    Args:
+        rows: What each says by itself.
+
+    Yields:
+        A sentence for every two that differ.
+    """
+    for first, second in combinations(rows, 2):
+        if first.load != second.load:
+            continue
+        halves = (first.mass_half_width_95_kg, second.mass_half_width_95_kg)
+        named = [("mass", "kg", 1.0, _difference(first.mass_kg, second.mass_kg, *halves))]
+        for k, axis in enumerate("xyz"):
+            places = (first.centre_of_mass_m[k], second.centre_of_mass_m[k])
+            halves = (first.centre_of_mass_half_width_95_m[k], second.centre_of_mass_half_width_95_m[k])
+            named.append((f"centre of mass along {axis}", "mm", 1e3, _difference(*places, *halves)))
+        words = [
+            f"{name} by {factor * value[0]:.3g} {unit}, where {factor * value[1]:.2g} are expected"
+            for name, unit, factor, value in named
+            if value is not None
+        ]
+        if words:
+            yield f"{first.recording} and {second.recording} disagree beyond their intervals: {'; '.join(words)}"
+
+
+def _difference(
+    first: float | None, second: float | None, first_half: float | None, second_half: float | None
+) -> tuple[float, float] | None:
+    """How far two numbers are apart and what their intervals allow; None where they allow it."""
+    if first is None or second is None or first_half is None or second_half is None:
+        return None
+    apart, allowed = abs(first - second), hypot(first_half, second_half)
+    return (apart, allowed) if apart > allowed else None
+
+
+def _masses(masses: Sequence[float | None]) -> str:
+    return ", ".join("-" if mass is None else f"{mass:.4g}" for mass in masses)
+
+
+class WeighedLoad(Result):
+    """What hangs on a wrist sensor or on a robot, and the sensor's biases."""
+
+    of_several: ClassVar[tuple[str, ...]] = ("recordings", "disagreements")
+    interval_uses = ()
+
+    schema_name: Literal["forcetorque/payload/2"] = Field(default="forcetorque/payload/2", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    rows: int
+    """Number of means or poses that were fitted."""
+    left_out: int
+    """Samples that lack a finite reading or motion."""
+    loads: tuple[LoadRow, ...]
+    """Loads, in the order of the file."""
+    sessions: tuple[BiasRow, ...]
+    """Bias of every session, in the order of time."""
+    variables: tuple[VariableRow, ...]
+    """What the variables of the sensor add."""
+    drift: DriftRow
+    """Whether biases move evenly in time, and why."""
+    bias_tests: tuple[BiasTestRow, ...]
+    """Whether one bias would do."""
+    mount_rad: tuple[float, float, float] | None
+    """Rotation vector from the axes of the motion to those of the sensor; none where it was not asked for."""
+    tilt_rad: tuple[float, float] | None
+    """Rotation vector of gravity about x and y of the world; none where it was not asked for."""
+    open: tuple[str, ...]
+    """What the rows leave open, in sentences."""
+    disagreeing: tuple[OutlierRow, ...]
+    """Rows that disagree with all others."""
+    hypotheses: tuple[HypothesisRow, ...]
+    """Other accounts of the rows that explain them better, the best first."""
+    judged: tuple[JudgedLoadRow, ...]
+    """Validation intervals, held against the loads."""
+    residual_rms: WrenchValues
+    """Root mean square residual; N, N m."""
+    spanned_directions: int
+    """Directions of wrench, of six, that the loads move: one centre of mass moves three, two five."""
+    recordings: tuple[RecordingLoadRow, ...] = ()
+    """What each of several recordings says by itself."""
+    disagreements: tuple[str, ...] = ()
+    """Where they differ by more than their intervals, in sentences."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give the loads, then biases, what is open and what disagrees.
+
+        Yields:
+            Sentences and tables.
+        """
+        source = f"{self.sensor} ({self.serial}), {self.rows} rows"
+        for load in self.loads:
+            yield f"{source}: {load_words(load)}"
+            if (inertia := inertia_words(load)) is not None:
+                yield inertia
+        yield table_of(self.sessions, "bias: reading without load")
+        if self.variables:
+            yield table_of(self.variables, "what variables add to the reading, per unit")
+        yield drift_words(self.drift)
+        yield from (bias_words(test, self.loads) for test in self.bias_tests)
+        yield from self.open
+        if self.disagreeing:
+            yield table_of(self.disagreeing, "rows that disagree with all others, and count less")
+        if self.recordings:
+            yield table_of(self.recordings, "what each recording says by itself, ± half a 95 % interval")
+            yield from self.disagreements or ("the recordings agree within their intervals",)
+        if self.judged:
+            yield table_of(self.judged, "what the loads leave of intervals that were not fitted, about its middle")
+        rms = ", ".join(f"{value:.4f}" for value in self.residual_rms)
+        yield f"residual RMS {rms} N, N m; the loads move {self.spanned_directions} of 6 directions of wrench"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give a line for every load and session.
+
+        Returns:
+            The lines: a load beside the bias of a session.
+        """
+        return [load.flat() | session.flat() for load in self.loads for session in self.sessions]

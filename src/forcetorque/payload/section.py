@@ -12,8 +12,15 @@ from pydantic_core import PydanticCustomError
 from forcetorque.experiment.file import ExperimentFile
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.section import Loading, Section, StandIn
-from forcetorque.payload.link_loads import LinkLoads, read_link_loads, with_loads_named
-from forcetorque.payload.load_tables import (
+from forcetorque.payload.load_on_wrist_sensor import (
+    WristLoads,
+    load_model,
+    read_wrist_loads,
+    stated_inertia,
+    stated_loads,
+)
+from forcetorque.payload.loads_on_robot_links import LinkLoads, read_link_loads, with_loads_named
+from forcetorque.payload.toml_tables import (
     AnyLoad,
     LinkLoad,
     Loads,
@@ -24,7 +31,6 @@ from forcetorque.payload.load_tables import (
     require_one_sensor,
     wrist_tables,
 )
-from forcetorque.payload.wrist_load import WristLoads, load_model, read_wrist_loads, stated_inertia, stated_loads
 from forcetorque.recording.recording import Interval, MovingSupport, Use
 
 

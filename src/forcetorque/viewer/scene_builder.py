@@ -20,7 +20,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.inspection.findings import inspect_experiment
-from forcetorque.payload.wrist_load import is_wrist_load
+from forcetorque.payload.load_on_wrist_sensor import is_wrist_load
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Stream

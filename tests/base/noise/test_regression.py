@@ -14,8 +14,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import mean_error, means_in_windows
 from forcetorque.base.noise.slow_noise import SlowNoise, Timeline, regress
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.payload.identification.fit import fit
-from forcetorque.payload.identification.load_problem import Load, LoadProblem, LoadRows
+from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
+from forcetorque.payload.identification.robust_fit import fit
 
 STEP_S = 0.01
 

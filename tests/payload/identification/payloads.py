@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.payload.identification.load_problem import Load, LoadProblem, LoadRows
+from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
 
 MASS, CENTRE = 1.3, np.array([0.01, -0.02, 0.06])
 SIZES = np.array([0.05, 0.05, 0.08, 0.003, 0.003, 0.003])

@@ -12,10 +12,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.payload.identification.fit import fit, plain_fit, scales
-from forcetorque.payload.identification.hypotheses import hypotheses
-from forcetorque.payload.identification.load_problem import Load, LoadProblem
-from forcetorque.payload.identification.solve import solve
+from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
+from forcetorque.payload.identification.frame_unit_and_clock_errors import hypotheses
+from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.identification.robust_fit import fit, plain_fit, scales
 from tests.payload.identification.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, slow, weight
 
 BIAS = np.array([5.0, -3.0, 12.0, 0.5, -0.2, 0.1])
@@ -247,11 +247,11 @@ def test_a_row_that_disagrees_is_named_and_counts_less() -> None:
     reading = _reading()
     reading[11, :3] += [3.0, -2.0, 4.0]
     solution = solve(problem_of(reading, GRAVITY))
-    assert [row.name for row in solution.disagreeing] == ["row 12"]
+    assert [row.row for row in solution.disagreeing] == ["row 12"]
     np.testing.assert_allclose(solution.disagreeing[0].residual[:3], [3.0, -2.0, 4.0], atol=0.3)
     assert solution.disagreeing[0].weight < 0.05
     assert abs(solution.loads[0].mass - MASS) < solution.loads[0].mass_half_width
-    assert abs(solution.drift.mass_without[0] - MASS) > 2.0 * solution.loads[0].mass_half_width
+    assert abs(solution.drift.plain_mass_without_kg[0] - MASS) > 2.0 * solution.loads[0].mass_half_width
 
 
 def test_sound_rows_are_seldom_named() -> None:

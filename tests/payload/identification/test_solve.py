@@ -15,10 +15,10 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.formats.tabular.table import read_table
 from forcetorque.formats.tabular.table_layout import TableLayout, TableSignal
-from forcetorque.payload.identification.fit import plain_fit
-from forcetorque.payload.identification.load_problem import Load, LoadProblem, LoadRows
-from forcetorque.payload.identification.parameters import Kind
-from forcetorque.payload.identification.solve import solve
+from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
+from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.identification.parameter_vector import Kind
+from forcetorque.payload.identification.robust_fit import plain_fit
 from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
@@ -119,8 +119,8 @@ def test_a_temperature_is_told_from_bias_and_load() -> None:
     reading = weight(gravity) + BIAS + (degrees - degrees.mean()) * slope + SIZES * rng.normal(size=(60, 6))
     solution = solve(problem_of(reading, gravity, variables=degrees, variables_named=("temperature (degC)",)))
     (variable,) = solution.variables
-    assert (np.abs(variable.coefficients - slope) < 1.5 * variable.half_width).all()
-    assert (variable.half_width < 0.1 * np.abs(slope).max()).all()
+    assert (np.abs(variable.coefficients - slope) < 1.5 * np.array(variable.half_width_95)).all()
+    assert (np.array(variable.half_width_95) < 0.1 * np.abs(slope).max()).all()
 
 
 def test_a_mount_that_nobody_states_is_found() -> None:
@@ -240,7 +240,7 @@ def test_a_real_wrist_sensors_load(data_dir: Path) -> None:
     solution = solve(problem_of(table.signal("wrench").values, table.signal("gravity").values))
     (load,) = solution.loads
     assert load.mass == pytest.approx(0.932, abs=0.001)
-    assert solution.drift.mass_without[0] == pytest.approx(0.9323, abs=0.0001)
+    assert solution.drift.plain_mass_without_kg[0] == pytest.approx(0.9323, abs=0.0001)
     np.testing.assert_allclose(load.centre_of_mass, [0.0003, 0.0, 0.0439], atol=1e-4)
     assert abs(load.mass - 0.9323) < load.mass_half_width < 0.004
     np.testing.assert_allclose(solution.residual_rms[:3], [0.13, 0.05, 0.06], atol=0.005)

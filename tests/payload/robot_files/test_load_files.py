@@ -17,7 +17,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.payload.load_for_robot import write_load_file
+from forcetorque.payload.robot_files.export import write_load_file
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import read_hrpsys, read_mc_rtc
 from forcetorque.payload.robot_files.robot_load import RobotLoad

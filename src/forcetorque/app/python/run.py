@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from forcetorque.evaluation.evaluation import Evaluation
     from forcetorque.evaluation.sphere.sphere import Spheres
     from forcetorque.evaluation.validation.validation import Validation
-    from forcetorque.payload.payload import WeighedLoad
-    from forcetorque.payload.zeroing import Tare
+    from forcetorque.payload.result import WeighedLoad
+    from forcetorque.payload.tare_offset import Tare
     from forcetorque.planning.planning import Plan
     from forcetorque.report.assessment import Demands
     from forcetorque.report.report import Report
@@ -150,7 +150,7 @@ class Run(SensorRun):
         Returns:
             Loads, biases, their intervals, and what stays open.
         """
-        from forcetorque.payload.payload import weigh_load
+        from forcetorque.payload.identify import weigh_load
 
         return weigh_load(self)
 
@@ -210,7 +210,7 @@ class Run(SensorRun):
         Returns:
             The offset, to be added, with its interval.
         """
-        from forcetorque.payload.zeroing import tare
+        from forcetorque.payload.tare_offset import tare
 
         name, reader = one_named(calibration)
         return tare(self, label, name=name, calibration=reader)

@@ -31,7 +31,7 @@ from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignInterval
 from forcetorque.experiment.experiment import ExperimentSensor
-from forcetorque.payload.diagnostics import reference_doubts
+from forcetorque.payload.load_warnings import reference_doubts
 from forcetorque.recording.recording import Use
 from forcetorque.recording.sample_quality import UnusableCounts
 

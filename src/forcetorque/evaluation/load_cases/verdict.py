@@ -37,7 +37,7 @@ from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import doubts_about_choice, require_unseen_if_judged
-from forcetorque.payload.diagnostics import circular_loads
+from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.table import Row, Shown, short_names
 

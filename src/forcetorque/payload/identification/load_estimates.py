@@ -1,21 +1,55 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What rows under loads tell: loads, biases, what else was asked for, intervals of all of it, and what stays open."""
+"""What samples under loads determine: loads and biases with 95 % intervals, and what stays unobservable."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Annotated, Literal
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.inertia import Inertia
-from forcetorque.payload.identification.load_problem import INERTIAL
-from forcetorque.payload.identification.parameters import Guess
+from forcetorque.payload.identification.estimation_problem import INERTIAL
+from forcetorque.payload.identification.parameter_vector import Guess
+from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.table import Row, Shown, ShownWrench, WrenchValues
+
+Three = tuple[float | None, float | None, float | None]
+"""x, y, z; none where it is open."""
+Six = tuple[float | None, float | None, float | None, float | None, float | None, float | None]
+"""fx fy fz (N) tx ty tz (N m); none where it is open."""
+
+
+def three(values: Iterable[float]) -> Three:
+    """Give three numbers that JSON can hold.
+
+    Args:
+        values: Three numbers.
+
+    Returns:
+        Them; None for what is infinite or NaN.
+    """
+    x, y, z = (finite_or_none(value) for value in values)
+    return x, y, z
+
+
+def six(values: Iterable[float]) -> Six:
+    """Give six numbers that JSON can hold.
+
+    Args:
+        values: Six numbers.
+
+    Returns:
+        Them; None for what is infinite or NaN.
+    """
+    fx, fy, fz, tx, ty, tz = (finite_or_none(value) for value in values)
+    return fx, fy, fz, tx, ty, tz
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class LoadEstimate:
+class LoadEstimate(ArrayRecord):
     """A load, stated or estimated.
 
     Half-widths are of 95 % intervals: 0 for what was stated, infinite for what is open.
@@ -27,32 +61,20 @@ class LoadEstimate:
     """kg; NaN where it is open."""
     mass_half_width: float
     """kg."""
-    first_moment: FloatArray
+    first_moment: FloatArray = field(metadata=array(3))
     """Mass times centre of mass; shape (3,); kg m; NaN where it is open."""
-    centre_of_mass: FloatArray
+    centre_of_mass: FloatArray = field(metadata=array(3))
     """In the sensor's frame; shape (3,); m; NaN where it is open."""
-    centre_of_mass_half_width: FloatArray
+    centre_of_mass_half_width: FloatArray = field(metadata=array(3))
     """Shape (3,); m."""
-    inertia: FloatArray
+    inertia: FloatArray = field(metadata=array(3, 3))
     """About the centre of mass, along the sensor's axes; shape (3, 3); kg m2; NaN where it is open."""
-    inertia_half_width: FloatArray
+    inertia_half_width: FloatArray = field(metadata=array(3, 3))
     """Shape (3, 3); kg m2."""
-    covariance: FloatArray
+    covariance: FloatArray = field(metadata=array(INERTIAL, INERTIAL))
     """Of mass, first moment and xx, yy, zz, xy, xz, yz of the inertia about the sensor's origin; shape (10, 10)."""
     estimated: bool
     """Whether anything of it was estimated."""
-
-    def __post_init__(self) -> None:
-        shapes: dict[str, tuple[int, ...]] = {
-            "first_moment": (3,),
-            "centre_of_mass": (3,),
-            "centre_of_mass_half_width": (3,),
-            "inertia": (3, 3),
-            "inertia_half_width": (3, 3),
-            "covariance": (INERTIAL, INERTIAL),
-        }
-        for field, shape in shapes.items():
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
 
     @property
     def is_determined(self) -> bool:
@@ -70,119 +92,88 @@ class LoadEstimate:
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SessionEstimate:
-    """What the sensor reads without load in one power-up."""
+class BiasRow(Row):
+    """What the sensor reads without load in one session, from switching it on to switching it off."""
 
-    name: str
+    session: Annotated[str, Shown("session")]
     """Name of the session."""
-    rows: int
-    """Number of its rows."""
-    bias: FloatArray
-    """At the instant `at_s`; shape (6,); N, N m; NaN where it is open."""
-    bias_half_width: FloatArray
-    """Of its 95 % interval; shape (6,); N, N m."""
-    at_s: float
-    """Mean instant of its rows; s; of rows without instants the mean number of the row, from 0."""
-    drift: FloatArray | None = None
-    """Change of the bias; shape (6,); N/s, N m/s, of rows without instants per row; None where none was taken."""
-    drift_half_width: FloatArray | None = None
-    """Of its 95 % interval; shape (6,)."""
-
-    def __post_init__(self) -> None:
-        for field in ("bias", "bias_half_width", "drift", "drift_half_width"):
-            if getattr(self, field) is not None:
-                object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
+    rows: Annotated[int, Shown("rows")]
+    """Number of means or poses in it."""
+    at_s: Annotated[float | None, Shown("at", "s", digits=0)]
+    """Instant of the bias; s from the earliest stamp."""
+    bias: Annotated[Six, ShownWrench(digits=4)]
+    """Bias; N, N m."""
+    bias_half_width_95: Six
+    """Half-widths of its 95 % intervals; N, N m."""
+    drift_per_s: Six | None
+    """Change of the bias; N/s, N m/s; none where it is constant."""
+    drift_half_width_95_per_s: Six | None
+    """Half-widths of its 95 % intervals; N/s, N m/s."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class VariableEstimate:
-    """What a variable such as the temperature adds to the reading."""
+class VariableRow(Row):
+    """What a variable, such as the temperature, adds to the reading."""
 
-    name: str
+    variable: Annotated[str, Shown("variable")]
     """Its name and unit."""
-    coefficients: FloatArray
-    """What a unit adds; shape (6,); N, N m per unit; NaN where it is open."""
-    half_width: FloatArray
-    """Of its 95 % interval; shape (6,)."""
-
-    def __post_init__(self) -> None:
-        for field in ("coefficients", "half_width"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
+    coefficients: Annotated[Six, ShownWrench(digits=5)]
+    """What a unit adds; N, N m per unit."""
+    half_width_95: Six
+    """Half-widths of their 95 % intervals."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class OpenDirection:
-    """Parameters that the rows tell only together, or not at all."""
-
-    parameters: tuple[str, ...]
-    """Names of those that take part."""
-    words: str
-    """What is open, and what to do about it, in a sentence."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class DisagreeingRow:
-    """A row that disagrees with all others, and was weighed down."""
-
-    row: int
-    """Its number in the problem, from 0."""
-    name: str
-    """Where it is from."""
-    residual: FloatArray
-    """Reading less what the others expect of it; shape (6,); N, N m."""
-    weight: float
-    """What it counts, from 0 to 1."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Hypothesis:
-    """Another account of the same rows that explains them better."""
-
-    name: str
-    """Such as `transposed rotation`."""
-    words: str
-    """What is to be changed, in a sentence."""
-    residual_share: float
-    """What it leaves of the residual of the problem as stated: root mean square over root mean square."""
-    severity: Literal["contradiction", "caution"] = "contradiction"
-    """`caution` where it changes a load little, such as a bias that steps or a reading that comes late."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class DriftChoice:
-    """Whether a drift was taken, and why."""
+class DriftRow(Row):
+    """Whether biases move evenly in time, and why."""
 
     taken: bool
-    """Whether the bias of each session moves evenly in time."""
-    error_without: float
-    """Root mean square error of rows that were held out, over their noise, with a constant bias."""
-    error_with: float
-    """The same with a drift."""
-    mass_without: tuple[float, ...]
-    """Mass of each load by plain least squares, all axes alike, with a constant bias; kg."""
-    mass_with: tuple[float, ...]
-    """The same with a drift; kg."""
+    """Whether a drift was taken."""
     chosen: bool
-    """Whether rows that were held out chose; else the problem stated it, or there were too few rows."""
+    """Whether rows that were held out chose; else the file states it, or there were too few rows."""
+    error_without: float | None
+    """Root mean square error of rows that were held out, over their noise, with a constant bias."""
+    error_with: float | None
+    """The same with a drift."""
+    plain_mass_without_kg: tuple[float | None, ...]
+    """Mass of each load by plain least squares with a constant bias."""
+    plain_mass_with_kg: tuple[float | None, ...]
+    """The same with a drift."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class BiasTest:
-    """Whether one bias would do for what has several: by Wald's test under the noise that was found."""
+class BiasTestRow(Row):
+    """Whether one bias would do."""
 
-    of: Literal["sessions", "intervals"]
-    """What was compared: the biases of sessions, or those of the intervals of one session."""
-    largest_difference: FloatArray
-    """Largest difference of biases, per axis; shape (6,); N, N m."""
-    p_value: float
-    """How often differences as large come from one bias."""
-    mass_with_one: tuple[float, ...]
-    """Mass of each load with one bias, by least squares under independent noise; kg."""
+    of: str
+    """`sessions`, each with a bias; or `intervals` of one session, which has one."""
+    p_value: float | None
+    """How often differences as large come from one bias; none where biases are open."""
+    largest_difference: Six
+    """Largest difference of biases; N, N m."""
+    plain_mass_with_one_bias_kg: tuple[float | None, ...]
+    """Mass of each load by plain least squares with one bias."""
 
-    def __post_init__(self) -> None:
-        difference = read_only(self.largest_difference, name="largest_difference", shape=(6,))
-        object.__setattr__(self, "largest_difference", difference)
+
+class OutlierRow(Row):
+    """A row that disagrees with all others, and was weighed down."""
+
+    row: Annotated[str, Shown("row")]
+    """Where it is from."""
+    weight: Annotated[float, Shown("weight", digits=3)]
+    """What it counts, from 0 to 1."""
+    residual: Annotated[WrenchValues, ShownWrench(digits=3)]
+    """Reading less what is expected; N, N m."""
+
+
+class HypothesisRow(Row):
+    """Another account of the rows that explains them better."""
+
+    name: str
+    """Such as `swapped columns`."""
+    words: str
+    """What is to be changed."""
+    residual_share: float
+    """What it leaves of the residual of the file as it is; 1 where it is told by sizes alone."""
+    severity: Literal["contradiction", "caution"]
+    """`caution` where it changes a load little, such as a bias that steps or a reading that comes late."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -191,9 +182,9 @@ class LoadSolution:
 
     loads: tuple[LoadEstimate, ...]
     """In the order of the problem."""
-    sessions: tuple[SessionEstimate, ...]
+    sessions: tuple[BiasRow, ...]
     """In the order of the problem."""
-    variables: tuple[VariableEstimate, ...]
+    variables: tuple[VariableRow, ...]
     """In the order of the problem."""
     mount: FloatArray
     """`sensor_R_motion`, by which the sensor is turned against the axes of the motion; shape (3, 3)."""
@@ -215,15 +206,15 @@ class LoadSolution:
     """Reading less what is expected of it; shape (n, 6); N, N m."""
     weight: FloatArray
     """What every row counts, from 0 to 1; shape (n,)."""
-    open_directions: tuple[OpenDirection, ...]
+    open_directions: tuple[str, ...]
     """What the rows leave open."""
-    disagreeing: tuple[DisagreeingRow, ...]
+    disagreeing: tuple[OutlierRow, ...]
     """Rows that disagree with the others."""
-    drift: DriftChoice
+    drift: DriftRow
     """Whether a drift was taken, and why."""
-    bias_tests: tuple[BiasTest, ...]
+    bias_tests: tuple[BiasTestRow, ...]
     """Whether one bias would do."""
-    hypotheses: tuple[Hypothesis, ...]
+    hypotheses: tuple[HypothesisRow, ...]
     """Accounts of the rows that are better than the one stated, the best first."""
     spanned: int
     """How many of the six directions of wrench the loads move: what they could tell of a matrix."""

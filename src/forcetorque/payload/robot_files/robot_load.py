@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import FloatArray, array, check_arrays
 from forcetorque.base.errors import FormatError
 from forcetorque.base.wrench import MeasureDirection, reading_sign
 
@@ -27,19 +27,19 @@ class RobotLoad:
     """Who acts on whom in the reading; the load is the child."""
     mass: float
     """Mass; kg."""
-    centre_of_mass: FloatArray
+    centre_of_mass: FloatArray = field(metadata=array(3))
     """Position c in the sensor's frame; shape (3,); m."""
-    bias: FloatArray
+    bias: FloatArray = field(metadata=array(6))
     """Reading without load; shape (6,); N, N m."""
-    matrix: FloatArray = field(default_factory=lambda: np.eye(6))
+    matrix: FloatArray = field(default_factory=lambda: np.eye(6), metadata=array(6, None))
     """What makes a wrench of the reading; shape (6, c); the identity where the sensor sends wrenches."""
 
     def __post_init__(self) -> None:
-        for name, shape in (("centre_of_mass", (3,)), ("bias", (6,)), ("matrix", (6, None))):
-            array = read_only(getattr(self, name), name=name, shape=shape)
-            object.__setattr__(self, name, array)
-            if not np.isfinite(array).all():
-                raise FormatError(f"load of {self.sensor!r}: {name}: expected finite numbers, got {array.tolist()}")
+        check_arrays(self)
+        for name in ("centre_of_mass", "bias", "matrix"):
+            values = getattr(self, name)
+            if not np.isfinite(values).all():
+                raise FormatError(f"load of {self.sensor!r}: {name}: expected finite numbers, got {values.tolist()}")
         if not (np.isfinite(self.mass) and self.mass >= 0.0):
             raise FormatError(f"load of {self.sensor!r}: mass: expected at least 0 kg, got {self.mass:g}")
 

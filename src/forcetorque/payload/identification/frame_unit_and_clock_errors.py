@@ -15,12 +15,18 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, MeasureDirection
-from forcetorque.payload.identification.bias_checks import strongest_jump
-from forcetorque.payload.identification.fit import Fit, plain_fit, scales
-from forcetorque.payload.identification.load_estimates import Hypothesis
-from forcetorque.payload.identification.load_problem import LoadProblem, LoadRows
-from forcetorque.payload.identification.parameters import Kind
-from forcetorque.payload.identification.prediction import first_mount, masses, quarter_turns, turn_words, turned_by
+from forcetorque.payload.identification.bias_drift_and_jumps import strongest_jump
+from forcetorque.payload.identification.estimation_problem import LoadProblem, LoadRows
+from forcetorque.payload.identification.load_estimates import HypothesisRow
+from forcetorque.payload.identification.measurement_model import (
+    first_mount,
+    masses,
+    quarter_turns,
+    turn_words,
+    turned_by,
+)
+from forcetorque.payload.identification.parameter_vector import Kind
+from forcetorque.payload.identification.robust_fit import Fit, plain_fit, scales
 
 _BETTER = 0.5
 """A hypothesis is named if it leaves less than this part of what the problem as stated leaves."""
@@ -48,7 +54,7 @@ _LAGS = np.concatenate([-np.arange(0.1, 2.05, 0.1), np.arange(0.1, 2.05, 0.1)])
 """Lags that are tried; s."""
 
 
-def hypotheses(fitted: Fit, *, drift: bool) -> tuple[Hypothesis, ...]:
+def hypotheses(fitted: Fit, *, drift: bool) -> tuple[HypothesisRow, ...]:
     """Name what explains the rows better than the problem as stated.
 
     Where the readings stay while the load moves, the log is frozen, and nothing else is looked for; where no load
@@ -66,7 +72,7 @@ def hypotheses(fitted: Fit, *, drift: bool) -> tuple[Hypothesis, ...]:
         return (*_unit_of_gravity(rows), *_stated_as_nothing(problem))
     if np.abs(rows.moved(rows.wrench)).max() <= _ROUNDING * np.abs(rows.wrench).max():
         words = f"all {len(rows)} rows have the same reading: the log is frozen, or nothing was read"
-        return (Hypothesis(name="frozen log", words=words, residual_share=1.0),)
+        return (HypothesisRow(name="frozen log", words=words, residual_share=1.0, severity="contradiction"),)
     guess, residual = plain_fit(problem, drift=drift)
     stated = unexplained(rows, residual)
     named = [*_unit_of_gravity(rows), *_of_levers(fitted), *_stated_as_nothing(problem), *_reversed(fitted)]
@@ -74,7 +80,7 @@ def hypotheses(fitted: Fit, *, drift: bool) -> tuple[Hypothesis, ...]:
         for name, words, limit, other in _others(problem):
             share = unexplained(other.rows, plain_fit(other, drift=drift)[1]) / stated
             if share < limit:
-                named.append(Hypothesis(name=name, words=words, residual_share=share))
+                named.append(HypothesisRow(name=name, words=words, residual_share=share, severity="contradiction"))
     named += scales(problem, guess, other_sizes=not named)
     named += _lag(problem, residual, drift=drift)
     named += _of_nothing(fitted) if not named else ()
@@ -146,7 +152,7 @@ def _turned(rows: LoadRows, turn: FloatArray, acceleration: FloatArray) -> LoadR
     return replace(rows, proper_acceleration=acceleration, orientation=None, **others)
 
 
-def _reversed(fitted: Fit) -> Iterator[Hypothesis]:
+def _reversed(fitted: Fit) -> Iterator[HypothesisRow]:
     """A mass below zero, or a stated one that the readings contradict in sign."""
     problem = fitted.problem
     other = {
@@ -159,24 +165,26 @@ def _reversed(fitted: Fit) -> Iterator[Hypothesis]:
     half = fitted.half_width
     for k, one in enumerate(fitted.guess.parameters):
         if one.kind is Kind.MASS and fitted.guess.values[k] + _SURE * half[k] < 0.0:
-            yield Hypothesis(name="reversed direction", words=words, residual_share=1.0)
+            yield HypothesisRow(name="reversed direction", words=words, residual_share=1.0, severity="contradiction")
             return
     if all(load.mass is not None for load in problem.loads):
         rows, sign = problem.rows, replace(problem, direction=other)
         stated, turned = (unexplained(rows, plain_fit(one, drift=False)[1]) for one in (problem, sign))
         if turned < _BETTER * stated:
-            yield Hypothesis(name="reversed direction", words=words, residual_share=turned / stated)
+            yield HypothesisRow(
+                name="reversed direction", words=words, residual_share=turned / stated, severity="contradiction"
+            )
 
 
-def _unit_of_gravity(rows: LoadRows) -> Iterator[Hypothesis]:
+def _unit_of_gravity(rows: LoadRows) -> Iterator[HypothesisRow]:
     """Gravity of another size."""
     gravity = float(np.median(np.linalg.norm(rows.proper_acceleration, axis=1)))
     if rows.angular_velocity_products is None and not 9.0 < gravity < 10.6:
         words = f"gravity is {gravity:.4g} m/s2: its unit is another one, such as g; state the unit of the column"
-        yield Hypothesis(name="unit of gravity", words=words, residual_share=1.0)
+        yield HypothesisRow(name="unit of gravity", words=words, residual_share=1.0, severity="contradiction")
 
 
-def _of_levers(fitted: Fit) -> Iterator[Hypothesis]:
+def _of_levers(fitted: Fit) -> Iterator[HypothesisRow]:
     """Centres of mass that are surely farther from the sensor's origin, or nearer to it, than any load can be."""
     problem, guess, half = fitted.problem, fitted.guess, fitted.half_width
     for number, (load, mass) in enumerate(zip(problem.loads, masses(problem, guess), strict=True)):
@@ -196,24 +204,24 @@ def _of_levers(fitted: Fit) -> Iterator[Hypothesis]:
                 f"the centre of mass of {load.name!r} is at least {nearest:.3g} m away: moments may be in N mm, or "
                 "forces in kg; state the units of the columns"
             )
-            yield Hypothesis(name="mixed units", words=words, residual_share=1.0)
+            yield HypothesisRow(name="mixed units", words=words, residual_share=1.0, severity="contradiction")
         # the frame of a load on a link has its origin anywhere, at the centre of mass too
         if problem.rows.columns is None and error < size and size + error < _NEAR_M * (abs(mass) - mass_error):
             words = (
                 f"the centre of mass of {load.name!r} is {1e3 * size / abs(mass):.2g} mm from the sensor's origin: "
                 "moments may be in N m where N mm is stated; state the units of the columns"
             )
-            yield Hypothesis(name="mixed units", words=words, residual_share=1.0)
+            yield HypothesisRow(name="mixed units", words=words, residual_share=1.0, severity="contradiction")
 
 
-def _stated_as_nothing(problem: LoadProblem) -> Iterator[Hypothesis]:
+def _stated_as_nothing(problem: LoadProblem) -> Iterator[HypothesisRow]:
     """Loads that weigh nothing by what is stated."""
     if all(load.mass == 0.0 for load in problem.loads):
         words = "all masses are stated as 0: state those of the weights, or leave them out to estimate them"
-        yield Hypothesis(name="no load", words=words, residual_share=1.0)
+        yield HypothesisRow(name="no load", words=words, residual_share=1.0, severity="contradiction")
 
 
-def _of_nothing(fitted: Fit) -> Iterator[Hypothesis]:
+def _of_nothing(fitted: Fit) -> Iterator[HypothesisRow]:
     """Loads that weigh nothing by the readings."""
     problem, half = fitted.problem, fitted.half_width
     gravity = problem.rows.proper_acceleration
@@ -223,10 +231,10 @@ def _of_nothing(fitted: Fit) -> Iterator[Hypothesis]:
         if one.kind is Kind.MASS and turns and abs(fitted.guess.values[k]) <= half[k] < np.inf:
             words = f"the mass of {problem.loads[one.owner].name!r} is not told from 0 although gravity turns"
             sentence = f"{words}: nothing hangs on the sensor, or it was not read"
-            yield Hypothesis(name="no load", words=sentence, residual_share=1.0)
+            yield HypothesisRow(name="no load", words=sentence, residual_share=1.0, severity="contradiction")
 
 
-def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator[Hypothesis]:
+def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator[HypothesisRow]:
     """A reading that is behind the motion, or before it, by a filter or another clock."""
     rows = problem.rows
     if rows.time_s is None or len(rows) < 3 or not (np.diff(rows.time_s) > 0.0).all():
@@ -248,7 +256,7 @@ def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator
             f"the reading is about {abs(_LAGS[best]):.1f} s {side} the motion, as a filter or another clock makes it: "
             "shift the clock of the stream, or use rows in which nothing moves"
         )
-        yield Hypothesis(name="lag", words=words, residual_share=float(shares[best]), severity="caution")
+        yield HypothesisRow(name="lag", words=words, residual_share=float(shares[best]), severity="caution")
 
 
 def _behind(rows: LoadRows, time_s: FloatArray, lag: float) -> LoadRows:
@@ -267,25 +275,26 @@ def _behind(rows: LoadRows, time_s: FloatArray, lag: float) -> LoadRows:
     )
 
 
-def _jump(fitted: Fit, residual: FloatArray, *, drift: bool) -> Iterator[Hypothesis]:
+def _jump(fitted: Fit, residual: FloatArray, *, drift: bool) -> Iterator[HypothesisRow]:
     problem, rows = fitted.problem, fitted.problem.rows
     stated = unexplained(rows, residual)
     jump = strongest_jump(fitted) if stated > _ROUNDING else None
     if jump is None:
         return
+    row, axis = jump
     session = np.where(
-        (rows.session == rows.session[jump.row]) & (np.arange(len(rows)) >= jump.row),
+        (rows.session == rows.session[row]) & (np.arange(len(rows)) >= row),
         len(problem.sessions),
         rows.session,
     )
-    name = problem.sessions[int(rows.session[jump.row])]
+    name = problem.sessions[int(rows.session[row])]
     cut = replace(problem, rows=replace(rows, session=session), sessions=(*problem.sessions, f"{name}, after the jump"))
     guess, left = plain_fit(cut, drift=drift)
     mass = ", ".join(f"{value:.4g}" for value in masses(cut, guess))
     words = (
-        f"the bias jumps in {WRENCH_COMPONENTS[jump.axis]} before {rows.names[jump.row]!r}, as of a sensor that was "
+        f"the bias jumps in {WRENCH_COMPONENTS[axis]} before {rows.names[row]!r}, as of a sensor that was "
         f"zeroed or switched off: give what follows a session of its own (the mass is {mass} kg then)"
     )
     share = unexplained(rows, left) / stated
     if share < _LESS_FOR_JUMP:
-        yield Hypothesis(name="jump", words=words, residual_share=share, severity="caution")
+        yield HypothesisRow(name="jump", words=words, residual_share=share, severity="caution")

@@ -8,11 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.payload.identification.fit import Fit
-from forcetorque.payload.identification.load_estimates import OpenDirection
-from forcetorque.payload.identification.load_problem import LoadProblem
-from forcetorque.payload.identification.parameters import AXES, Kind, Parameter
-from forcetorque.payload.identification.prediction import load_wrench
+from forcetorque.payload.identification.estimation_problem import LoadProblem
+from forcetorque.payload.identification.measurement_model import load_wrench
+from forcetorque.payload.identification.parameter_vector import AXES, Kind, Parameter
+from forcetorque.payload.identification.robust_fit import Fit
 
 _TAKES_PART = 1e-4
 """Unknowns with less than this part of the largest one of a direction have no part in it."""
@@ -41,7 +40,7 @@ _ADVICE = {
 _SCALE = "state the mass of one load: known masses give the scale"
 
 
-def open_directions(fitted: Fit) -> tuple[OpenDirection, ...]:
+def open_directions(fitted: Fit) -> tuple[str, ...]:
     """Name what is open.
 
     Args:
@@ -53,10 +52,10 @@ def open_directions(fitted: Fit) -> tuple[OpenDirection, ...]:
     return (*_untold(fitted), *_vague(fitted))
 
 
-def _untold(fitted: Fit) -> list[OpenDirection]:
+def _untold(fitted: Fit) -> list[str]:
     listed = fitted.guess.parameters
     groups: dict[tuple[object, ...], list[FloatArray]] = {}
-    for direction in _reduced(fitted.directions.free):
+    for direction in _reduced(fitted.unobservable):
         share = np.abs(direction) > _TAKES_PART * np.abs(direction).max()
         chosen = [one for one, part in zip(listed, share, strict=True) if part]
         groups.setdefault(tuple(dict.fromkeys((one.kind, one.owner) for one in chosen)), []).append(direction)
@@ -82,7 +81,7 @@ def _reduced(free: FloatArray) -> FloatArray:
     return rows
 
 
-def _named(fitted: Fit, directions: Sequence[FloatArray]) -> OpenDirection:
+def _named(fitted: Fit, directions: Sequence[FloatArray]) -> str:
     listed = fitted.guess.parameters
     total = np.abs(np.array(directions))
     share = (total > _TAKES_PART * total.max(axis=1, keepdims=True)).any(axis=0)
@@ -91,9 +90,7 @@ def _named(fitted: Fit, directions: Sequence[FloatArray]) -> OpenDirection:
     words = [_words(fitted.problem, kind, owner, chosen, directions, listed) for kind, owner in kinds]
     together = "is not told" if len(words) == 1 else "are told only together"
     advice = _SCALE if {kind for kind, _ in kinds} >= {Kind.MASS, Kind.MATRIX} else _ADVICE[kinds[0][0]]
-    return OpenDirection(
-        parameters=tuple(one.name for one in chosen), words=f"{' and '.join(words)} {together}: {advice}"
-    )
+    return f"{' and '.join(words)} {together}: {advice}"
 
 
 def _words(
@@ -152,22 +149,20 @@ def vector_words(vector: FloatArray) -> str:
     return "({:.2f}, {:.2f}, {:.2f})".format(*(unit * np.sign(unit[k])))
 
 
-def _vague(fitted: Fit) -> list[OpenDirection]:
+def _vague(fitted: Fit) -> list[str]:
     listed, half, values = fitted.guess.parameters, fitted.half_width, fitted.guess.values
     vague = []
     for k, one in enumerate(listed):
         load = fitted.problem.loads[one.owner].name if one.kind in (Kind.MASS, Kind.FIRST_MOMENT) else ""
         if one.kind is Kind.MASS and np.isfinite(half[k]) and half[k] > _UNKNOWN_BY * abs(values[k]):
-            words = f"the mass of {load!r} is told only to {half[k]:.3g} kg: {_ADVICE[Kind.MASS]}"
-            vague.append(OpenDirection(parameters=(one.name,), words=words))
+            vague.append(f"the mass of {load!r} is told only to {half[k]:.3g} kg: {_ADVICE[Kind.MASS]}")
         mass = fitted.guess.of(Kind.MASS, one.owner)
         weight = float(mass[0]) if len(mass) else fitted.problem.loads[one.owner].mass if load else None
         if one.kind is Kind.FIRST_MOMENT and weight and np.isfinite(half[k]) and half[k] > _REACH_M * abs(weight):
-            words = (
+            vague.append(
                 f"the centre of mass of {load!r} along {AXES[one.component]} is told only to "
                 f"{1e3 * half[k] / abs(weight):.0f} mm: {_ADVICE[Kind.FIRST_MOMENT]}"
             )
-            vague.append(OpenDirection(parameters=(one.name,), words=words))
     return vague
 
 

@@ -3,21 +3,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.noise.slow_noise import SlowNoise
-from forcetorque.payload.identification.fit import Fit, fit, plain_fit
-from forcetorque.payload.identification.load_estimates import BiasTest, DriftChoice
-from forcetorque.payload.identification.load_problem import LoadProblem
-from forcetorque.payload.identification.noise import noise_sizes
-from forcetorque.payload.identification.parameters import Kind, places
-from forcetorque.payload.identification.prediction import expected, masses
+from forcetorque.payload.identification.estimation_problem import LoadProblem
+from forcetorque.payload.identification.load_estimates import BiasTestRow, DriftRow, six
+from forcetorque.payload.identification.measurement_model import expected, masses
+from forcetorque.payload.identification.noise_model import noise_sizes
+from forcetorque.payload.identification.parameter_vector import Kind, places
+from forcetorque.payload.identification.robust_fit import Fit, fit, plain_fit
+from forcetorque.results.number_text import finite_or_none
 
 
-def bias_tests(fitted: Fit, *, drift: bool) -> tuple[BiasTest, ...]:
+def bias_tests(fitted: Fit, *, drift: bool) -> tuple[BiasTestRow, ...]:
     """Compare the biases of sessions, and of the intervals of each session, by Wald's test.
 
     Args:
@@ -31,12 +32,12 @@ def bias_tests(fitted: Fit, *, drift: bool) -> tuple[BiasTest, ...]:
     tests = []
     if len(np.unique(problem.rows.session)) > 1:
         together = _in_one_session(problem)
-        plain = masses(together, plain_fit(together, drift=False, alike=True)[0])
+        plain = _plain_masses(together, drift=False)
         tests.append(_compared(fitted, "sessions", np.zeros(len(problem.sessions), dtype=np.int64), plain))
     finer = np.unique(np.stack([problem.rows.session, problem.rows.block], axis=1), axis=0)
     if len(finer) > len(np.unique(problem.rows.session)):
         by_interval = _sessions_of_blocks(problem, finer)
-        plain = masses(problem, plain_fit(problem, drift=drift, alike=True)[0])
+        plain = _plain_masses(problem, drift=drift)
         tests.append(_compared(fit(by_interval, drift=drift), "intervals", finer[:, 0], plain))
     return tuple(tests)
 
@@ -57,7 +58,7 @@ def _sessions_of_blocks(problem: LoadProblem, finer: np.ndarray) -> LoadProblem:
     )
 
 
-def _compared(fitted: Fit, of: str, group: np.ndarray, plain: tuple[float, ...]) -> BiasTest:
+def _compared(fitted: Fit, of: str, group: np.ndarray, plain: tuple[float | None, ...]) -> BiasTestRow:
     """Test that biases of one group are equal; groups by the number of the session; shape (sessions,)."""
     from scipy.special import fdtrc  # here because importing it takes longer than most commands
 
@@ -79,14 +80,19 @@ def _compared(fitted: Fit, of: str, group: np.ndarray, plain: tuple[float, ...])
     of_biases = covariance[np.ix_(touched, touched)]
     degrees = float(fitted.estimate.degrees_of_freedom[touched].sum())  # all tell the one noise
     if not np.isfinite(of_biases).all() or degrees <= 0.0:
-        p_value = np.nan
+        p_value = None
     else:
         spread = matrix[:, touched] @ of_biases @ matrix[:, touched].T
         size = np.sqrt(np.diag(spread))
         square = float(difference / size @ np.linalg.solve(spread / np.outer(size, size), difference / size))
-        p_value = float(fdtrc(len(difference), degrees, square / len(difference)))
-    largest: FloatArray = np.abs(difference.reshape(-1, 6)).max(axis=0)
-    return BiasTest(of=of, largest_difference=largest, p_value=p_value, mass_with_one=plain)  # type: ignore[arg-type]
+        p_value = finite_or_none(float(fdtrc(len(difference), degrees, square / len(difference))))
+    largest = np.abs(difference.reshape(-1, 6)).max(axis=0)
+    return BiasTestRow(of=of, p_value=p_value, largest_difference=six(largest), plain_mass_with_one_bias_kg=plain)
+
+
+def _plain_masses(problem: LoadProblem, *, drift: bool) -> tuple[float | None, ...]:
+    """Mass of each load by plain least squares, all axes alike; kg; None of a load that no row has."""
+    return tuple(map(finite_or_none, masses(problem, plain_fit(problem, drift=drift, alike=True)[0])))
 
 
 _BLOCKS = 6
@@ -95,7 +101,7 @@ _LEAST_ROWS = 12
 """Rows that a session must have, two in a block, to have a say."""
 
 
-def choose_drift(problem: LoadProblem) -> DriftChoice:
+def choose_drift(problem: LoadProblem) -> DriftRow:
     """Let rows that were held out choose, where the problem states nothing.
 
     The rows of each session are cut into blocks, in the order in which they were taken. Rows of a block are foretold
@@ -109,27 +115,25 @@ def choose_drift(problem: LoadProblem) -> DriftChoice:
         The choice.
     """
     if np.bincount(problem.rows.session).max() < _LEAST_ROWS:
-        constant = masses(problem, plain_fit(problem, drift=False, alike=True)[0])
-        return DriftChoice(
+        return DriftRow(
             taken=bool(problem.drift),
-            error_without=np.nan,
-            error_with=np.nan,
-            mass_without=constant,
-            mass_with=(np.nan,) * len(constant),
             chosen=False,
+            error_without=None,
+            error_with=None,
+            plain_mass_without_kg=_plain_masses(problem, drift=False),
+            plain_mass_with_kg=(None,) * len(problem.loads),
         )
-    constant, moving = (masses(problem, plain_fit(problem, drift=drift, alike=True)[0]) for drift in (False, True))
     sizes = noise_sizes(plain_fit(problem, drift=True)[1])
     without, within = (_held_out(problem, sizes, drift=drift) for drift in (False, True))
     gain = without - within
     better = gain.mean() > gain.std() / np.sqrt(len(gain))
-    return DriftChoice(
+    return DriftRow(
         taken=bool(better) if problem.drift is None else problem.drift,
-        error_without=float(np.sqrt(without.mean())),
-        error_with=float(np.sqrt(within.mean())),
-        mass_without=constant,
-        mass_with=moving,
         chosen=problem.drift is None,
+        error_without=finite_or_none(float(np.sqrt(without.mean()))),
+        error_with=finite_or_none(float(np.sqrt(within.mean()))),
+        plain_mass_without_kg=_plain_masses(problem, drift=False),
+        plain_mass_with_kg=_plain_masses(problem, drift=True),
     )
 
 
@@ -166,32 +170,20 @@ _LEAST_LEFT = 1e-3
 """A step of which the fit leaves less than this part cannot be told from bias, drift and load."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Jump:
-    """Where the bias jumps."""
-
-    row: int
-    """The first row after it."""
-    axis: int
-    """Component in which it shows most."""
-    deviations: float
-    """How many standard deviations of chance it is."""
-
-
-def strongest_jump(fitted: Fit) -> Jump | None:
+def strongest_jump(fitted: Fit) -> tuple[int, int] | None:
     """Look for a step of one axis at every row.
 
     Args:
         fitted: The fit.
 
     Returns:
-        The strongest step, if chance hardly makes it.
+        First row after the strongest step, and the component that it is strongest in; None where noise explains it.
     """
     from scipy.special import ndtri  # here because importing it takes longer than most commands
 
     rows = fitted.problem.rows
-    basis, covariance = fitted.directions.basis, fitted.estimate.covariance
-    best, tried = Jump(row=0, axis=0, deviations=0.0), 0
+    basis, covariance = fitted.basis, fitted.estimate.covariance
+    jump, largest, tried = (0, 0), 0.0, 0
     pairs = zip(fitted.groups, fitted.estimate.shapes, fitted.estimate.variances, strict=True)
     for number, (group, noise, variance) in enumerate(pairs):
         known = group.line.solve(group.design @ basis, noise)[0] / variance
@@ -210,12 +202,12 @@ def strongest_jump(fitted: Fit) -> Jump | None:
                 strength = np.where(
                     told_apart, np.abs(steps.T @ left[block]) / np.sqrt(np.where(told_apart, own, 1.0)), 0.0
                 )
-                if len(strength) and strength.max() > best.deviations:
+                if len(strength) and strength.max() > largest:
                     k = int(strength.argmax())
-                    row = int(group.order[mine[after[k]]])
-                    best = Jump(row=row, axis=3 * number + axis, deviations=float(strength[k]))
+                    largest = float(strength[k])
+                    jump = int(group.order[mine[after[k]]]), 3 * number + axis
     limit = -float(ndtri(0.5 * _FALSE_ALARMS / max(tried, 1)))
-    return best if best.deviations > limit else None
+    return jump if largest > limit else None
 
 
 def _places(count: int) -> np.ndarray:

@@ -11,8 +11,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import FORCE, reading_sign
-from forcetorque.payload.identification.load_problem import Load, LoadProblem, LoadRows
-from forcetorque.payload.identification.parameters import (
+from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
+from forcetorque.payload.identification.parameter_vector import (
     AXES,
     OF_LOAD,
     Guess,

@@ -4,48 +4,37 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal
 
 import numpy as np
-from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import means_over
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.diagnostics import (
-    bias_words,
-    disagreements,
-    drift_words,
-    inertia_words,
+from forcetorque.payload.identification.estimation_problem import LoadProblem, together
+from forcetorque.payload.identification.load_estimates import (
+    LoadEstimate,
+    LoadSolution,
+)
+from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.identification.measurement_model import instants, load_wrench
+from forcetorque.payload.load_on_wrist_sensor import WristLoads, wrist_loads
+from forcetorque.payload.load_warnings import (
     load_doubts,
-    load_words,
     overweight_loads,
     payload_doubts,
     reversed_sense,
 )
-from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution
-from forcetorque.payload.identification.load_problem import LoadProblem, together
-from forcetorque.payload.identification.prediction import instants, load_wrench
-from forcetorque.payload.identification.solve import solve
-from forcetorque.payload.link_loads import LinkLoads, joined_problem, link_loads
+from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import (
-    BiasRow,
-    BiasTestRow,
-    DriftRow,
-    HypothesisRow,
     JudgedLoadRow,
     LoadRow,
     RecordingLoadRow,
-    RowThatDisagrees,
-    VariableRow,
-    six,
+    WeighedLoad,
+    disagreements,
 )
-from forcetorque.payload.wrist_load import WristLoads, wrist_loads
 from forcetorque.recording.recording import Use
-from forcetorque.results.result import Result
-from forcetorque.results.table import Table, WrenchValues, table_of
 
 
 def hanging_on(run: SensorRun) -> WristLoads | LinkLoads:
@@ -154,91 +143,6 @@ _LASTING_S = 0.25
 """What lasts shorter is a jerk of the motion, or a tap; s."""
 
 
-class WeighedLoad(Result):
-    """What hangs on a wrist sensor or on a robot, and the sensor's biases."""
-
-    of_several: ClassVar[tuple[str, ...]] = ("recordings", "disagreements")
-    interval_uses = ()
-
-    schema_name: Literal["forcetorque/payload/2"] = Field(default="forcetorque/payload/2", alias="schema")
-    """Form of the result."""
-    experiment: str
-    """Name of the experiment."""
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
-    rows: int
-    """Number of means or poses that were fitted."""
-    left_out: int
-    """Samples that lack a finite reading or motion."""
-    loads: tuple[LoadRow, ...]
-    """Loads, in the order of the file."""
-    sessions: tuple[BiasRow, ...]
-    """Bias of every session, in the order of time."""
-    variables: tuple[VariableRow, ...]
-    """What the variables of the sensor add."""
-    drift: DriftRow
-    """Whether biases move evenly in time, and why."""
-    bias_tests: tuple[BiasTestRow, ...]
-    """Whether one bias would do."""
-    mount_rad: tuple[float, float, float] | None
-    """Rotation vector from the axes of the motion to those of the sensor; none where it was not asked for."""
-    tilt_rad: tuple[float, float] | None
-    """Rotation vector of gravity about x and y of the world; none where it was not asked for."""
-    open: tuple[str, ...]
-    """What the rows leave open, in sentences."""
-    disagreeing: tuple[RowThatDisagrees, ...]
-    """Rows that disagree with all others."""
-    hypotheses: tuple[HypothesisRow, ...]
-    """Other accounts of the rows that explain them better, the best first."""
-    judged: tuple[JudgedLoadRow, ...]
-    """Validation intervals, held against the loads."""
-    residual_rms: WrenchValues
-    """Root mean square residual; N, N m."""
-    spanned_directions: int
-    """Directions of wrench, of six, that the loads move: one centre of mass moves three, two five."""
-    recordings: tuple[RecordingLoadRow, ...] = ()
-    """What each of several recordings says by itself."""
-    disagreements: tuple[str, ...] = ()
-    """Where they differ by more than their intervals, in sentences."""
-
-    def blocks(self) -> Iterator[Table | str]:
-        """Give the loads, then biases, what is open and what disagrees.
-
-        Yields:
-            Sentences and tables.
-        """
-        source = f"{self.sensor} ({self.serial}), {self.rows} rows"
-        for load in self.loads:
-            yield f"{source}: {load_words(load)}"
-            if (inertia := inertia_words(load)) is not None:
-                yield inertia
-        yield table_of(self.sessions, "bias: reading without load")
-        if self.variables:
-            yield table_of(self.variables, "what variables add to the reading, per unit")
-        yield drift_words(self.drift)
-        yield from (bias_words(test, self.loads) for test in self.bias_tests)
-        yield from self.open
-        if self.disagreeing:
-            yield table_of(self.disagreeing, "rows that disagree with all others, and count less")
-        if self.recordings:
-            yield table_of(self.recordings, "what each recording says by itself, ± half a 95 % interval")
-            yield from self.disagreements or ("the recordings agree within their intervals",)
-        if self.judged:
-            yield table_of(self.judged, "what the loads leave of intervals that were not fitted, about its middle")
-        rms = ", ".join(f"{value:.4f}" for value in self.residual_rms)
-        yield f"residual RMS {rms} N, N m; the loads move {self.spanned_directions} of 6 directions of wrench"
-
-    def records(self) -> list[dict[str, object]]:
-        """Give a line for every load and session.
-
-        Returns:
-            The lines: a load beside the bias of a session.
-        """
-        return [load.flat() | session.flat() for load in self.loads for session in self.sessions]
-
-
 @with_recording_notes
 def weigh_load(runs: Runs) -> WeighedLoad:
     """Give the loads that the calibration intervals of one or several experiments tell.
@@ -261,18 +165,15 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         rows=len(solution.residual),
         left_out=sum(hanging_on(run).left_out(run.experiment) for run in campaign.runs if run.has(Use.CALIBRATION)),
         loads=tuple(LoadRow.of(load, links.get(load.name)) for load in solution.loads),
-        sessions=tuple(BiasRow.of(session) for session in solution.sessions),
-        variables=tuple(
-            VariableRow(variable=one.name, coefficients=six(one.coefficients), half_width_95=six(one.half_width))
-            for one in solution.variables
-        ),
-        drift=DriftRow.of(solution.drift),
-        bias_tests=tuple(BiasTestRow.of_test(test) for test in solution.bias_tests),
+        sessions=solution.sessions,
+        variables=solution.variables,
+        drift=solution.drift,
+        bias_tests=solution.bias_tests,
         mount_rad=None if table is None or table.mount is None else _vector(solution),
         tilt_rad=None if table is None or table.tilt is None else (float(solution.tilt[0]), float(solution.tilt[1])),
-        open=tuple(entry.words for entry in solution.open_directions),
-        disagreeing=tuple(RowThatDisagrees.of(row) for row in solution.disagreeing),
-        hypotheses=tuple(HypothesisRow.of(one) for one in solution.hypotheses),
+        open=solution.open_directions,
+        disagreeing=solution.disagreeing,
+        hypotheses=solution.hypotheses,
         judged=tuple(row for run in campaign.runs for row in _judged(campaign, run, solution)),
         residual_rms=solution.residual_rms,
         spanned_directions=solution.spanned,

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only, read_only_integers
-from forcetorque.base.errors import FitError, ShapeError, known_names
+from forcetorque.base.arrays import FloatArray, IntArray, array, check_arrays, names, read_only
+from forcetorque.base.errors import FitError, known_names
 from forcetorque.base.wrench import MeasureDirection
 
 
@@ -18,61 +18,41 @@ from forcetorque.base.wrench import MeasureDirection
 class LoadRows:
     """n readings of one sensor, means or still poses, in the order in which they were taken."""
 
-    wrench: FloatArray
+    wrench: FloatArray = field(metadata=array("n", 6))
     """Readings as wrenches in the sensor's frame and direction; shape (n, 6); N, N m."""
-    proper_acceleration: FloatArray
+    proper_acceleration: FloatArray = field(metadata=array("n", 3))
     """Of the sensor's origin along its axes, `-g` where it is still; shape (n, 3); m/s2."""
-    angular_velocity_products: FloatArray | None = None
+    angular_velocity_products: FloatArray | None = field(default=None, metadata=array("n", 3, 3))
     """Products `w w'` of the angular velocity w along the sensor's axes, as means over each row, because products of
     means lose what varies within a row; shape (n, 3, 3); rad2/s2; None where it stands still or turns slowly."""
-    angular_acceleration: FloatArray | None = None
+    angular_acceleration: FloatArray | None = field(default=None, metadata=array("n", 3))
     """Along the sensor's axes; shape (n, 3); rad/s2; given if the products of the angular velocity are."""
-    time_s: FloatArray | None = None
+    time_s: FloatArray | None = field(default=None, metadata=array("n"))
     """Instants, not falling within a session; shape (n,); s; None for poses without instants, whose noise is taken for
     independent: their order counts for drift only."""
-    session: IntArray
+    session: IntArray = field(metadata=array("n", dtype="int"))
     """Number of the power-up of each row; shape (n,)."""
-    block: IntArray
+    block: IntArray = field(metadata=array("n", dtype="int"))
     """Number of the interval or series of each row, within which the bias is surely one; shape (n,)."""
-    load: IntArray
+    load: IntArray = field(metadata=array("n", dtype="int"))
     """Number of the load on the sensor; shape (n,)."""
-    share: FloatArray
+    share: FloatArray = field(metadata=array("n"))
     """Samples in each row over the usual number; shape (n,)."""
-    columns: FloatArray | None = None
+    columns: FloatArray | None = field(default=None, metadata=array("n", 6, 10))
     """What a unit of mass (kg), first moment (kg m) and inertia (xx, yy, zz, xy, xz, yz; kg m2) about the origin of the
     load's own frame adds to the wrench that moves it, in the sensor's frame, as means over each row; shape (n, 6, 10);
     None where the load's frame is the sensor's, so that the motion of each row tells it."""
-    known: FloatArray | None = None
+    known: FloatArray | None = field(default=None, metadata=array("n", 6))
     """What the sensor reads of bodies beyond it that are no load, such as links of a robot; shape (n, 6); N, N m."""
-    variables: FloatArray | None = None
+    variables: FloatArray | None = field(default=None, metadata=array("n", None))
     """Temperatures, or whatever else moves the bias linearly; shape (n, v)."""
-    orientation: FloatArray | None = None
+    orientation: FloatArray | None = field(default=None, metadata=array("n", 3, 3))
     """`world_R_sensor`, z of the world up; shape (n, 3, 3); None where only gravity was logged."""
-    names: tuple[str, ...]
+    names: tuple[str, ...] = field(metadata=names("n"))
     """Where each row is from, such as `poses 17`; n words."""
 
     def __post_init__(self) -> None:
-        wrench = read_only(self.wrench, name="wrench", shape=(None, 6))
-        n = len(wrench)
-        object.__setattr__(self, "wrench", wrench)
-        shapes: dict[str, tuple[int | None, ...]] = {
-            "proper_acceleration": (n, 3),
-            "angular_velocity_products": (n, 3, 3),
-            "angular_acceleration": (n, 3),
-            "columns": (n, 6, 10),
-            "known": (n, 6),
-            "time_s": (n,),
-            "share": (n,),
-            "variables": (n, None),
-            "orientation": (n, 3, 3),
-        }
-        for field, shape in shapes.items():
-            if getattr(self, field) is not None:
-                object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
-        for field in ("session", "block", "load"):
-            object.__setattr__(self, field, read_only_integers(getattr(self, field), name=field, shape=(n,)))
-        if len(self.names) != n:
-            raise ShapeError(f"names: expected {n}, one for each row, got {len(self.names)}")
+        check_arrays(self)
         if (self.angular_velocity_products is None) != (self.angular_acceleration is None):
             raise FitError("angular velocity and angular_acceleration: expected both or neither")
         self._require_finite()
@@ -96,21 +76,21 @@ class LoadRows:
         return moved
 
     def _require_finite(self) -> None:
-        for field in (
+        for key in (
             "wrench",
             "proper_acceleration",
             "angular_velocity_products",
             "angular_acceleration",
             "variables",
         ):
-            values = getattr(self, field)
+            values = getattr(self, key)
             if values is None:
                 continue
             lacking = ~np.isfinite(values).all(axis=tuple(range(1, values.ndim)))
             if lacking.any():
                 first = int(np.flatnonzero(lacking)[0])
                 raise FitError(
-                    f"{field}: row {self.names[first]!r} has a value that is no finite number ({int(lacking.sum())} "
+                    f"{key}: row {self.names[first]!r} has a value that is no finite number ({int(lacking.sum())} "
                     "such rows); leave these rows out, or mend the log"
                 )
 
@@ -197,9 +177,9 @@ class Load:
             return
         if self.is_known:
             raise FitError(f"load {self.name!r}: expected: it is stated already; leave out what is known in part only")
-        for field, shape in (("expected", (INERTIAL,)), ("precision", (INERTIAL, INERTIAL))):
-            values = read_only(getattr(self, field), name=f"load {self.name!r}: {field}", shape=shape)
-            object.__setattr__(self, field, values)
+        for key, shape in (("expected", (INERTIAL,)), ("precision", (INERTIAL, INERTIAL))):
+            values = read_only(getattr(self, key), name=f"load {self.name!r}: {key}", shape=shape)
+            object.__setattr__(self, key, values)
 
     @property
     def is_known(self) -> bool:
@@ -228,7 +208,7 @@ class LoadProblem:
     """Whether the sensor is turned against the axes of the motion by an unknown rotation."""
     tilt: bool = False
     """Whether the world is tilted against gravity by an unknown angle; needs the orientation of the rows."""
-    matrix_prior: FloatArray | None = None
+    matrix_prior: FloatArray | None = field(default=None, metadata=array(6, 6, 6))
     """Covariance of each row of the response `1 + E` to loads about 1, where the matrix is known in part; shape
     (6, 6, 6); N or N m per N, N m; None where it is exact."""
     slope: tuple[FloatArray, ...] = ()
@@ -238,15 +218,14 @@ class LoadProblem:
     """Names and units of the variables of the rows, such as `temperature (degC)`."""
 
     def __post_init__(self) -> None:
-        if self.matrix_prior is not None:
-            object.__setattr__(self, "matrix_prior", read_only(self.matrix_prior, name="matrix_prior", shape=(6, 6, 6)))
-        names = [load.name for load in self.loads]
-        if len(set(names)) < len(names):
-            raise FitError(f"loads: expected names that differ, got {', '.join(names)}")
-        for field, known in (("load", self.loads), ("session", self.sessions), ("block", self.blocks)):
-            number = getattr(self.rows, field)
+        check_arrays(self)
+        load_names = [load.name for load in self.loads]
+        if len(set(load_names)) < len(load_names):
+            raise FitError(f"loads: expected names that differ, got {', '.join(load_names)}")
+        for numbered, known in (("load", self.loads), ("session", self.sessions), ("block", self.blocks)):
+            number = getattr(self.rows, numbered)
             if len(number) and not 0 <= number.min() <= number.max() < len(known):
-                raise FitError(f"rows: {field}: expected numbers from 0 to {len(known) - 1}, got {number.max()}")
+                raise FitError(f"rows: {numbered}: expected numbers from 0 to {len(known) - 1}, got {number.max()}")
         if len(self.variables) != (0 if self.rows.variables is None else self.rows.variables.shape[1]):
             raise FitError(f"variables: expected a name for each of the rows, got {len(self.variables)}")
         if self.tilt and self.rows.orientation is None:

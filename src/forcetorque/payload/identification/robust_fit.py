@@ -14,19 +14,18 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.slow_noise import SHAPES
 from forcetorque.base.units import SI_FACTORS
 from forcetorque.base.wrench import FORCE, MOMENT
-from forcetorque.payload.identification.load_estimates import Hypothesis
-from forcetorque.payload.identification.load_problem import LoadProblem
-from forcetorque.payload.identification.noise import (
+from forcetorque.payload.identification.estimation_problem import LoadProblem
+from forcetorque.payload.identification.load_estimates import HypothesisRow
+from forcetorque.payload.identification.measurement_model import changes, expected, first_mount, inertial, load_wrench
+from forcetorque.payload.identification.noise_model import (
     Estimate,
     Group,
-    Prior,
     estimate,
     groups_of,
     noise_sizes,
     sizes_under,
 )
-from forcetorque.payload.identification.parameters import OF_LOAD, Guess, Kind, places, unknowns_of
-from forcetorque.payload.identification.prediction import changes, expected, first_mount, inertial, load_wrench
+from forcetorque.payload.identification.parameter_vector import OF_LOAD, Guess, Kind, places, unknowns_of
 
 FALSE_ALARMS = 0.01
 """Share of problems without a fault in which some row is said to disagree."""
@@ -103,7 +102,7 @@ def _ratios(si: str) -> dict[float, str]:
 _UNITS = {si: _ratios(si) for si in ("N", "N m")}
 
 
-def scales(problem: LoadProblem, guess: Guess, *, other_sizes: bool) -> Iterator[Hypothesis]:
+def scales(problem: LoadProblem, guess: Guess, *, other_sizes: bool) -> Iterator[HypothesisRow]:
     """Name forces and moments that are a multiple of what the stated loads demand.
 
     Args:
@@ -133,7 +132,7 @@ def scales(problem: LoadProblem, guess: Guess, *, other_sizes: bool) -> Iterator
         else:
             continue
         size = f"{what} change by {factor:.4g} of what the stated loads make of them"
-        yield Hypothesis(name=name, words=f"{size}: {words}", residual_share=1.0)
+        yield HypothesisRow(name=name, words=f"{size}: {words}", residual_share=1.0, severity="contradiction")
 
 
 def _scale(
@@ -199,16 +198,6 @@ _ROUNDS = 6
 """Rounds in which rows that disagree lose weight; three are usual."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Directions:
-    """Which combinations of the unknowns the rows determine."""
-
-    basis: FloatArray
-    """Parameters of each that is determined; shape (p, r)."""
-    free: FloatArray
-    """Parameters of each that is open; shape (p, p - r)."""
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Fit:
     """A fitted problem."""
@@ -217,8 +206,10 @@ class Fit:
     """What was fitted."""
     guess: Guess
     """Values of the unknowns; in open directions the smallest."""
-    directions: Directions
-    """What is determined."""
+    basis: FloatArray
+    """Parameters of each direction that the samples determine; shape (p, r)."""
+    unobservable: FloatArray
+    """Parameters of each direction that they do not determine; shape (p, p - r)."""
     estimate: Estimate
     """Covariance in the directions that are determined, and noise."""
     groups: tuple[Group, Group]
@@ -231,7 +222,7 @@ class Fit:
     @property
     def covariance(self) -> FloatArray:
         """Covariance of all unknowns; shape (p, p); infinite in the rows and columns of what is open."""
-        basis = self.directions.basis
+        basis = self.basis
         covariance = basis @ self.estimate.covariance @ basis.T
         covariance[self.is_open] = np.inf
         covariance[:, self.is_open] = np.inf
@@ -240,15 +231,15 @@ class Fit:
     @property
     def is_open(self) -> BoolArray:
         """Which unknowns have a share in what is open; shape (p,)."""
-        free = self.directions.free
-        scale = np.abs(free).max(axis=0, initial=0.0)
-        shared = np.abs(free) > _OPEN * np.where(scale > 0.0, scale, 1.0)
+        share = np.abs(self.unobservable)
+        scale = share.max(axis=0, initial=0.0)
+        shared = share > _OPEN * np.where(scale > 0.0, scale, 1.0)
         return np.asarray(shared.any(axis=1), dtype=np.bool_)
 
     @cached_property
     def half_width(self) -> FloatArray:
         """Half-widths of 95 % intervals of all unknowns; shape (p,); infinite where they are open."""
-        return np.where(self.is_open, np.inf, self.estimate.half_widths(self.directions.basis))
+        return np.where(self.is_open, np.inf, self.estimate.half_widths(self.basis))
 
 
 def plain_fit(
@@ -292,21 +283,21 @@ def plain_fit(
 def _step(problem: LoadProblem, guess: Guess, design: FloatArray, values: FloatArray) -> FloatArray:
     """Least-squares step in the directions that are determined; shape (p,)."""
     precision, sides = before(problem, guess)
-    basis = directions_of(design, precision).basis
+    basis, _ = directions_of(design, precision)
     flat = design.reshape(-1, design.shape[2]) @ basis
     inner = flat.T @ flat + basis.T @ precision @ basis
     return basis @ np.linalg.solve(inner, flat.T @ values.reshape(-1) + basis.T @ sides)
 
 
-def directions_of(design: FloatArray, precision: FloatArray) -> Directions:
-    """Tell what is determined from what is open.
+def directions_of(design: FloatArray, precision: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Separate the combinations of unknowns that are determined from those that are not.
 
     Args:
         design: Change of the readings with the unknowns, over their noise; shape (n, 6, p).
         precision: Precision of the unknowns before the rows; shape (p, p).
 
     Returns:
-        The directions.
+        Parameters of each that is determined, shape (p, r), and of each that is not, shape (p, p - r).
     """
     flat = design.reshape(-1, design.shape[2])
     products = flat.T @ flat + precision
@@ -316,7 +307,7 @@ def directions_of(design: FloatArray, precision: FloatArray) -> Directions:
     squares, turned = np.linalg.eigh(products / np.outer(scale, scale))
     known = squares > _OPEN**2 * squares.max(initial=0.0)
     scaled = turned / scale[:, None]
-    return Directions(basis=scaled[:, known], free=scaled[:, ~known])
+    return scaled[:, known], scaled[:, ~known]
 
 
 def fit(problem: LoadProblem, *, drift: bool) -> Fit:
@@ -334,7 +325,7 @@ def fit(problem: LoadProblem, *, drift: bool) -> Fit:
         fitted = _weighed_fit(problem, drift=drift, weight=weight)
         if (np.abs(fitted.residual) <= _ROUNDING * noise_sizes(problem.rows.wrench)).all():
             break
-        lighter = row_weights(row_distances(fitted.groups, fitted.directions.basis, fitted.estimate, weight))
+        lighter = row_weights(row_distances(fitted.groups, fitted.basis, fitted.estimate, weight))
         if np.allclose(lighter, weight, rtol=0.02, atol=1e-4):
             break
         weight = lighter
@@ -352,18 +343,17 @@ def _weighed_fit(problem: LoadProblem, *, drift: bool, weight: FloatArray) -> Fi
     for _ in range(2 if linear and rows.angular_velocity_products is None else 4):
         design = changes(problem, guess)
         precision, sides = before(problem, guess)
-        directions = directions_of(design / sizes[:, None], precision)
+        basis, unobservable = directions_of(design / sizes[:, None], precision)
         groups = groups_of(rows, design, residual, sizes, weight)
-        basis = directions.basis
-        prior = Prior(precision=basis.T @ precision @ basis, sides=basis.T @ sides)
-        answer = estimate(groups, basis, prior, shapes)
+        answer = estimate(groups, basis, (basis.T @ precision @ basis, basis.T @ sides), shapes)
         guess = guess.moved(guess.values + basis @ answer.mean)
         residual = rows.wrench - expected(problem, guess)
         used, sizes = sizes, sizes_under(groups_of(rows, design, residual, sizes, weight), answer, sizes, rounding)
     return Fit(
         problem=problem,
         guess=guess,
-        directions=directions,
+        basis=basis,
+        unobservable=unobservable,
         estimate=answer,
         groups=groups_of(rows, design, residual, used, weight),
         residual=residual,

@@ -13,10 +13,10 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.diagnostics import overweight_loads
-from forcetorque.payload.identification.load_estimates import Hypothesis
-from forcetorque.payload.payload import WeighedLoad
-from forcetorque.payload.result import HypothesisRow
+from forcetorque.payload.identification.load_estimates import HypothesisRow
+from forcetorque.payload.load_on_wrist_sensor import LOAD_LINK, WristLoads, wrist_loads
+from forcetorque.payload.load_warnings import overweight_loads
+from forcetorque.payload.result import WeighedLoad
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
 from forcetorque.payload.robot_files.robot_load import RobotLoad
@@ -26,7 +26,6 @@ from forcetorque.payload.robot_files.ros import (
     ft_tools_text,
     gravity_filter_text,
 )
-from forcetorque.payload.wrist_load import LOAD_LINK, WristLoads, wrist_loads
 from forcetorque.recording.recording import Use
 
 _WITHOUT_COMMENTS = (LoadFormat.MC_RTC, LoadFormat.HRPSYS)
@@ -127,7 +126,7 @@ def robot_load(
 
 def _contradictions(run: SensorRun, hanging: WristLoads, weighed: WeighedLoad | None) -> Iterator[str]:
     """What says that the load is not what hangs there, or the bias not that of the sensor."""
-    accounts: Sequence[Hypothesis | HypothesisRow] = ()
+    accounts: Sequence[HypothesisRow] = ()
     if weighed is not None:
         accounts = weighed.hypotheses
     elif run.has(Use.CALIBRATION) and hanging.table.applied is None:

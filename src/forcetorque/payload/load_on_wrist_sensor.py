@@ -14,11 +14,11 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
+from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution
-from forcetorque.payload.identification.load_problem import Load, LoadProblem
-from forcetorque.payload.identification.solve import solve
-from forcetorque.payload.load_samples import load_problem, samples_left_out
-from forcetorque.payload.load_tables import Load as LoadTable
+from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.samples_from_recordings import load_number, load_problem, samples_left_out
+from forcetorque.payload.toml_tables import Load as LoadTable
 from forcetorque.recording.recording import MovingSupport, Support, Use
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
 
@@ -55,7 +55,7 @@ def inertia_of_estimated(solution: LoadSolution, estimate: LoadEstimate) -> Iner
         ExperimentError: If they leave it open, or fit a negative mass.
     """
     if not estimate.is_determined:
-        words = "; ".join(entry.words for entry in solution.open_directions) or "no calibration interval has it"
+        words = "; ".join(solution.open_directions) or "no calibration interval has it"
         raise ExperimentError(
             f"load {estimate.name!r}: the calibration intervals do not determine it: {words}; `forcetorque payload` "
             "says what they do determine, and mass_kg with centre_of_mass_m state the load"
@@ -99,18 +99,6 @@ class WristLoads:
         """Who acts on whom in the reading; the load is the child."""
         return self.table.measure_direction
 
-    def number_of(self, support: Support | MovingSupport | None) -> int:
-        """Say which load hangs on the sensor in an interval.
-
-        Args:
-            support: Support of the interval.
-
-        Returns:
-            Its number; 0 where there is one only.
-        """
-        supports = list(self.supports.values())
-        return next((number for number, own in enumerate(supports) if own is support), 0)
-
     @property
     def in_place_of_robot(self) -> bool:
         """Always: the file names no robot."""
@@ -145,7 +133,8 @@ class WristLoads:
         Returns:
             The problem.
         """
-        return load_problem(experiment, self, use=use)
+        supports = tuple(self.supports.values())
+        return load_problem(experiment, self.sensor, self.table, self.loads, supports, use=use)
 
     def left_out(self, experiment: Experiment) -> int:
         """Count samples of the calibration intervals that lack a finite reading or motion.
@@ -156,7 +145,7 @@ class WristLoads:
         Returns:
             Their number.
         """
-        return samples_left_out(experiment, self)
+        return samples_left_out(experiment, self.sensor)
 
     def solution(self, experiment: Experiment) -> LoadSolution:
         """Estimate the loads on the calibration intervals, when it is first asked for.
@@ -192,7 +181,7 @@ class WristLoads:
         Raises:
             ExperimentError: If the recording does not determine the load.
         """
-        number = self.number_of(support)
+        number = load_number(support, tuple(self.supports.values()))
         if self.are_stated and len(self.loads) == 1:
             return experiment.model
         if self.table.mount is not None or self.table.tilt is not None:

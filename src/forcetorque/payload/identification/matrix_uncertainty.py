@@ -24,11 +24,11 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import reading_sign
 from forcetorque.experiment.calibration.assumptions import FRAME, SENSOR, Assumptions, rows_of
-from forcetorque.payload.identification.fit import plain_fit
-from forcetorque.payload.identification.load_problem import LoadProblem
-from forcetorque.payload.identification.noise import noise_sizes
-from forcetorque.payload.identification.parameters import Guess, Kind
-from forcetorque.payload.identification.prediction import load_columns, load_wrench
+from forcetorque.payload.identification.estimation_problem import LoadProblem
+from forcetorque.payload.identification.measurement_model import load_columns, load_wrench
+from forcetorque.payload.identification.noise_model import noise_sizes
+from forcetorque.payload.identification.parameter_vector import Guess, Kind
+from forcetorque.payload.identification.robust_fit import plain_fit
 
 _ROUNDS = 40
 """Rounds in which sizes and loads settle; eight are usual."""

@@ -17,12 +17,12 @@ from forcetorque.base.stored_model import read_json
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.raw_counts import full_scale_of
-from forcetorque.payload.identification.fit import fit
+from forcetorque.payload.identification.estimation_problem import INERTIAL, Load, LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadEstimate
-from forcetorque.payload.identification.load_problem import INERTIAL, Load, LoadProblem
-from forcetorque.payload.identification.parameters import six_of
-from forcetorque.payload.identification.partly_known_matrix import MatrixSpread, settled
-from forcetorque.payload.identification.solve import load_estimates
+from forcetorque.payload.identification.loads_with_intervals import load_estimates
+from forcetorque.payload.identification.matrix_uncertainty import MatrixSpread, settled
+from forcetorque.payload.identification.parameter_vector import six_of
+from forcetorque.payload.identification.robust_fit import fit
 
 SCHEMA = "forcetorque/payload/2"
 """Form of the results that are read."""

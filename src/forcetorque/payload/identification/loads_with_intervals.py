@@ -8,20 +8,21 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.pose import skew
-from forcetorque.payload.identification.bias_checks import bias_tests, choose_drift
-from forcetorque.payload.identification.fit import Fit, fit
-from forcetorque.payload.identification.hypotheses import hypotheses
+from forcetorque.payload.identification.bias_drift_and_jumps import bias_tests, choose_drift
+from forcetorque.payload.identification.estimation_problem import INERTIAL, Load, LoadProblem
+from forcetorque.payload.identification.frame_unit_and_clock_errors import hypotheses
 from forcetorque.payload.identification.load_estimates import (
-    DisagreeingRow,
+    BiasRow,
     LoadEstimate,
     LoadSolution,
-    SessionEstimate,
-    VariableEstimate,
+    OutlierRow,
+    VariableRow,
+    six,
 )
-from forcetorque.payload.identification.load_problem import INERTIAL, Load, LoadProblem
-from forcetorque.payload.identification.parameters import Kind, inertia_of, places, six_of
-from forcetorque.payload.identification.prediction import inertial, instants
-from forcetorque.payload.identification.unobservable import open_directions, spanned_by
+from forcetorque.payload.identification.measurement_model import inertial, instants
+from forcetorque.payload.identification.parameter_vector import Kind, inertia_of, places, six_of
+from forcetorque.payload.identification.robust_fit import Fit, fit
+from forcetorque.payload.identification.unobservable_parameters import open_directions, spanned_by
 
 _NAMED = 0.5
 """Rows that count less than this are named."""
@@ -81,7 +82,7 @@ def load_estimates(fitted: Fit) -> tuple[LoadEstimate, ...]:
     return tuple(_load(fitted, number, fitted.half_width) for number in range(len(fitted.problem.loads)))
 
 
-def session_estimates(fitted: Fit) -> tuple[SessionEstimate, ...]:
+def session_estimates(fitted: Fit) -> tuple[BiasRow, ...]:
     """Give the biases of a fit.
 
     Args:
@@ -185,35 +186,32 @@ def _absent(load: Load) -> LoadEstimate:
     )
 
 
-def _session(fitted: Fit, number: int, half: FloatArray) -> SessionEstimate:
+def _session(fitted: Fit, number: int, half: FloatArray) -> BiasRow:
     problem, listed = fitted.problem, fitted.guess.parameters
     bias, drift = places(listed, Kind.BIAS, number), places(listed, Kind.DRIFT, number)
     values = np.where(np.isfinite(half), fitted.guess.values, np.nan)
     mine = problem.rows.session == number
-    return SessionEstimate(
-        name=problem.sessions[number],
+    return BiasRow(
+        session=problem.sessions[number],
         rows=int(mine.sum()),
-        bias=values[bias] if bias else np.full(6, np.nan),
-        bias_half_width=half[bias] if bias else np.full(6, np.inf),
-        at_s=float(instants(problem.rows)[mine].mean()) if mine.any() else np.nan,
-        drift=values[drift] if drift else None,
-        drift_half_width=half[drift] if drift else None,
+        at_s=float(instants(problem.rows)[mine].mean()) if mine.any() else None,
+        bias=six(values[bias]) if bias else (None,) * 6,
+        bias_half_width_95=six(half[bias]) if bias else (None,) * 6,
+        drift_per_s=six(values[drift]) if drift else None,
+        drift_half_width_95_per_s=six(half[drift]) if drift else None,
     )
 
 
-def _variable(fitted: Fit, number: int, half: FloatArray) -> VariableEstimate:
+def _variable(fitted: Fit, number: int, half: FloatArray) -> VariableRow:
     own = places(fitted.guess.parameters, Kind.VARIABLE, number)
     values = np.where(np.isfinite(half), fitted.guess.values, np.nan)
-    return VariableEstimate(name=fitted.problem.variables[number], coefficients=values[own], half_width=half[own])
+    return VariableRow(
+        variable=fitted.problem.variables[number], coefficients=six(values[own]), half_width_95=six(half[own])
+    )
 
 
-def _disagreeing(fitted: Fit) -> tuple[DisagreeingRow, ...]:
+def _disagreeing(fitted: Fit) -> tuple[OutlierRow, ...]:
     return tuple(
-        DisagreeingRow(
-            row=int(k),
-            name=fitted.problem.rows.names[k],
-            residual=fitted.residual[k],
-            weight=float(fitted.weight[k]),
-        )
+        OutlierRow(row=fitted.problem.rows.names[k], weight=float(fitted.weight[k]), residual=fitted.residual[k])
         for k in np.flatnonzero(fitted.weight < _NAMED)
     )

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,10 +20,11 @@ from forcetorque.base.wrench import reading_sign
 from forcetorque.experiment.calibration.assumptions import FLATTENED
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sample_quality import sample_quality
-from forcetorque.payload.identification.load_problem import Load, LoadProblem, LoadRows
-from forcetorque.payload.identification.parameters import inertia_of
+from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
+from forcetorque.payload.identification.parameter_vector import inertia_of
+from forcetorque.payload.toml_tables import Load as LoadTable
 from forcetorque.recording.alignment import interpolate, seconds_since
-from forcetorque.recording.recording import Interval, Recording, Use
+from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import support_motion_at
@@ -32,10 +32,6 @@ from forcetorque.robot.mechanics.samples import Processing, robot_motion_at
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
-
-if TYPE_CHECKING:
-    from forcetorque.payload.wrist_load import WristLoads
-
 
 MOST_ROWS = 3600
 """Means of an interval, at most: an hour has means of 1 s, a day of half a minute."""
@@ -103,12 +99,23 @@ class _WristInterval:
     names: tuple[str, ...]
 
 
-def load_problem(experiment: Experiment, wrist: WristLoads, *, use: Use = Use.CALIBRATION) -> LoadProblem:
+def load_problem(
+    experiment: Experiment,
+    sensor: ExperimentSensor,
+    table: LoadTable,
+    loads: tuple[Load, ...],
+    supports: Sequence[MovingSupport],
+    *,
+    use: Use = Use.CALIBRATION,
+) -> LoadProblem:
     """Ask what intervals tell of the loads on a wrist sensor, and of its bias in every session.
 
     Args:
         experiment: The experiment, of which the recording and its intervals are used.
-        wrist: Loads and sensor.
+        sensor: The sensor.
+        table: What the file specifies of the sensor under its loads.
+        loads: The loads.
+        supports: Support of the intervals of each load.
         use: Use of the intervals.
 
     Returns:
@@ -118,10 +125,10 @@ def load_problem(experiment: Experiment, wrist: WristLoads, *, use: Use = Use.CA
         ExperimentError: If there is no such interval, the sensor has raw readings and no prior, or nothing is left.
     """
     intervals = sorted(experiment.intervals(use), key=lambda interval: interval.start_ns)
-    spans = [_wrist_interval(experiment, wrist.sensor, interval) for interval in intervals]
+    spans = [_wrist_interval(experiment, sensor, interval) for interval in intervals]
     if not sum(len(span.time_s) for span in spans):
         raise ExperimentError(
-            f'sensor {wrist.sensor.name!r}: expected samples in an interval with use = "{use}", with a reading and a '
+            f'sensor {sensor.name!r}: expected samples in an interval with use = "{use}", with a reading and a '
             "motion; the streams have gaps or missing values all over it"
         )
     names = [experiment.session_names(interval.label)[-1] for interval in intervals]
@@ -129,7 +136,7 @@ def load_problem(experiment: Experiment, wrist: WristLoads, *, use: Use = Use.CA
     lengths = [len(span.time_s) for span in spans]
     means = np.concatenate([span.means for span in spans])
     wrench, acceleration, turning, products, turned, values = np.split(means, _ENDS, axis=1)
-    variables = tuple(f"{one.linear.name} ({one.linear.unit})" for one in wrist.sensor.variables)
+    variables = tuple(f"{one.linear.name} ({one.linear.unit})" for one in sensor.variables)
     turns = bool(turning.any() or products.any())
     usual = np.median(np.concatenate([span.counts for span in spans]))
     rows = LoadRows(
@@ -140,7 +147,7 @@ def load_problem(experiment: Experiment, wrist: WristLoads, *, use: Use = Use.CA
         time_s=np.concatenate([span.time_s for span in spans]),
         session=np.repeat([sessions.index(name) for name in names], lengths),
         block=np.repeat(np.arange(len(spans)), lengths),
-        load=np.repeat([wrist.number_of(interval.support) for interval in intervals], lengths),
+        load=np.repeat([load_number(interval.support, supports) for interval in intervals], lengths),
         share=np.concatenate([span.counts for span in spans]) / usual,
         variables=values if variables else None,
         orientation=turned.reshape(-1, 3, 3) if np.isfinite(turned).all() else None,
@@ -148,29 +155,42 @@ def load_problem(experiment: Experiment, wrist: WristLoads, *, use: Use = Use.CA
     )
     return LoadProblem(
         rows=rows,
-        loads=wrist.loads,
+        loads=loads,
         sessions=sessions,
         blocks=tuple(interval.label for interval in intervals),
-        direction=wrist.direction,
-        drift=wrist.table.drift,
-        mount=wrist.table.mount is not None,
-        tilt=wrist.table.tilt is not None,
+        direction=table.measure_direction,
+        drift=table.drift,
+        mount=table.mount is not None,
+        tilt=table.tilt is not None,
         variables=variables,
     )
 
 
-def samples_left_out(experiment: Experiment, wrist: WristLoads) -> int:
+def load_number(support: Support | MovingSupport | None, supports: Sequence[MovingSupport]) -> int:
+    """Find the load of an interval by its support.
+
+    Args:
+        support: Support of the interval.
+        supports: Support of the intervals of each load.
+
+    Returns:
+        Number of the load; 0 where there is one only.
+    """
+    return next((number for number, own in enumerate(supports) if own is support), 0)
+
+
+def samples_left_out(experiment: Experiment, sensor: ExperimentSensor) -> int:
     """Count samples of the calibration intervals that lack a finite reading or motion.
 
     Args:
         experiment: The experiment.
-        wrist: Loads and sensor.
+        sensor: The sensor.
 
     Returns:
         Their number.
     """
     return sum(
-        int((~np.isfinite(_columns(experiment, wrist.sensor, interval)[1][:, :_MOTION_END]).all(axis=1)).sum())
+        int((~np.isfinite(_columns(experiment, sensor, interval)[1][:, :_MOTION_END]).all(axis=1)).sum())
         for interval in experiment.intervals(Use.CALIBRATION)
     )
 

@@ -13,8 +13,8 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.noise.slow_noise import CONFIDENCE, SlowNoise, Timeline, half_width, log_prior
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.payload.identification.load_problem import LoadRows
-from forcetorque.payload.identification.prediction import instants
+from forcetorque.payload.identification.estimation_problem import LoadRows
+from forcetorque.payload.identification.measurement_model import instants
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -41,16 +41,6 @@ _SEEN = 1e-6
 """Directions that change the readings of a group by less than this part of the strongest one are not told by it."""
 _ROUNDING = 1e-10
 """Noise is at least this part of the size of an axis, so that exact rows have a covariance."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Prior:
-    """What is known of r directions before the rows."""
-
-    precision: FloatArray
-    """Shape (r, r)."""
-    sides: FloatArray
-    """Precision times what is expected of the directions; shape (r,)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -113,24 +103,27 @@ class _Shape:
     worth: FloatArray  # independent values that each direction of the parameters has of this group, (p,)
 
 
-def estimate(groups: Sequence[Group], basis: FloatArray, prior: Prior, shapes: Sequence[SlowNoise]) -> Estimate:
+def estimate(
+    groups: Sequence[Group], basis: FloatArray, prior: tuple[FloatArray, FloatArray], shapes: Sequence[SlowNoise]
+) -> Estimate:
     """Estimate what the rows determine.
 
     Args:
         groups: Forces, and moments.
         basis: Parameters of the directions that are estimated; shape (p, r).
-        prior: What is known of these directions before the rows.
+        prior: Prior precision of these directions, shape (r, r), and that times their prior mean, shape (r,).
         shapes: Shapes of noise that are tried.
 
     Returns:
         Mean and covariance of the directions.
     """
+    precision, expected = prior
     tried = [_tried(group, basis, shapes) for group in groups]
     pairs = list(product(*tried))
     weight = np.array([np.exp(sum(one.log_weight for one in pair)) for pair in pairs])
     weight /= weight.sum()
-    spread = np.linalg.inv(prior.precision + np.array([sum(one.products for one in pair) for pair in pairs]))
-    sides = prior.sides + np.array([sum(one.sides for one in pair) for pair in pairs])
+    spread = np.linalg.inv(precision + np.array([sum(one.products for one in pair) for pair in pairs]))
+    sides = expected + np.array([sum(one.sides for one in pair) for pair in pairs])
     mean = np.einsum("krs,ks->kr", spread, sides)
     centre = weight @ mean
     apart = mean - centre
