@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, check_arrays, require_shape
 from forcetorque.base.errors import RecordingError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.recording.alignment import interpolate, require_overlap, usable_samples
@@ -175,23 +175,23 @@ class Processing:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SensorSamples:
+class SensorSamples(ArrayRecord):
     """Reading and reference of one sensor at the same n instants."""
 
     label: str
     """Label of the interval."""
-    stamp_ns: IntArray
+    stamp_ns: IntArray = field(metadata=array("n", dtype="int"))
     """Instants; shape (n,); ns."""
     reading: Signal
     """What the sensor read, `raw` or `wrench`; n samples."""
-    reference: FloatArray
+    reference: FloatArray = field(metadata=array("n", 6))
     """Expected wrench in the sensor's frame and direction; shape (n, 6); N, N m."""
-    flattening: FloatArray
+    flattening: FloatArray = field(metadata=array("n", 6))
     """What a derivative window of twice the length would take from it; shape (n, 6); N, N m.
 
     The window that is used has flattened the accelerations already, by about a third of that where motions are smooth.
     """
-    variables: FloatArray
+    variables: FloatArray = field(metadata=array("n", None))
     """Linear variables, in the order asked for; shape (n, v)."""
     dropped: int
     """Samples of the interval left out: missing values, gaps in a joint, those that are unusable, and what a filter
@@ -200,13 +200,8 @@ class SensorSamples:
     """Samples of the interval that say nothing of the load."""
 
     def __post_init__(self) -> None:
-        stamps = np.array(self.stamp_ns, dtype=np.int64)
-        stamps.setflags(write=False)
-        object.__setattr__(self, "stamp_ns", stamps)
-        for field in ("reference", "flattening"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(len(stamps), 6)))
-        require_shape(self.reading.values, name="reading", shape=(len(stamps), None))
-        object.__setattr__(self, "variables", read_only(self.variables, name="variables", shape=(len(stamps), None)))
+        check_arrays(self)
+        require_shape(self.reading.values, name="reading", shape=(len(self.stamp_ns), None))
 
     def __len__(self) -> int:
         return len(self.stamp_ns)
