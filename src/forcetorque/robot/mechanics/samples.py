@@ -252,11 +252,18 @@ def sensor_samples(
     source = recording.stream(stream)
     padded = padded_samples(recording, source, interval, processing.smoothing, apart=apart)
     at_ns = padded.stamp_ns
-    reference, flattening, joints = (
-        _reference(recording, model, sensor, source, interval.support, at_ns, processing, evaluator)
-        if applied is None
-        else _applied(recording, source, applied, at_ns)
-    )
+    if applied is None:
+        robot = (recording, model, sensor, source, interval.support, at_ns)
+        reference, joints = _expected(*robot, processing, evaluator)
+        flattening = np.zeros_like(reference)
+        if not processing.logged_derivatives:
+            window = processing.derivative_window
+            longer = replace(processing, derivative_window=replace(window, window_s=2.0 * window.window_s))
+            # near the end of a log there may be no room for the longer window
+            flattening = np.nan_to_num(reference - _expected(*robot, longer, evaluator)[0])
+    else:
+        reference, joints = _applied(recording, source, applied, at_ns), ()
+        flattening = np.zeros_like(reference)  # no filter has flattened it
     reading = source.signal(quantity)
     if quality is None:
         nothing = np.zeros(len(source), dtype=bool)
@@ -318,7 +325,7 @@ def expected_wrench(
     """
     source = recording.stream(stream)
     if applied is not None:
-        return _applied(recording, source, applied, at_ns)[0]
+        return _applied(recording, source, applied, at_ns)
     if interval.support is None:
         raise RecordingError(f"interval {interval.label!r}: expected a support frame, got none")
     return _expected(recording, model, sensor, source, interval.support, at_ns, processing, None)[0]
@@ -330,38 +337,11 @@ def _variables(recording: Recording, source: Stream, variables: Sequence[ScalarS
     return np.column_stack([np.empty((len(at_ns), 0)), *(variable.at(recording, at_ns) for variable in variables)])
 
 
-def _applied(
-    recording: Recording, source: Stream, applied: str, at_ns: IntArray
-) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
-    """Known wrench at given instants, which no filter has flattened, and no joints."""
+def _applied(recording: Recording, source: Stream, applied: str, at_ns: IntArray) -> FloatArray:
+    """Known wrench at given instants."""
     stream = recording.stream(applied)
     require_overlap(source, stream)
-    wrench = interpolate(stream, stream.signal("applied_wrench").values, at_ns)
-    return wrench, np.zeros_like(wrench), ()
-
-
-def _reference(
-    recording: Recording,
-    model: RobotModel,
-    sensor: str,
-    source: Stream,
-    support: Support | MovingSupport,
-    at_ns: IntArray,
-    processing: Processing,
-    evaluator: Evaluator | None,
-) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
-    """Expected wrench of a sensor at given instants, what a longer window takes from it, and the joints it needed."""
-
-    def expected(how: Processing) -> tuple[FloatArray, tuple[str, ...]]:
-        return _expected(recording, model, sensor, source, support, at_ns, how, evaluator)
-
-    reference, names = expected(processing)
-    if processing.logged_derivatives:
-        return reference, np.zeros_like(reference), names
-    window = processing.derivative_window
-    longer = replace(processing, derivative_window=replace(window, window_s=2.0 * window.window_s))
-    # near the end of a log there may be no room for the longer window
-    return reference, np.nan_to_num(reference - expected(longer)[0]), names
+    return interpolate(stream, stream.signal("applied_wrench").values, at_ns)
 
 
 def _expected(
