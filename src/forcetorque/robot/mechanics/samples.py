@@ -200,8 +200,8 @@ class SensorSamples(ArrayRecord):
     """Samples of the interval that say nothing of the load."""
 
     def __post_init__(self) -> None:
-        check_arrays(self)
         require_shape(self.reading.values, name="reading", shape=(len(self.stamp_ns), None))
+        check_arrays(self)
 
     def __len__(self) -> int:
         return len(self.stamp_ns)
