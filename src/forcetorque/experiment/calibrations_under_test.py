@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, require_shape
 from forcetorque.base.errors import ExperimentError, ShapeError
 from forcetorque.base.noise.means import mean_error
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -25,20 +25,20 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class WrenchErrors:
+class WrenchErrors(ArrayRecord):
     """Statistics of n errors, pooled before anything is averaged."""
 
     count: int
     """Number of samples."""
-    bias: FloatArray
+    bias: FloatArray = field(metadata=array(6))
     """Mean error per component; shape (6,); N, N m."""
-    rmse: FloatArray
+    rmse: FloatArray = field(metadata=array(6))
     """Root mean square error per component; shape (6,); N, N m."""
-    largest: FloatArray
+    largest: FloatArray = field(metadata=array(6))
     """Largest absolute error per component; shape (6,); N, N m."""
-    mean_absolute: FloatArray
+    mean_absolute: FloatArray = field(metadata=array(6))
     """Mean absolute error per component; shape (6,); N, N m."""
-    mean_absolute_error: FloatArray
+    mean_absolute_error: FloatArray = field(metadata=array(6))
     """Standard error of these means (`noise.mean_error`); shape (6,); N, N m."""
     force_mean: float
     """Mean norm of the force error; N."""
@@ -56,10 +56,6 @@ class WrenchErrors:
     """Half-width of its 95 % interval; N m; infinite where it cannot be told."""
     moment_largest: float
     """Largest norm of the moment error; N m."""
-
-    def __post_init__(self) -> None:
-        for field in ("bias", "rmse", "largest", "mean_absolute", "mean_absolute_error"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
 
 
 def wrench_errors(measured: Any, reference: Any, time_s: Any) -> WrenchErrors:

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, names, require_shape
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE
 from forcetorque.experiment.calibration.sensor_model import recover_raw
@@ -21,14 +21,14 @@ from forcetorque.robot.mechanics.samples import pick_samples
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class RawCounts:
+class RawCounts(ArrayRecord):
     """Raw readings of a sensor."""
 
     stream: Stream
     """The samples that have a reading."""
-    channels: tuple[str, ...]
+    channels: tuple[str, ...] = field(metadata=names("c"))
     """Names of the c channels."""
-    values: FloatArray
+    values: FloatArray = field(metadata=array(None, "c"))
     """Readings; shape (n, c); counts."""
     recovered: bool
     """Whether they came through the inverse of the prior; an offset of the electronics is not in them."""
@@ -38,8 +38,8 @@ class RawCounts:
     """Samples that a saturated board held, by its status, or that repeat one reading while the log is noisy."""
 
     def __post_init__(self) -> None:
-        shape = (len(self.stream), len(self.channels))
-        object.__setattr__(self, "values", read_only(self.values, name="values", shape=shape))
+        check_arrays(self)
+        require_shape(self.values, name="values", shape=(len(self.stream), None))
 
 
 def raw_counts(run: SensorRun) -> RawCounts:

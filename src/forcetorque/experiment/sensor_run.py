@@ -47,6 +47,8 @@ class SensorRun:
         self.experiment = experiment
         self.sensor = experiment.sensor(sensor) if isinstance(sensor, str) else sensor
         self._known: dict[Hashable, object] = {}
+        self._samples: dict[Hashable, IntervalSamples] = {}
+        self._judged: dict[Hashable, JudgedWrenches] = {}
         self._motions: dict[Hashable, list[tuple[JointMotion, RootMotion]]] = {}
 
     def __repr__(self) -> str:
@@ -168,10 +170,12 @@ class SensorRun:
             The samples.
         """
         names = self._in_order(variables)
-        return self.once(
-            ("samples", _key(interval), names, smoothed),
-            lambda: samples_over(self.experiment, self.sensor, interval, variables=names, smoothed=smoothed),
-        )
+        key = (_key(interval), names, smoothed)
+        if key not in self._samples:
+            self._samples[key] = samples_over(
+                self.experiment, self.sensor, interval, variables=names, smoothed=smoothed
+            )
+        return self._samples[key]
 
     def interval_readings(self, interval: Interval, *, variables: Collection[str] = ()) -> Readings:
         """Take the readings over an interval, for which no reference is wanted.
@@ -321,7 +325,10 @@ class SensorRun:
         Returns:
             Wrenches of all candidates at the same instants, and the reference.
         """
-        return self.once(("judged", _names(calibrations)), lambda: judged_wrenches(self, calibrations))
+        key = _names(calibrations)
+        if key not in self._judged:
+            self._judged[key] = judged_wrenches(self, calibrations)
+        return self._judged[key]
 
     def require_fit(self, name: str, calibration: Calibration) -> None:
         """Refuse a calibration of another sensor, or of one that is read in another way.

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, Final, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, require_shape
 from forcetorque.base.errors import ExperimentError, FitError, ShapeError, known_names
 from forcetorque.base.noise.means import mean_error
 from forcetorque.recording.recording import Interval
@@ -43,20 +43,16 @@ KNOWN_BEFORE = (Offset.FIRST_SECOND, Offset.FITTED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class OffsetEstimate:
+class OffsetEstimate(ArrayRecord):
     """The offset with which readings are in the mean what is demanded of them."""
 
-    value: FloatArray
+    value: FloatArray = field(metadata=array(6))
     """To be added to the readings; shape (6,); N, N m."""
-    half_width: FloatArray
+    half_width: FloatArray = field(metadata=array(6))
     """Half-width of its 95 % interval, of noise that is white and slow; shape (6,); N, N m; infinite where it cannot
     be told. Errors of matrix and model are not in it."""
     count: int
     """Number of samples."""
-
-    def __post_init__(self) -> None:
-        for field in ("value", "half_width"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
 
     @classmethod
     def of(cls, lacking: Any, time_s: Any) -> OffsetEstimate:
@@ -146,31 +142,21 @@ _FEWEST = 10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ValidationSet:
+class ValidationSet(ArrayRecord):
     """Readings and reference of one stretch of time that was not fitted."""
 
     label: str
     """Label of the interval."""
     session: str
     """Session that it is of."""
-    time_s: FloatArray
+    time_s: FloatArray = field(metadata=array("n"))
     """Time of every sample since the start of the recording; shape (n,); s."""
-    raw: FloatArray
+    raw: FloatArray = field(metadata=array("n", None))
     """Raw readings; shape (n, c); counts."""
-    reference: FloatArray
+    reference: FloatArray = field(metadata=array("n", 6))
     """Wrench that the sensor must read where nothing touches; shape (n, 6); N, N m."""
-    variables: FloatArray
+    variables: FloatArray = field(metadata=array("n", None))
     """Linear variables; shape (n, v)."""
-
-    def __post_init__(self) -> None:
-        n = len(np.asarray(self.time_s))
-        for name, shape in (
-            ("time_s", (n,)),
-            ("raw", (n, None)),
-            ("reference", (n, 6)),
-            ("variables", (n, None)),
-        ):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=shape))
 
     def for_offset(self) -> BoolArray:
         """Mark the first second, from which an offset is taken.

@@ -10,27 +10,24 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, names, read_only
 from forcetorque.base.errors import RobotError, ShapeError, known_names
 from forcetorque.base.pose import make_pose
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Wrenches:
+class Wrenches(ArrayRecord):
     """Wrenches by name, each in a frame of its own."""
 
-    names: tuple[str, ...]
+    names: tuple[str, ...] = field(metadata=names("w"))
     """Sensors or contacts, in any order."""
-    values: FloatArray
+    values: FloatArray = field(metadata=array(None, "w", 6))
     """Force, then moment; shape (n, names, 6); N, N m; NaN where there is none."""
 
     def __post_init__(self) -> None:
-        names = tuple(self.names)
-        object.__setattr__(self, "names", names)
-        values = read_only(self.values, name="wrenches", shape=(None, len(names), 6))
-        object.__setattr__(self, "values", values)
-        if len(set(names)) != len(names):
-            raise ShapeError(f"names of wrenches: expected each once, got {names}")
+        check_arrays(self)
+        if len(set(self.names)) != len(self.names):
+            raise ShapeError(f"names of wrenches: expected each once, got {self.names}")
 
     @classmethod
     def of(cls, wrenches: Mapping[str, Any]) -> Wrenches:

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
-from forcetorque.base.arrays import FloatArray, read_only, read_only_mapping
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, mapping, read_only
 from forcetorque.base.errors import RobotError, known_names
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.wrench import MeasureDirection
@@ -62,7 +62,7 @@ class JointLimit:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Joint:
+class Joint(ArrayRecord):
     """A joint; at coordinate zero the child link's frame is at `parent_H_child`."""
 
     name: str
@@ -73,18 +73,14 @@ class Joint:
     """Parent link."""
     child: str
     """Child link."""
-    parent_H_child: FloatArray
+    parent_H_child: FloatArray = field(metadata=array(4, 4))
     """Pose of the child link in the parent link at coordinate zero; shape (4, 4); m."""
-    axis: FloatArray
+    axis: FloatArray = field(metadata=array(3))
     """Unit axis in the child link's frame; shape (3,)."""
     mimic: Mimic | None = None
     """What the coordinate follows, if it is not free."""
     limit: JointLimit | None = None
     """How far and how fast it goes; None if the file says nothing."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "parent_H_child", read_only(self.parent_H_child, name="parent_H_child", shape=(4, 4)))
-        object.__setattr__(self, "axis", read_only(self.axis, name="axis", shape=(3,)))
 
 
 class SensorFrame(StrEnum):
@@ -99,7 +95,7 @@ class SensorFrame(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ForceTorqueSensor:
+class ForceTorqueSensor(ArrayRecord):
     """A six-axis force-torque sensor at a fixed joint."""
 
     name: str
@@ -110,34 +106,33 @@ class ForceTorqueSensor:
     """Frame of its reading."""
     direction: MeasureDirection
     """Who acts on whom in its reading."""
-    child_H_sensor: FloatArray
+    child_H_sensor: FloatArray = field(metadata=array(4, 4))
     """Pose of the `<origin>` in the child link, used where `frame` is `sensor`; shape (4, 4); m."""
     aliases: tuple[str, ...] = ()
     """Other names of the same sensor, such as that of its simulator's tag."""
 
     def __post_init__(self) -> None:
+        check_arrays(self)
         # a bare word would fail every `is`, and so read as the other direction
         object.__setattr__(self, "frame", SensorFrame(self.frame))
         object.__setattr__(self, "direction", MeasureDirection(self.direction))
-        object.__setattr__(self, "child_H_sensor", read_only(self.child_H_sensor, name="child_H_sensor", shape=(4, 4)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class RobotModel:
+class RobotModel(ArrayRecord):
     """A robot: links in a tree of joints, and its force-torque sensors."""
 
     name: str
     """Name of the robot."""
-    links: Mapping[str, Inertia]
+    links: Mapping[str, Inertia] = field(metadata=mapping())
     """Inertia of every link, in and about the link's frame."""
-    joints: Mapping[str, Joint]
+    joints: Mapping[str, Joint] = field(metadata=mapping())
     """Every joint by name."""
-    sensors: Mapping[str, ForceTorqueSensor]
+    sensors: Mapping[str, ForceTorqueSensor] = field(metadata=mapping())
     """Every force-torque sensor by name."""
 
     def __post_init__(self) -> None:
-        for field in ("links", "joints", "sensors"):
-            object.__setattr__(self, field, read_only_mapping(getattr(self, field)))
+        check_arrays(self)
         _require_tree(self)
 
     @property

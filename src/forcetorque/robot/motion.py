@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, names, read_only
 from forcetorque.base.errors import RecordingError, RobotError, ShapeError, known_names
 from forcetorque.base.pose import make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
@@ -24,28 +24,22 @@ _UNIT = 1e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class JointMotion:
+class JointMotion(ArrayRecord):
     """Positions, velocities and accelerations of joints, matched by name."""
 
-    names: tuple[str, ...]
+    names: tuple[str, ...] = field(metadata=names("j"))
     """Joints, in any order."""
-    position: FloatArray
+    position: FloatArray = field(metadata=array("n", "j"))
     """Positions; shape (n, j); rad, or m where prismatic."""
-    velocity: FloatArray
+    velocity: FloatArray = field(metadata=array("n", "j"))
     """Velocities; shape (n, j); rad/s or m/s."""
-    acceleration: FloatArray
+    acceleration: FloatArray = field(metadata=array("n", "j"))
     """Accelerations; shape (n, j); rad/s2 or m/s2."""
 
     def __post_init__(self) -> None:
-        names = tuple(self.names)
-        object.__setattr__(self, "names", names)
-        position = read_only(self.position, name="position", shape=(None, len(names)))
-        object.__setattr__(self, "position", position)
-        for field in ("velocity", "acceleration"):
-            values = read_only(getattr(self, field), name=field, shape=position.shape)
-            object.__setattr__(self, field, values)
-        if len(set(names)) != len(names):
-            raise ShapeError(f"joint names: expected each once, got {names}")
+        check_arrays(self)
+        if len(set(self.names)) != len(self.names):
+            raise ShapeError(f"joint names: expected each once, got {self.names}")
 
     @classmethod
     def at_rest(cls, names: Sequence[str], position: Any) -> JointMotion:
@@ -102,10 +96,10 @@ class RootMotion:
     """Angular acceleration; shape (3,) or (n, 3); rad/s2."""
 
     def __post_init__(self) -> None:
-        for field in ("proper_acceleration", "angular_velocity", "angular_acceleration"):
-            values = np.asarray(getattr(self, field), dtype=np.float64)
+        for name in ("proper_acceleration", "angular_velocity", "angular_acceleration"):
+            values = np.asarray(getattr(self, name), dtype=np.float64)
             shape = (3,) if values.ndim == 1 else (None, 3)
-            object.__setattr__(self, field, read_only(values, name=field, shape=shape))
+            object.__setattr__(self, name, read_only(values, name=name, shape=shape))
 
     @classmethod
     def fixed(cls, gravity_direction: Any, *, gravity: float = STANDARD_GRAVITY) -> RootMotion:

@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import lru_cache
 from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only_mapping
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, mapping
 from forcetorque.base.errors import RobotError, known_names
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import invert_pose, make_pose, rotation_with_z_along, split_pose
@@ -78,23 +78,19 @@ class SensorCut:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class BodyTree:
+class BodyTree(ArrayRecord):
     """A robot's bodies, parents before children."""
 
     root_link: str
     """Link whose frame is the root body's frame."""
     bodies: tuple[Body, ...]
     """Bodies, every parent before its children."""
-    frames: Mapping[str, tuple[int, FloatArray]]
+    frames: Mapping[str, tuple[int, FloatArray]] = field(metadata=mapping())
     """Body of every link, and `body_H_link`, its pose in that; shape (4, 4); m."""
-    inertias: Mapping[str, Inertia]
+    inertias: Mapping[str, Inertia] = field(metadata=mapping())
     """Inertia of every link, in and about the link's frame."""
-    cuts: Mapping[str, SensorCut]
+    cuts: Mapping[str, SensorCut] = field(metadata=mapping())
     """Cut of every sensor in a fixed joint, by the sensor's name."""
-
-    def __post_init__(self) -> None:
-        for field in ("frames", "inertias", "cuts"):
-            object.__setattr__(self, field, read_only_mapping(getattr(self, field)))
 
 
 def build_tree(model: RobotModel, root_link: str) -> BodyTree:

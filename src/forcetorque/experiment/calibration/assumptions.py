@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Final, Literal
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, require_shape
 from forcetorque.base.errors import FitError
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 
@@ -73,12 +73,12 @@ def variable_size(variable: LinearVariable, from_load: FloatArray) -> float | No
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Assumptions:
+class Assumptions(ArrayRecord):
     """What is known of a sensor and of its reference beside data and prior matrix."""
 
-    full_scale: FloatArray
+    full_scale: FloatArray = field(metadata=array(None))
     """Full scale of every channel of the reading; shape (c,); counts, or N and N m where a wrench stands for counts."""
-    accuracy: FloatArray | None = None
+    accuracy: FloatArray | None = field(default=None, metadata=array(6))
     """Standard deviation of a slow error of the reference that no averaging takes away; shape (6,); N, N m.
 
     None for `ACCURACY_SHARE` of the full scale of every channel.
@@ -87,14 +87,11 @@ class Assumptions:
     """Share of its response by which the sensor differs from one motion to the next; only widens the covariance."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "full_scale", read_only(self.full_scale, name="full_scale", shape=(None,)))
+        check_arrays(self)
         if not (np.isfinite(self.full_scale).all() and (self.full_scale > 0.0).all()):
             raise FitError(f"full_scale: expected numbers above 0, got {self.full_scale.tolist()}")
-        if self.accuracy is not None:
-            accuracy = read_only(self.accuracy, name="accuracy", shape=(6,))
-            if not (np.isfinite(accuracy).all() and (accuracy >= 0.0).all()):
-                raise FitError(f"accuracy: expected numbers of at least 0 (N, N m), got {accuracy.tolist()}")
-            object.__setattr__(self, "accuracy", accuracy)
+        if self.accuracy is not None and not (np.isfinite(self.accuracy).all() and (self.accuracy >= 0.0).all()):
+            raise FitError(f"accuracy: expected numbers of at least 0 (N, N m), got {self.accuracy.tolist()}")
         if not 0.0 <= self.repeatability < 1.0:
             raise FitError(f"repeatability: expected a share from 0 to 1, got {self.repeatability:g}")
 

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moments import Moments
@@ -21,27 +21,17 @@ _RANK_TOLERANCE = 1e-12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Excitation:
+class Excitation(ArrayRecord):
     """Eigenvectors of the raw second moment, strongest first, and how far loads explain them."""
 
-    variance: FloatArray
+    variance: FloatArray = field(metadata=array("c"))
     """Variance of the raw readings along each direction; shape (c,); counts2."""
-    directions: FloatArray
+    directions: FloatArray = field(metadata=array("c", "c"))
     """Unit directions in the space of raw channels, one per row; shape (c, c)."""
-    explained: FloatArray
+    explained: FloatArray = field(metadata=array("c"))
     """Share of each variance that the reference wrench explains, 0 to 1; shape (c,)."""
-    reference_deviation: FloatArray
+    reference_deviation: FloatArray = field(metadata=array(6))
     """Standard deviation of the reference wrench per component; shape (6,); N, N m."""
-
-    def __post_init__(self) -> None:
-        channels = len(np.asarray(self.variance))
-        for field, shape in (
-            ("variance", (channels,)),
-            ("directions", (channels, channels)),
-            ("explained", (channels,)),
-            ("reference_deviation", (6,)),
-        ):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
 
     @property
     def rank(self) -> int:

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import reduce
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, check_arrays, read_only, require_shape
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.base.noise.means import means_over
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
@@ -23,7 +23,7 @@ _SINGULAR = 1e-14
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Moments:
+class Moments(ArrayRecord):
     """Count, mean and centred second moment of m = c + v + 6 columns: raw channels, variables, reference."""
 
     count: int
@@ -32,18 +32,16 @@ class Moments:
     """Number c of raw channels."""
     variables: int
     """Number v of linear variables."""
-    origin: FloatArray
+    origin: FloatArray = field(metadata=array("m"))
     """Rough mean of every column, which keeps the digits of what is beyond it; shape (m,)."""
-    step: FloatArray
+    step: FloatArray = field(metadata=array("m"))
     """Mean of every column beyond the rough one; shape (m,)."""
-    second: FloatArray
+    second: FloatArray = field(metadata=array("m", "m"))
     """Mean product of centred columns; shape (m, m)."""
 
     def __post_init__(self) -> None:
-        width = self.channels + self.variables + 6
-        object.__setattr__(self, "origin", read_only(self.origin, name="origin", shape=(width,)))
-        object.__setattr__(self, "step", read_only(self.step, name="step", shape=(width,)))
-        object.__setattr__(self, "second", read_only(self.second, name="second", shape=(width, width)))
+        check_arrays(self)
+        require_shape(self.origin, name="origin", shape=(self.channels + self.variables + 6,))
 
     @classmethod
     def of(cls, raw: Any, reference: Any, variables: Any = None) -> Moments:
@@ -221,20 +219,20 @@ def pooled(parts: Iterable[Moments]) -> Moments:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class DataSet:
+class DataSet(ArrayRecord):
     """Readings and reference of one stretch of time."""
 
     label: str
     """Label of the interval."""
-    raw: FloatArray
+    raw: FloatArray = field(metadata=array("n", None))
     """Raw readings in the order of time; shape (n, c); counts."""
-    reference: FloatArray
+    reference: FloatArray = field(metadata=array("n", 6))
     """Reference wrenches; shape (n, 6); N, N m."""
-    variables: Any = None
+    variables: Any = field(default=None, metadata=array("n", None))
     """Linear variables; shape (n, v), an array also where None was given: v is then 0."""
-    time_s: Any = None
+    time_s: Any = field(default=None, metadata=array("n"))
     """Instants on the clock of the recording; shape (n,); s; None where they are not known."""
-    flattening: Any = None
+    flattening: Any = field(default=None, metadata=array("n", 6))
     """What a derivative window of twice the length takes from the reference; shape (n, 6); N, N m; None for nothing."""
     session: str = ""
     """Power-up: data sets of one session share an offset."""
@@ -242,14 +240,10 @@ class DataSet:
     """Recording whose clock and slow noise it shares with others."""
 
     def __post_init__(self) -> None:
-        raw = read_only(self.raw, name="raw", shape=(None, None))
-        variables = np.empty((len(raw), 0)) if self.variables is None else self.variables
-        object.__setattr__(self, "raw", raw)
-        object.__setattr__(self, "reference", read_only(self.reference, name="reference", shape=(len(raw), 6)))
-        object.__setattr__(self, "variables", read_only(variables, name="variables", shape=(len(raw), None)))
-        for field, shape in (("time_s", (len(raw),)), ("flattening", (len(raw), 6))):
-            if getattr(self, field) is not None:
-                object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
+        check_arrays(self)
+        if self.variables is None:
+            none = read_only(np.empty((len(self.raw), 0)), name="variables", shape=(None, 0))
+            object.__setattr__(self, "variables", none)
 
     def kept(self, marks: BoolArray) -> DataSet:
         """Keep some of the samples.
@@ -271,7 +265,7 @@ class DataSet:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class WindowMeans:
+class WindowMeans(ArrayRecord):
     """Means of n windows of one stretch of time."""
 
     label: str
@@ -280,25 +274,18 @@ class WindowMeans:
     """Power-up: readings of one session share an offset."""
     recording: str
     """Recording: within it slow noise goes on, from one stretch to the next."""
-    time_s: FloatArray
+    time_s: FloatArray = field(metadata=array("n"))
     """Mean instants on the clock of the recording; shape (n,); s."""
-    count: FloatArray
+    count: FloatArray = field(metadata=array("n"))
     """Samples in each; shape (n,)."""
-    raw: FloatArray
+    raw: FloatArray = field(metadata=array("n", None))
     """Readings; shape (n, c); counts."""
-    reference: FloatArray
+    reference: FloatArray = field(metadata=array("n", 6))
     """Expected wrenches; shape (n, 6); N, N m."""
-    flattening: FloatArray
+    flattening: FloatArray = field(metadata=array("n", 6))
     """What a derivative window of twice the length takes from them; shape (n, 6); N, N m."""
-    variables: FloatArray
+    variables: FloatArray = field(metadata=array("n", None))
     """Linear variables; shape (n, v)."""
-
-    def __post_init__(self) -> None:
-        n = len(np.asarray(self.time_s))
-        for field, width in (("raw", None), ("reference", 6), ("flattening", 6), ("variables", None)):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(n, width)))
-        for field in ("time_s", "count"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(n,)))
 
     def __len__(self) -> int:
         return len(self.time_s)

@@ -8,7 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_last_axis, require_shape
+from forcetorque.base.arrays import (
+    ArrayRecord,
+    BoolArray,
+    FloatArray,
+    array,
+    read_only,
+    require_last_axis,
+    require_shape,
+)
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.experiment.calibration.quadratic_correction import QuadraticCorrection
 
@@ -55,29 +63,19 @@ def _no_values() -> FloatArray:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class WrenchModel:
+class WrenchModel(ArrayRecord):
     """What turns raw readings, and linear variables such as temperature, into a wrench (thesis 5.1, 5.9)."""
 
-    matrix: FloatArray
+    matrix: FloatArray = field(metadata=array(6, None))
     """Calibration matrix; shape (6, c); N/count, N m/count."""
-    offset: FloatArray
+    offset: FloatArray = field(metadata=array(6))
     """Offset in wrench space, where every variable has its reference value; shape (6,); N, N m."""
-    coefficients: FloatArray = field(default_factory=_no_coefficients)
+    coefficients: FloatArray = field(default_factory=_no_coefficients, metadata=array(6, "v"))
     """Wrench per unit of every variable; shape (6, v); N, N m per unit."""
-    reference_values: FloatArray = field(default_factory=_no_values)
+    reference_values: FloatArray = field(default_factory=_no_values, metadata=array("v"))
     """Values at which the variables contribute nothing; shape (v,)."""
     quadratic: QuadraticCorrection | None = None
     """What is taken off the wrench that these give; None for a linear sensor."""
-
-    def __post_init__(self) -> None:
-        variables = len(np.asarray(self.reference_values))
-        for name, shape in (
-            ("matrix", (6, None)),
-            ("offset", (6,)),
-            ("coefficients", (6, variables)),
-            ("reference_values", (variables,)),
-        ):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=shape))
 
     def wrench(self, raw: Any, variables: Any = None) -> FloatArray:
         """Turn readings into wrenches.
@@ -205,9 +203,9 @@ def secondary_matrix(matrix: Any, prior: Any) -> FloatArray:
         FitError: If the prior cannot be inverted.
     """
     new, old = np.asarray(matrix, dtype=np.float64), np.asarray(prior, dtype=np.float64)
-    for name, array in (("matrix", new), ("prior", old)):
-        if array.shape != (6, 6):
-            raise ShapeError(f"{name}: expected shape (6, 6), got {array.shape}")
+    for name, values in (("matrix", new), ("prior", old)):
+        if values.shape != (6, 6):
+            raise ShapeError(f"{name}: expected shape (6, 6), got {values.shape}")
     if not is_invertible(old):
         raise FitError("the prior matrix is singular, so no matrix corrects what it made")
     return np.asarray(np.linalg.solve(old.T, new.T).T, dtype=np.float64)

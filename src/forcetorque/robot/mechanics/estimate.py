@@ -16,7 +16,7 @@ from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.dynamics import root_vectors
 from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.robot.mechanics.question import Needs, Question, needs_of
-from forcetorque.robot.mechanics.readable import Block, evaluate_block
+from forcetorque.robot.mechanics.readable import Block, BlockEvaluation
 from forcetorque.robot.motion import JointMotion, RootMotion
 
 MOST_UNKNOWNS = 6
@@ -291,7 +291,7 @@ def _run_readable(question: Question, inputs: Inputs, out: Estimates, progress: 
         refuse_infinite(inputs, block)
         count = block.stop - start
         root = [np.broadcast_to(v if len(v) == 1 else v[block], (count, 3)) for v in inputs.root]
-        evaluate_block(
+        BlockEvaluation(
             question,
             inputs.needs,
             Block(
@@ -302,6 +302,6 @@ def _run_readable(question: Question, inputs: Inputs, out: Estimates, progress: 
                 active=inputs.active[block].astype(np.float64),
             ),
             out.samples(block),
-        )
+        ).run()
         if progress is not None:
             progress(block.stop)

@@ -45,28 +45,25 @@ class Block:
     """1 where an unknown contact is there, else 0; shape (n, unknown contacts)."""
 
 
-def evaluate_block(question: Question, needs: Needs, block: Block, out: Estimates) -> None:
-    """Answer a question for some samples.
-
-    Args:
-        question: The question.
-        needs: What it depends on.
-        block: Its input.
-        out: Where the answer goes; as many samples.
-    """
-    _Evaluation(question, needs, block, out).run()
-
-
-class _Evaluation:
+class BlockEvaluation:
     """Wrenches of all bodies for one block; lists are indexed by the body, each wrench is in that body's frame."""
 
     def __init__(self, question: Question, needs: Needs, block: Block, out: Estimates) -> None:
+        """Carry the motion of the root to all bodies.
+
+        Args:
+            question: What to estimate.
+            needs: Bodies and sub-models that it depends on.
+            block: Its input.
+            out: Receives the results; as many samples.
+        """
         self.question, self.needs, self.block, self.out = question, needs, block, out
         self.tree, self.bodies = question.tree, question.tree.bodies
         self.states = body_states(question, needs, block)
         self.readings = {sensor: self._reading(k, sensor) for k, sensor in enumerate(question.measured)}
 
     def run(self) -> None:
+        """Compute the results and write them to `out`."""
         for k, link in enumerate(self.question.net_wrenches):
             self.out.net_wrenches[:, k] = self._link_wrench(link)
         demand = self._demand()

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, check_arrays, require_shape
 from forcetorque.base.errors import RecordingError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.recording.alignment import interpolate, require_overlap, usable_samples
@@ -175,23 +175,23 @@ class Processing:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SensorSamples:
+class SensorSamples(ArrayRecord):
     """Reading and reference of one sensor at the same n instants."""
 
     label: str
     """Label of the interval."""
-    stamp_ns: IntArray
+    stamp_ns: IntArray = field(metadata=array("n", dtype="int"))
     """Instants; shape (n,); ns."""
     reading: Signal
     """What the sensor read, `raw` or `wrench`; n samples."""
-    reference: FloatArray
+    reference: FloatArray = field(metadata=array("n", 6))
     """Expected wrench in the sensor's frame and direction; shape (n, 6); N, N m."""
-    flattening: FloatArray
+    flattening: FloatArray = field(metadata=array("n", 6))
     """What a derivative window of twice the length would take from it; shape (n, 6); N, N m.
 
     The window that is used has flattened the accelerations already, by about a third of that where motions are smooth.
     """
-    variables: FloatArray
+    variables: FloatArray = field(metadata=array("n", None))
     """Linear variables, in the order asked for; shape (n, v)."""
     dropped: int
     """Samples of the interval left out: missing values, gaps in a joint, those that are unusable, and what a filter
@@ -200,13 +200,8 @@ class SensorSamples:
     """Samples of the interval that say nothing of the load."""
 
     def __post_init__(self) -> None:
-        stamps = np.array(self.stamp_ns, dtype=np.int64)
-        stamps.setflags(write=False)
-        object.__setattr__(self, "stamp_ns", stamps)
-        for field in ("reference", "flattening"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(len(stamps), 6)))
-        require_shape(self.reading.values, name="reading", shape=(len(stamps), None))
-        object.__setattr__(self, "variables", read_only(self.variables, name="variables", shape=(len(stamps), None)))
+        require_shape(self.reading.values, name="reading", shape=(len(self.stamp_ns), None))
+        check_arrays(self)
 
     def __len__(self) -> int:
         return len(self.stamp_ns)
@@ -257,11 +252,18 @@ def sensor_samples(
     source = recording.stream(stream)
     padded = padded_samples(recording, source, interval, processing.smoothing, apart=apart)
     at_ns = padded.stamp_ns
-    reference, flattening, joints = (
-        _reference(recording, model, sensor, source, interval.support, at_ns, processing, evaluator)
-        if applied is None
-        else _applied(recording, source, applied, at_ns)
-    )
+    if applied is None:
+        robot = (recording, model, sensor, source, interval.support, at_ns)
+        reference, joints = _expected(*robot, processing, evaluator)
+        flattening = np.zeros_like(reference)
+        if not processing.logged_derivatives:
+            window = processing.derivative_window
+            longer = replace(processing, derivative_window=replace(window, window_s=2.0 * window.window_s))
+            # near the end of a log there may be no room for the longer window
+            flattening = np.nan_to_num(reference - _expected(*robot, longer, evaluator)[0])
+    else:
+        reference, joints = _applied(recording, source, applied, at_ns), ()
+        flattening = np.zeros_like(reference)  # no filter has flattened it
     reading = source.signal(quantity)
     if quality is None:
         nothing = np.zeros(len(source), dtype=bool)
@@ -323,7 +325,7 @@ def expected_wrench(
     """
     source = recording.stream(stream)
     if applied is not None:
-        return _applied(recording, source, applied, at_ns)[0]
+        return _applied(recording, source, applied, at_ns)
     if interval.support is None:
         raise RecordingError(f"interval {interval.label!r}: expected a support frame, got none")
     return _expected(recording, model, sensor, source, interval.support, at_ns, processing, None)[0]
@@ -335,38 +337,11 @@ def _variables(recording: Recording, source: Stream, variables: Sequence[ScalarS
     return np.column_stack([np.empty((len(at_ns), 0)), *(variable.at(recording, at_ns) for variable in variables)])
 
 
-def _applied(
-    recording: Recording, source: Stream, applied: str, at_ns: IntArray
-) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
-    """Known wrench at given instants, which no filter has flattened, and no joints."""
+def _applied(recording: Recording, source: Stream, applied: str, at_ns: IntArray) -> FloatArray:
+    """Known wrench at given instants."""
     stream = recording.stream(applied)
     require_overlap(source, stream)
-    wrench = interpolate(stream, stream.signal("applied_wrench").values, at_ns)
-    return wrench, np.zeros_like(wrench), ()
-
-
-def _reference(
-    recording: Recording,
-    model: RobotModel,
-    sensor: str,
-    source: Stream,
-    support: Support | MovingSupport,
-    at_ns: IntArray,
-    processing: Processing,
-    evaluator: Evaluator | None,
-) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
-    """Expected wrench of a sensor at given instants, what a longer window takes from it, and the joints it needed."""
-
-    def expected(how: Processing) -> tuple[FloatArray, tuple[str, ...]]:
-        return _expected(recording, model, sensor, source, support, at_ns, how, evaluator)
-
-    reference, names = expected(processing)
-    if processing.logged_derivatives:
-        return reference, np.zeros_like(reference), names
-    window = processing.derivative_window
-    longer = replace(processing, derivative_window=replace(window, window_s=2.0 * window.window_s))
-    # near the end of a log there may be no room for the longer window
-    return reference, np.nan_to_num(reference - expected(longer)[0]), names
+    return interpolate(stream, stream.signal("applied_wrench").values, at_ns)
 
 
 def _expected(
