@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import ExperimentError, RecordingError, UnitError, known_names
 from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -32,7 +32,7 @@ _POINTS = ("cop", "zmp", "com", "com_acceleration")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MotionSignal:
+class MotionSignal(ArrayRecord):
     """One column over one interval, and what was wanted of it."""
 
     interval: str
@@ -41,24 +41,16 @@ class MotionSignal:
     """Name of the column."""
     unit: str
     """Its unit."""
-    time_s: FloatArray
+    time_s: FloatArray = field(metadata=array("n"))
     """Instants, from the start of the recording; shape (n,); s."""
-    values: FloatArray
+    values: FloatArray = field(metadata=array("n"))
     """Samples; shape (n,); NaN where there is none."""
     desired: str | None = None
     """Name of the column of what was wanted; None if nothing was."""
-    desired_values: FloatArray | None = None
+    desired_values: FloatArray | None = field(default=None, metadata=array("n"))
     """What was wanted at those instants; shape (n,)."""
     added: tuple[str, ...] = ()
     """What the experiment file adds to the log, in sentences."""
-
-    def __post_init__(self) -> None:
-        time = read_only(self.time_s, name=f"{self.column}: time_s", shape=(None,))
-        object.__setattr__(self, "time_s", time)
-        for field in ("values", "desired_values"):
-            if getattr(self, field) is not None:
-                values = read_only(getattr(self, field), name=f"{self.column}: {field}", shape=time.shape)
-                object.__setattr__(self, field, values)
 
     @property
     def name(self) -> str:

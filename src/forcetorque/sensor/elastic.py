@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, require_last_axis
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, require_last_axis
 from forcetorque.base.errors import SensorError
 from forcetorque.base.pose import make_pose, rotation_about_z
 from forcetorque.base.wrench import wrench_matrix
@@ -243,7 +243,7 @@ class GaugePlace:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ElasticElement:
+class ElasticElement(ArrayRecord):
     """Like beams that leave a hub like spokes and end in a rim; the load acts on the hub, the rim is held.
 
     Assumptions: hub and rim are rigid, arms are clamped to both (so an end is guided where the hub moves
@@ -255,15 +255,15 @@ class ElasticElement:
     """Each arm; its x axis leads outwards, its z axis is that of the sensor."""
     hub_radius: float
     """Distance of the arms' inner ends from the axis; m."""
-    arm_angles: FloatArray
+    arm_angles: FloatArray = field(metadata=array("arms"))
     """Direction of each arm about z, from x; shape (arms,); rad."""
     places: tuple[GaugePlace, ...]
     """Where the gauges are; one channel each."""
 
     def __post_init__(self) -> None:
+        check_arrays(self)
         require_positive(self.hub_radius, name="ElasticElement: hub_radius", unit="m")
-        angles = read_only(self.arm_angles, name="arm_angles", shape=(None,))
-        object.__setattr__(self, "arm_angles", angles)
+        angles = self.arm_angles
         if not len(angles) or not np.isfinite(angles).all():
             raise SensorError(f"ElasticElement: expected the angle of at least one arm in rad, got {angles.tolist()}")
         for place in self.places:

@@ -3,13 +3,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_last_axis, require_shape
+from forcetorque.base.arrays import (
+    ArrayRecord,
+    BoolArray,
+    FloatArray,
+    array,
+    check_arrays,
+    require_last_axis,
+    require_shape,
+)
 from forcetorque.base.errors import SensorError, ShapeError
 from forcetorque.sensor.gauge import ResistiveGauge
 from forcetorque.sensor.require import require_positive
@@ -147,23 +155,18 @@ _SAME_GAIN = 1e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Amplifier:
+class Amplifier(ArrayRecord):
     """`output = amplifier_gain input + offset`, channel by channel; limits are those of what follows."""
 
-    amplifier_gain: FloatArray
+    amplifier_gain: FloatArray = field(metadata=array("c"))
     """Gain of each channel, above zero; shape (c,)."""
-    offset: FloatArray
+    offset: FloatArray = field(metadata=array("c"))
     """Output without input; shape (c,); V."""
     allowed_gains: tuple[float, ...] | None = None
     """Gains that the electronics can be set to; any if left out."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "amplifier_gain", read_only(self.amplifier_gain, name="amplifier_gain", shape=(None,)))
-        object.__setattr__(self, "offset", read_only(self.offset, name="offset", shape=(None,)))
-        if self.offset.shape != self.amplifier_gain.shape:
-            raise ShapeError(
-                f"Amplifier: expected one offset per gain, got {len(self.offset)} and {len(self.amplifier_gain)}"
-            )
+        check_arrays(self)
         if not (np.isfinite(self.offset).all() and np.isfinite(self.amplifier_gain).all()):
             raise SensorError("Amplifier: expected finite gains and offsets in V")
         for channel, gain in enumerate(self.amplifier_gain):
@@ -307,20 +310,13 @@ class Adc:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class HeldCounts:
+class HeldCounts(ArrayRecord):
     """The stream of a board that holds its last valid sample."""
 
-    counts: FloatArray
+    counts: FloatArray = field(metadata=array("n", "c"))
     """Streamed counts; shape (n, c); NaN before the first valid sample, as there is nothing to hold."""
-    saturated: BoolArray
+    saturated: BoolArray = field(metadata=array("n", dtype="bool"))
     """Status of each sample, true while any channel is saturated; shape (n,)."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "counts", read_only(self.counts, name="counts", shape=(None, None)))
-        status = np.array(self.saturated, dtype=np.bool_)
-        require_shape(status, name="saturated", shape=(len(self.counts),))
-        status.setflags(write=False)
-        object.__setattr__(self, "saturated", status)
 
 
 def hold_on_saturation(counts: Any, *, lowest: Any, highest: Any) -> HeldCounts:

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, require_shape
 from forcetorque.base.errors import SensorError
 from forcetorque.sensor.require import require_finite
 
@@ -135,25 +135,23 @@ def _checked(matrix: Any) -> FloatArray:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class RawLimits:
+class RawLimits(ArrayRecord):
     """Counts at which the channels of a sensor saturate, with the calibration that tells a load from counts."""
 
-    matrix: FloatArray
+    matrix: FloatArray = field(metadata=array(6, 6))
     """Calibration matrix, `wrench = matrix raw + offset`; shape (6, 6); N/count, N m/count."""
-    offset: FloatArray
+    offset: FloatArray = field(metadata=array(6))
     """Offset; shape (6,); N, N m."""
-    lowest: FloatArray
+    lowest: FloatArray = field(metadata=array(6))
     """Count at which each channel saturates; shape (6,)."""
-    highest: FloatArray
+    highest: FloatArray = field(metadata=array(6))
     """Count at which each channel saturates; shape (6,)."""
 
     def __post_init__(self) -> None:
-        # six channels: with another number a load does not tell the counts
-        for field, shape in (("matrix", (6, 6)), ("offset", (6,)), ("lowest", (6,)), ("highest", (6,))):
-            array = read_only(getattr(self, field), name=field, shape=shape)
-            object.__setattr__(self, field, array)
-            if not np.isfinite(array).all():
-                raise SensorError(f"RawLimits: {field}: expected finite numbers")
+        check_arrays(self)  # six channels: with another number a load does not determine the counts
+        for name in ("matrix", "offset", "lowest", "highest"):
+            if not np.isfinite(getattr(self, name)).all():
+                raise SensorError(f"RawLimits: {name}: expected finite numbers")
         if not (self.lowest < self.highest).all():
             raise SensorError(
                 f"RawLimits: expected lowest below highest, got {self.lowest.tolist()} and {self.highest.tolist()}"
@@ -177,26 +175,17 @@ class RawLimits:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ReachableFullScale:
+class ReachableFullScale(ArrayRecord):
     """Largest load along each axis with the other components zero, and the channel that limits it."""
 
-    positive: FloatArray
+    positive: FloatArray = field(metadata=array(6))
     """Largest component before a channel saturates; shape (6,); N, N m."""
-    negative: FloatArray
+    negative: FloatArray = field(metadata=array(6))
     """Lowest component, below zero; shape (6,); N, N m."""
-    positive_channel: IntArray
+    positive_channel: IntArray = field(metadata=array(6, dtype="int"))
     """Index of the channel that saturates first on the way up; shape (6,)."""
-    negative_channel: IntArray
+    negative_channel: IntArray = field(metadata=array(6, dtype="int"))
     """Index of the channel that saturates first on the way down; shape (6,)."""
-
-    def __post_init__(self) -> None:
-        for field in ("positive", "negative"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
-        for field in ("positive_channel", "negative_channel"):
-            index = np.array(getattr(self, field), dtype=np.int64)
-            require_shape(index, name=field, shape=(6,))
-            index.setflags(write=False)
-            object.__setattr__(self, field, index)
 
 
 def reachable_full_scale(limits: RawLimits) -> ReachableFullScale:
@@ -233,21 +222,17 @@ def reachable_full_scale(limits: RawLimits) -> ReachableFullScale:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Coverage:
+class Coverage(ArrayRecord):
     """How the loads of a motion lie within the limits of the channels."""
 
     count: int
     """Number of samples."""
     share: float
     """Part of the samples that saturate no channel."""
-    head_room_below: FloatArray
+    head_room_below: FloatArray = field(metadata=array(6))
     """Distance of each channel's lowest count from its lower limit; shape (6,); counts; negative if exceeded."""
-    head_room_above: FloatArray
+    head_room_above: FloatArray = field(metadata=array(6))
     """Distance of each channel's highest count from its upper limit; shape (6,); counts; negative if exceeded."""
-
-    def __post_init__(self) -> None:
-        for field in ("head_room_below", "head_room_above"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
 
 
 def coverage(limits: RawLimits, wrench: Any) -> Coverage:

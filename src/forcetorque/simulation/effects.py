@@ -3,28 +3,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, read_only, require_shape
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.pose import skew
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Crosstalk:
+class Crosstalk(ArrayRecord):
     """A quadratic form per channel in the wrench relative to a full scale."""
 
-    quadratic: FloatArray
+    quadratic: FloatArray = field(metadata=array(None, 6, 6))
     """Counts at full scale times full scale; shape (c, 6, 6)."""
-    full_scale: FloatArray
+    full_scale: FloatArray = field(metadata=array(6))
     """Wrench that counts as one; shape (6,); N, N m."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "quadratic", read_only(self.quadratic, name="quadratic", shape=(None, 6, 6)))
-        object.__setattr__(self, "full_scale", read_only(self.full_scale, name="full_scale", shape=(6,)))
 
     def counts(self, wrench: FloatArray) -> FloatArray:
         """Give what it adds.
@@ -87,21 +83,19 @@ _ACROSS = 0.3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ScrewPattern:
+class ScrewPattern(ArrayRecord):
     """Torques of the screws around the rim."""
 
-    angle_rad: FloatArray
+    angle_rad: FloatArray = field(metadata=array("k"))
     """Where the screws are, about the z axis from the x axis; shape (k,), k at least 3; rad."""
-    torque_Nm: FloatArray
+    torque_Nm: FloatArray = field(metadata=array("k"))
     """Torque of each; shape (k,); N m."""
     tight_Nm: float = 2.0
     """Torque that the screws are meant for; N m."""
 
     def __post_init__(self) -> None:
-        angle = read_only(self.angle_rad, name="angle_rad", shape=(None,))
-        object.__setattr__(self, "angle_rad", angle)
-        object.__setattr__(self, "torque_Nm", read_only(self.torque_Nm, name="torque_Nm", shape=angle.shape))
-        if len(angle) < 3 or not self.tight_Nm > 0.0 or (self.torque_Nm < 0.0).any():
+        check_arrays(self)
+        if len(self.angle_rad) < 3 or not self.tight_Nm > 0.0 or (self.torque_Nm < 0.0).any():
             raise ShapeError("screws: expected at least three, torques of at least zero and a positive tight_Nm")
 
     def unevenness(self, angle_rad: Any) -> FloatArray:
@@ -194,7 +188,7 @@ class Noise:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ThermalDrift:
+class ThermalDrift(ArrayRecord):
     """Change of every channel with the temperature of the sensor.
 
     Three parts add up: `slope (T - T0)`; a part proportional to the difference between gauges,
@@ -202,26 +196,21 @@ class ThermalDrift:
     given width, so that heating and cooling take different paths.
     """
 
-    slope: FloatArray
+    slope: FloatArray = field(metadata=array("c"))
     """Linear part; shape (c,); counts/degC."""
     reference_degC: float
     """Temperature without drift; degC."""
-    gradient_slope: FloatArray | None = None
+    gradient_slope: FloatArray | None = field(default=None, metadata=array("c"))
     """Part with the difference between gauges; shape (c,); counts/degC; None for none."""
     lag_s: float = 60.0
     """Time constant of the gauges that follow later; s."""
-    hysteresis_slope: FloatArray | None = None
+    hysteresis_slope: FloatArray | None = field(default=None, metadata=array("c"))
     """Part with the play; shape (c,); counts/degC; None for none."""
     play_degC: float = 2.0
     """Half the width of the play; degC."""
 
     def __post_init__(self) -> None:
-        slope = read_only(self.slope, name="slope", shape=(None,))
-        object.__setattr__(self, "slope", slope)
-        for field in ("gradient_slope", "hysteresis_slope"):
-            values = getattr(self, field)
-            if values is not None:
-                object.__setattr__(self, field, read_only(values, name=field, shape=slope.shape))
+        check_arrays(self)
         if not (self.lag_s > 0.0 and self.play_degC >= 0.0):
             raise ShapeError(
                 f"thermal drift: expected lag_s > 0 and play_degC >= 0, got {self.lag_s}, {self.play_degC}"

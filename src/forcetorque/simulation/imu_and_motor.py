@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays
 from forcetorque.base.errors import RobotError
 from forcetorque.recording.stream import Signal
 from forcetorque.robot.motion import RootMotion
@@ -20,14 +20,14 @@ def _none() -> FloatArray:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SimulatedImu:
+class SimulatedImu(ArrayRecord):
     """An IMU that reads along the axes of a link, at its origin."""
 
     link: str
     """The link."""
-    accelerometer_bias: FloatArray = field(default_factory=_none)
+    accelerometer_bias: FloatArray = field(default_factory=_none, metadata=array(3))
     """What it reads too much; shape (3,); m/s2."""
-    gyroscope_bias: FloatArray = field(default_factory=_none)
+    gyroscope_bias: FloatArray = field(default_factory=_none, metadata=array(3))
     """What it reads too much; shape (3,); rad/s."""
     accelerometer_noise: float = 0.0
     """Standard deviation of white noise; m/s2."""
@@ -35,8 +35,7 @@ class SimulatedImu:
     """Standard deviation of white noise; rad/s."""
 
     def __post_init__(self) -> None:
-        for name in ("accelerometer_bias", "gyroscope_bias"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(3,)))
+        check_arrays(self)
         for name in ("accelerometer_noise", "gyroscope_noise"):
             if not 0.0 <= getattr(self, name) < np.inf:
                 raise RobotError(f"IMU at {self.link!r}: {name}: expected at least 0, got {getattr(self, name):g}")

@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, read_only_mapping
+from forcetorque.base.arrays import ArrayRecord, FloatArray, mapping, read_only
 from forcetorque.base.errors import RobotError, known_names
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import make_pose, rotation_about_z, rotation_with_z_along, skew
@@ -17,21 +17,15 @@ from forcetorque.robot.model import Joint, JointType, RobotModel
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class RobotErrors:
+class RobotErrors(ArrayRecord):
     """Differences between a robot and its model, link by link and joint by joint."""
 
-    mass: Mapping[str, float]
+    mass: Mapping[str, float] = field(metadata=mapping())
     """Relative difference of every link's mass, and with it of its second moment about the centre of mass."""
-    centre_m: Mapping[str, FloatArray]
+    centre_m: Mapping[str, FloatArray] = field(metadata=mapping(3))
     """How far the centre of mass of every link is away from the model's, in the link's frame; shape (3,); m."""
-    joint_zero_rad: Mapping[str, float]
+    joint_zero_rad: Mapping[str, float] = field(metadata=mapping())
     """How far every rotary joint is turned where it reads zero; rad."""
-
-    def __post_init__(self) -> None:
-        centres = {link: read_only(shift, name=link, shape=(3,)) for link, shift in self.centre_m.items()}
-        object.__setattr__(self, "centre_m", read_only_mapping(centres))
-        for name in ("mass", "joint_zero_rad"):
-            object.__setattr__(self, name, read_only_mapping(getattr(self, name)))
 
     @classmethod
     def draw(

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, read_only, require_shape
 from forcetorque.base.errors import FormatError, RecordingError, SensorError
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import QUANTITIES, Signal
@@ -76,12 +76,12 @@ _ARM_ANGLES = np.deg2rad([0.0, 120.0, 240.0])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SimulatedSensor:
+class SimulatedSensor(ArrayRecord):
     """What turns a true wrench into counts: `matrix raw + offset = wrench`, then all that spoils it."""
 
-    matrix: FloatArray
+    matrix: FloatArray = field(metadata=array(6, 6))
     """True calibration matrix as mounted; shape (6, 6); N/count, N m/count."""
-    offset: FloatArray
+    offset: FloatArray = field(metadata=array(6))
     """True offset in wrench space, of one power-up; shape (6,); N, N m."""
     noise_counts: float
     """Standard deviation of white noise on every channel; counts."""
@@ -97,10 +97,6 @@ class SimulatedSensor:
     """Slow response."""
     crosstalk: Crosstalk | None = None
     """Response that no matrix describes."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", read_only(self.matrix, name="matrix", shape=(6, 6)))
-        object.__setattr__(self, "offset", read_only(self.offset, name="offset", shape=(6,)))
 
     def read(
         self,

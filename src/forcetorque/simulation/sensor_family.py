@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, read_only
 from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.pose import make_pose, rotation_about_z
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS, wrench_matrix
@@ -244,22 +244,19 @@ def mounted_with_error(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Specimen:
+class Specimen(ArrayRecord):
     """A sensor with its truth."""
 
     number: int
     """Its place among the sensors of the robot."""
     serial: str
     """Serial number."""
-    workbench: FloatArray
+    workbench: FloatArray = field(metadata=array(6, 6))
     """Matrix before mounting, as a perfect workbench finds it; shape (6, 6); N/count, N m/count."""
     sensor: SimulatedSensor
     """The sensor as mounted, without the offset of a power-up."""
     power_up_counts: float
     """Spread of the offset of a channel from one power-up to the next; counts."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "workbench", read_only(self.workbench, name="workbench", shape=(6, 6)))
 
     def powered_up(self, rng: np.random.Generator) -> SimulatedSensor:
         """Switch the board on: every channel gets another offset.

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only, read_only_mapping
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, mapping, read_only_mapping
 from forcetorque.base.errors import RobotError, known_names
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Recording
@@ -33,24 +33,19 @@ IMU_STREAM = "imu"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class LinkTrace:
+class LinkTrace(ArrayRecord):
     """The motion of a link at the instants at which an IMU on it is read."""
 
     link: str
     """The link."""
-    stamp_ns: IntArray
+    stamp_ns: IntArray = field(metadata=array("n", dtype="int"))
     """Stamps; shape (n,); ns."""
     motion: RootMotion
     """Its true motion, in its own axes; n samples."""
 
-    def __post_init__(self) -> None:
-        stamps = np.array(self.stamp_ns, dtype=np.int64)
-        stamps.setflags(write=False)
-        object.__setattr__(self, "stamp_ns", stamps)
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Trace:
+class Trace(ArrayRecord):
     """A movement as joints and perfect sensors see it, from which any number of real sensors can be read."""
 
     movement: Movement
@@ -63,7 +58,7 @@ class Trace:
     """Positions of the joints as their encoders read them."""
     stamp_ns: Mapping[str, IntArray]
     """Stamps of every sensor; shape (n,); ns."""
-    loads: Mapping[str, FloatArray]
+    loads: Mapping[str, FloatArray] = field(metadata=mapping(None, 6))
     """True wrenches at those stamps, each in the sensor's frame and direction; shape (n, 6); N, N m."""
     imu: LinkTrace | None = None
     """What an IMU goes through, if there is one."""
@@ -71,12 +66,11 @@ class Trace:
     """Whether joints and IMU are read with all their derivatives."""
 
     def __post_init__(self) -> None:
-        loads = {name: read_only(load, name=name, shape=(None, 6)) for name, load in self.loads.items()}
+        check_arrays(self)
         stamps = {name: np.array(own, dtype=np.int64) for name, own in self.stamp_ns.items()}
         for own in stamps.values():
             own.setflags(write=False)
         object.__setattr__(self, "stamp_ns", read_only_mapping(stamps))
-        object.__setattr__(self, "loads", read_only_mapping(loads))
 
     def recorded(
         self,

@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import RecordingError
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.locomotion.oscillation.spectrum import (
@@ -96,7 +96,7 @@ _STEP = 1e-4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Oscillation:
+class Oscillation(ArrayRecord):
     """A swing, over the whole record or in parts of it."""
 
     frequency_hz: float
@@ -106,7 +106,7 @@ class Oscillation:
     damping: float
     """Damping ratio, decay over angular frequency; 0 of a steady swing, below 0 of one that grows; NaN of one that does
     not keep its phase over the whole record."""
-    standard_error: FloatArray
+    standard_error: FloatArray = field(metadata=array(3))
     """Of frequency, amplitude and damping; shape (3,)."""
     degrees_of_freedom: int
     """Of Student's t of their intervals."""
@@ -114,12 +114,8 @@ class Oscillation:
     """Time over which it keeps its phase: that of the record, or of a part; s."""
     chance: float
     """Weighed p-value with which it was found."""
-    fitted: FloatArray
+    fitted: FloatArray = field(metadata=array(None))
     """What it is of the signal; shape (n,)."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "standard_error", read_only(self.standard_error, name="standard_error", shape=(3,)))
-        object.__setattr__(self, "fitted", read_only(self.fitted, name="fitted", shape=(None,)))
 
     @property
     def half_width(self) -> FloatArray:

@@ -19,14 +19,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, require_shape
 from forcetorque.base.errors import RecordingError
 from forcetorque.sensor.bandwidth.excited_records import even_record
 
@@ -38,14 +38,14 @@ LEAST_SAMPLES = 32
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class EvenedSignal:
+class EvenedSignal(ArrayRecord):
     """One signal at even instants."""
 
     start_s: float
     """Instant of the first sample; s."""
     rate_hz: float
     """Rate; Hz."""
-    values: FloatArray
+    values: FloatArray = field(metadata=array(None))
     """Samples; shape (n,)."""
     highest_hz: float
     """Frequency up to which it tells of vibrations: half of the rate, less where the clock is uneven; Hz."""
@@ -53,9 +53,6 @@ class EvenedSignal:
     """Longest time between samples that were taken; s."""
     even: bool
     """Whether the samples are those that were taken; if not, straight lines through these."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "values", read_only(self.values, name="values", shape=(None,)))
 
     @property
     def duration_s(self) -> float:

@@ -9,7 +9,15 @@ from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_last_axis
+from forcetorque.base.arrays import (
+    ArrayRecord,
+    BoolArray,
+    FloatArray,
+    array,
+    check_arrays,
+    read_only,
+    require_last_axis,
+)
 from forcetorque.base.errors import EstimationError, ShapeError
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import transform_wrench, wrench_matrix
@@ -21,19 +29,13 @@ from forcetorque.robot.tree import BodyTree
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PressureCentres:
+class PressureCentres(ArrayRecord):
     """Centres of pressure of n samples on the plane z = 0 of a frame; NaN where too little presses."""
 
-    points: FloatArray
+    points: FloatArray = field(metadata=array("n", 2))
     """Along x and y from the frame's origin; shape (n, 2); m."""
-    covariance: FloatArray | None = None
+    covariance: FloatArray | None = field(default=None, metadata=array("n", 2, 2))
     """Covariance of their errors; shape (n, 2, 2); m2; None where that of the wrench is not known."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "points", read_only(self.points, name="points", shape=(None, 2)))
-        if self.covariance is not None:
-            shape = (len(self.points), 2, 2)
-            object.__setattr__(self, "covariance", read_only(self.covariance, name="covariance", shape=shape))
 
     @property
     def known(self) -> BoolArray:
@@ -146,14 +148,14 @@ _FEWEST_CORNERS = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Sole:
+class Sole(ArrayRecord):
     """A flat sole: the plane z = 0 of its frame, z away from the ground."""
 
     frame: str
     """Link of the robot whose axes it has."""
-    position: FloatArray = field(default_factory=lambda: np.zeros(3))
+    position: FloatArray = field(default_factory=lambda: np.zeros(3), metadata=array(3))
     """Origin of the sole in that frame, a point of its plane; shape (3,); m."""
-    outline: FloatArray | None = None
+    outline: FloatArray | None = field(default=None, metadata=array(None, 2))
     """Corners of the sole along x and y from its origin; shape (k, 2); m; None where nobody knows how far it reaches.
     The ground presses, so the centre of pressure lies in the smallest convex shape around them."""
     edges: FloatArray = field(init=False)
@@ -161,12 +163,8 @@ class Sole:
     (e, 3); 1, 1, m."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "position", read_only(self.position, name=f"sole {self.frame!r}", shape=(3,)))
-        edges = np.empty((0, 3))
-        if self.outline is not None:
-            outline = read_only(self.outline, name=f"sole {self.frame!r}: outline", shape=(None, 2))
-            object.__setattr__(self, "outline", outline)
-            edges = _convex_edges(self.frame, outline)
+        check_arrays(self)
+        edges = np.empty((0, 3)) if self.outline is None else _convex_edges(self.frame, self.outline)
         object.__setattr__(self, "edges", read_only(edges, name="edges", shape=(None, 3)))
 
     @property
@@ -246,19 +244,13 @@ STAY_S: Final = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ComAcceleration:
+class ComAcceleration(ArrayRecord):
     """Acceleration of the centre of mass along the ground; NaN where the height does not stay in its band."""
 
-    acceleration: FloatArray
+    acceleration: FloatArray = field(metadata=array("n", 2))
     """Along x and y of the ground's frame; shape (n, 2); m/s2."""
-    half_width_95: FloatArray | None
+    half_width_95: FloatArray | None = field(metadata=array("n", 2))
     """Half of its 95 % interval; shape (n, 2); m/s2; None where the covariance of the wrench is not known."""
-
-    def __post_init__(self) -> None:
-        shape = (len(self.acceleration), 2)
-        object.__setattr__(self, "acceleration", read_only(self.acceleration, name="acceleration", shape=shape))
-        if self.half_width_95 is not None:
-            object.__setattr__(self, "half_width_95", read_only(self.half_width_95, name="half_width_95", shape=shape))
 
 
 def stays_in_band(height_m: FloatArray, time_s: FloatArray, *, band_m: float) -> BoolArray:

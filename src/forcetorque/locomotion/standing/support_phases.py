@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Final, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, names, require_shape
 from forcetorque.base.errors import EstimationError, ShapeError
 from forcetorque.recording.alignment import GAP_PERIODS
 
@@ -152,27 +152,19 @@ class SupportPhase:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SupportPhases:
+class SupportPhases(ArrayRecord):
     """Contacts of all feet at n instants, and the phases that they make."""
 
-    feet: tuple[str, ...]
+    feet: tuple[str, ...] = field(metadata=names("feet"))
     """The feet."""
-    time_s: FloatArray
+    time_s: FloatArray = field(metadata=array("n"))
     """Instants; shape (n,); s."""
-    down: BoolArray
+    down: BoolArray = field(metadata=array("n", "feet", dtype="bool"))
     """Whether each foot is down; shape (n, feet)."""
-    known: BoolArray
+    known: BoolArray = field(metadata=array("n", dtype="bool"))
     """Whether the forces of all feet are known; other samples belong to no phase; shape (n,)."""
     phases: tuple[SupportPhase, ...]
     """Phases in the order of time."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "time_s", read_only(self.time_s, name="time_s", shape=(None,)))
-        for name, shape in (("down", (len(self.time_s), len(self.feet))), ("known", (len(self.time_s),))):
-            array = np.array(getattr(self, name), dtype=np.bool_)
-            require_shape(array, name=name, shape=shape)
-            array.setflags(write=False)
-            object.__setattr__(self, name, array)
 
     @property
     def names(self) -> tuple[str, ...]:

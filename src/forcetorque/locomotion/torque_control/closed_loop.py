@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array
 from forcetorque.base.pose import cross
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.locomotion.torque_control.balancing import Balance, Reference
@@ -35,24 +35,17 @@ PRINTED: Final = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SensorErrors:
+class SensorErrors(ArrayRecord):
     """Errors of the four sensors of B copies of the robot."""
 
-    matrix: FloatArray
+    matrix: FloatArray = field(metadata=array("copies", len(SENSORS), 6, 6))
     """E of `reading = (1 + E) wrench + bias`; shape (B, 4, 6, 6)."""
-    bias: FloatArray
+    bias: FloatArray = field(metadata=array("copies", len(SENSORS), 6))
     """Constant offsets; shape (B, 4, 6); N, N m."""
-    noise: FloatArray
+    noise: FloatArray = field(metadata=array(6))
     """Standard deviation of white noise; shape (6,); N, N m."""
-    resolution: FloatArray
+    resolution: FloatArray = field(metadata=array(6))
     """Steps in which readings come, 0 for none; shape (6,); N, N m."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", read_only(self.matrix, name="matrix", shape=(None, len(SENSORS), 6, 6)))
-        shape = (len(self.matrix), len(SENSORS), 6)
-        object.__setattr__(self, "bias", read_only(self.bias, name="bias", shape=shape))
-        for field in ("noise", "resolution"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
 
     @classmethod
     def none(cls, copies: int) -> SensorErrors:

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, check_arrays, names, require_shape
 from forcetorque.base.errors import ControlError, ShapeError
 
 _NOT_NEGATIVE = ("proportional", "integral", "derivative", "coulomb")
@@ -18,30 +18,30 @@ _POSITIVE = ("duty_torque", "standstill", "limit")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TorqueGains:
+class TorqueGains(ArrayRecord):
     """Gains of the torque controllers of j joints, one number per joint (thesis figure 5.10 and Table 5.8).
 
     A duty cycle is a fraction here: 1 is the whole supply voltage one way, -1 the other. The thesis has percent in some
     rows of its table; a gain in percent per N m is 100 times the number that stands here.
     """
 
-    joints: tuple[str, ...]
+    joints: tuple[str, ...] = field(metadata=names("j"))
     """Names of the joints."""
-    duty_torque: FloatArray
+    duty_torque: FloatArray = field(metadata=array("j"))
     """K_PWM, torque of the standing joint at whole duty, 1 / K_tau; shape (j,); N m."""
-    proportional: FloatArray
+    proportional: FloatArray = field(metadata=array("j"))
     """K_p, duty cycle per N m of torque error; shape (j,); 1/(N m)."""
-    integral: FloatArray
+    integral: FloatArray = field(metadata=array("j"))
     """K_i, duty cycle per N m of error and second; shape (j,); 1/(N m s)."""
-    derivative: FloatArray
+    derivative: FloatArray = field(metadata=array("j"))
     """K_d, duty cycle per N m/s by which the error changes; shape (j,); s/(N m)."""
-    bemf: FloatArray
+    bemf: FloatArray = field(metadata=array("j"))
     """K_bemf, duty cycle per velocity that makes up for back-EMF and viscous friction; shape (j,); s/rad."""
-    coulomb: FloatArray
+    coulomb: FloatArray = field(metadata=array("j"))
     """Coulomb friction that is made up for; shape (j,); N m."""
-    standstill: FloatArray
+    standstill: FloatArray = field(metadata=array("j"))
     """Velocity below which that fades: `tau_f = coulomb tanh(velocity / standstill)`; shape (j,); rad/s."""
-    limit: FloatArray
+    limit: FloatArray = field(metadata=array("j"))
     """Largest magnitude of the duty cycle; shape (j,); at most 1."""
     derivative_time_s: float
     """Time constant of the low-pass of the derivative; 0 for none; s."""
@@ -49,16 +49,16 @@ class TorqueGains:
     """Time constant with which a change of calibration comes into effect; s."""
 
     def __post_init__(self) -> None:
+        check_arrays(self)
         if not self.joints or len(set(self.joints)) != len(self.joints):
             raise ControlError(f"joints: expected at least one name, each once, got {list(self.joints)}")
-        for field in (*_POSITIVE, *_NOT_NEGATIVE, "bemf"):
-            values = read_only(getattr(self, field), name=field, shape=(len(self.joints),))
-            object.__setattr__(self, field, values)
-            lowest = -np.inf if field == "bemf" else 0.0
-            wrong = ~np.isfinite(values) | (values < lowest) | ((values == 0.0) & (field in _POSITIVE))
+        for gain in (*_POSITIVE, *_NOT_NEGATIVE, "bemf"):
+            values = getattr(self, gain)
+            lowest = -np.inf if gain == "bemf" else 0.0
+            wrong = ~np.isfinite(values) | (values < lowest) | ((values == 0.0) & (gain in _POSITIVE))
             if wrong.any():
                 k = int(wrong.argmax())
-                raise ControlError(f"joint {self.joints[k]!r}: {field}: expected {_wanted(field)}, got {values[k]:g}")
+                raise ControlError(f"joint {self.joints[k]!r}: {gain}: expected {_wanted(gain)}, got {values[k]:g}")
         if (self.limit > 1.0).any():
             k = int(self.limit.argmax())
             raise ControlError(
@@ -119,20 +119,20 @@ class TorqueGains:
             "limit": limit,
         }
         rows = {}
-        for field, value in values.items():
+        for gain, value in values.items():
             try:
-                rows[field] = np.broadcast_to(np.asarray(value, dtype=np.float64), (len(joints),))
+                rows[gain] = np.broadcast_to(np.asarray(value, dtype=np.float64), (len(joints),))
             except ValueError:
                 raise ShapeError(
-                    f"{field}: expected one number or one for each of {len(joints)} joints, got shape {np.shape(value)}"
+                    f"{gain}: expected one number or one for each of {len(joints)} joints, got shape {np.shape(value)}"
                 ) from None
         return cls(joints=tuple(joints), derivative_time_s=derivative_time_s, blend_s=blend_s, **rows)
 
 
-def _wanted(field: str) -> str:
-    if field in _POSITIVE:
+def _wanted(gain: str) -> str:
+    if gain in _POSITIVE:
         return "a number above 0"
-    return "0 or more: the signs are those of the controller" if field in _NOT_NEGATIVE else "a finite number"
+    return "0 or more: the signs are those of the controller" if gain in _NOT_NEGATIVE else "a finite number"
 
 
 class TorqueController:

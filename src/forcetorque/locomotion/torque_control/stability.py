@@ -11,38 +11,32 @@ loop is stable if and only if all eigenvalues of what one estimate does to the n
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, require_shape
 from forcetorque.base.errors import ControlError
 from forcetorque.locomotion.torque_control.controller import TorqueGains
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class LinearPlant:
+class LinearPlant(ArrayRecord):
     """A linear plant with n states and j joints."""
 
-    a: FloatArray
+    a: FloatArray = field(metadata=array("n", "n"))
     """Rate of the states by states; shape (n, n); 1/s."""
-    b: FloatArray
+    b: FloatArray = field(metadata=array("n", "j"))
     """Rate of the states by duty cycles; shape (n, j)."""
-    c: FloatArray
+    c: FloatArray = field(metadata=array("j", "n"))
     """True joint torques by states; shape (j, n); N m."""
-    d: FloatArray
+    d: FloatArray = field(metadata=array("j", "j"))
     """True joint torques by duty cycles at once; shape (j, j); N m."""
-    velocity: FloatArray
+    velocity: FloatArray = field(metadata=array("j", "n"))
     """Joint velocities by states; shape (j, n); rad/s."""
-    demand: FloatArray
+    demand: FloatArray = field(metadata=array("j", "n"))
     """Desired torques by states, by whatever controls the posture; shape (j, n); N m."""
-
-    def __post_init__(self) -> None:
-        n, j = len(np.asarray(self.a)), len(np.asarray(self.d))
-        shapes = {"a": (n, n), "b": (n, j), "c": (j, n), "d": (j, j), "velocity": (j, n), "demand": (j, n)}
-        for field, shape in shapes.items():
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
 
     @property
     def joints(self) -> int:

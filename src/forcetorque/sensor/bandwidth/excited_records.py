@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, require_shape
 from forcetorque.base.errors import ExperimentError, RecordingError, known_names
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.raw_counts import chosen_intervals
@@ -36,18 +36,15 @@ _JUMP = 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class EvenRecord:
+class EvenRecord(ArrayRecord):
     """Signals at even instants."""
 
     start_s: float
     """Instant of the first sample; s."""
     rate_hz: float
     """Rate; Hz."""
-    signals: FloatArray
+    signals: FloatArray = field(metadata=array(None, None))
     """Shape (n, k)."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "signals", read_only(self.signals, name="signals", shape=(None, None)))
 
     def __len__(self) -> int:
         return len(self.signals)

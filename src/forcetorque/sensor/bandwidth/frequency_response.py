@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.base.noise.slow_noise import CONFIDENCE
 
@@ -30,33 +30,27 @@ _BINS = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class FrequencyResponse:
+class FrequencyResponse(ArrayRecord):
     """Response at m frequencies, `reading = response force`."""
 
-    frequency_hz: FloatArray
+    frequency_hz: FloatArray = field(metadata=array("m"))
     """Shape (m,); Hz."""
-    real: FloatArray
+    real: FloatArray = field(metadata=array("m"))
     """Real part of H1; shape (m,); unit of the reading by unit of the force."""
-    imaginary: FloatArray
+    imaginary: FloatArray = field(metadata=array("m"))
     """Imaginary part; shape (m,)."""
-    radius: FloatArray
+    radius: FloatArray = field(metadata=array("m"))
     """Radius of the circle about H1 that holds the response with 95 %; shape (m,)."""
-    coherence: FloatArray
+    coherence: FloatArray = field(metadata=array("m"))
     """Shape (m,)."""
     chance: float
     """Coherence that nothing but chance exceeds in 5 % of the frequencies."""
-    force_power: FloatArray
+    force_power: FloatArray = field(metadata=array("m"))
     """Power density of the force; shape (m,)."""
-    reading_power: FloatArray
+    reading_power: FloatArray = field(metadata=array("m"))
     """The same of the reading; shape (m,)."""
     averages: float
     """Independent averages."""
-
-    def __post_init__(self) -> None:
-        m = len(self.frequency_hz)
-        names = ("frequency_hz", "real", "imaginary", "radius", "coherence", "force_power", "reading_power")
-        for field in names:
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(m,)))
 
     @property
     def value(self) -> np.ndarray[tuple[int], np.dtype[np.complex128]]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FitError, RecordingError
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.sensor.bandwidth.excited_records import EvenRecord
@@ -145,7 +145,7 @@ _LAGS = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class RingDown:
+class RingDown(ArrayRecord):
     """Free decay behind one event."""
 
     start: int
@@ -154,7 +154,7 @@ class RingDown:
     """Natural frequency of the strongest mode; Hz."""
     damping: float
     """Damping ratio of that mode."""
-    error: FloatArray
+    error: FloatArray = field(metadata=array(2))
     """Standard errors of frequency and damping; shape (2,)."""
     modes: int
     """Modes that were told apart."""
@@ -162,14 +162,10 @@ class RingDown:
     """Level in the middle of the decay."""
     level_error: float
     """Its standard error."""
-    fitted: FloatArray
+    fitted: FloatArray = field(metadata=array(None))
     """What was fitted; shape (m,)."""
     left: float
     """Share of the variance of the decay that the fit leaves."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "error", read_only(self.error, name="error", shape=(2,)))
-        object.__setattr__(self, "fitted", read_only(self.fitted, name="fitted", shape=(None,)))
 
 
 def ring_downs(record: EvenRecord, events: tuple[Event, ...], *, name: str) -> list[RingDown | FitError]:

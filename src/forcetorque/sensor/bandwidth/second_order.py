@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.base.units import NORMAL_95
@@ -21,7 +21,7 @@ _LEAST_FREQUENCIES = 4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SecondOrder:
+class SecondOrder(ArrayRecord):
     """Natural frequency, damping and gain."""
 
     natural_frequency_hz: float
@@ -30,13 +30,10 @@ class SecondOrder:
     """Damping ratio."""
     gain: float
     """Reading by force at rest."""
-    covariance: FloatArray
+    covariance: FloatArray = field(metadata=array(3, 3))
     """Of the three, in this order; shape (3, 3); half of a 95 % interval is 1.96 deviations."""
     misfit: float | None = None
     """Mean square of what the fit leaves over the noise; None where no response was fitted."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "covariance", read_only(self.covariance, name="covariance", shape=(3, 3)))
 
     @property
     def half_width(self) -> FloatArray:
@@ -221,21 +218,20 @@ _ORDER = 2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class InverseFilter:
+class InverseFilter(ArrayRecord):
     """`corrected = filter(reading)`, sample by sample."""
 
     rate_hz: float
     """Rate for which it is made; Hz."""
     cut_off_hz: float
     """Cut-off; Hz."""
-    numerator: FloatArray
+    numerator: FloatArray = field(metadata=array(_ORDER + 1))
     """Coefficients b; shape (3,)."""
-    denominator: FloatArray
+    denominator: FloatArray = field(metadata=array(_ORDER + 1))
     """Coefficients a, the first 1; shape (3,)."""
 
     def __post_init__(self) -> None:
-        for field in ("numerator", "denominator"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(_ORDER + 1,)))
+        check_arrays(self)
         if not (np.abs(np.roots(self.denominator)) < 1.0).all():
             raise FitError(f"inverse filter: expected one that is stable, got the denominator {self.denominator}")
 

@@ -13,12 +13,12 @@ References:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, require_shape
 from forcetorque.base.errors import ForceTorqueError, ShapeError
 from forcetorque.recording.quality import saturation_findings
 from forcetorque.recording.stream import Stream
@@ -112,19 +112,15 @@ class GainAdvice:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class AxisResolution:
+class AxisResolution(ArrayRecord):
     """What one count is worth along each axis of the wrench."""
 
-    worst: FloatArray
+    worst: FloatArray = field(metadata=array(6))
     """Change of a component when every channel is off by one count with the worst signs, the sum of the
     magnitudes of its row of the matrix; shape (6,); N, N m."""
-    rms: FloatArray
+    rms: FloatArray = field(metadata=array(6))
     """Standard deviation of a component when the channels err independently with a standard deviation of one
     count each, the Euclidean norm of its row; shape (6,); N, N m."""
-
-    def __post_init__(self) -> None:
-        for name in ("worst", "rms"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(6,)))
 
 
 def channel_ranges(

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
 from pydantic import Field
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, names, require_shape
 from forcetorque.base.noise.means import means_over
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.additions import with_recording_notes
@@ -156,7 +156,7 @@ class Gains(Result):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SensorGains:
+class SensorGains(ArrayRecord):
     """The channels of a sensor against their limits, as a figure draws them."""
 
     sensor: str
@@ -167,17 +167,12 @@ class SensorGains:
     """Share of the limit to keep free."""
     limit_counts: float
     """Largest magnitude of a reading; counts."""
-    time_s: FloatArray
+    time_s: FloatArray = field(metadata=array("n"))
     """Instants from the earliest stamp over all streams; shape (n,); s."""
-    counts: FloatArray
+    counts: FloatArray = field(metadata=array("n", "c"))
     """Raw readings over all intervals that are not ignored; shape (n, c); counts."""
-    advice: tuple[GainAdvice, ...]
+    advice: tuple[GainAdvice, ...] = field(metadata=names("c"))
     """Which gain each channel should have."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "time_s", read_only(self.time_s, name="time_s", shape=(None,)))
-        shape = (len(self.time_s), len(self.advice))
-        object.__setattr__(self, "counts", read_only(self.counts, name="counts", shape=shape))
 
     @property
     def factors(self) -> FloatArray:

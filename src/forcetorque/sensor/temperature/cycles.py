@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, check_arrays, require_shape
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.means import WINDOW_S, means_over
 from forcetorque.base.noise.slow_noise import Timeline
@@ -103,20 +103,20 @@ _END = 5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Cycles:
+class Cycles(ArrayRecord):
     """Means of temperature and signals over windows, in one or several power-ups."""
 
     line: Timeline
     """When they were taken, in windows, by power-up."""
     window_s: float
     """Length of a window; s."""
-    temperature_degC: FloatArray
+    temperature_degC: FloatArray = field(metadata=array("m"))
     """Shape (m,); degC."""
-    signals: FloatArray
+    signals: FloatArray = field(metadata=array("m", None))
     """Shape (m, k)."""
-    heating: FloatArray
+    heating: FloatArray = field(metadata=array("m"))
     """1 while it is heated, -1 while it cools; shape (m,)."""
-    settled: BoolArray
+    settled: BoolArray = field(metadata=array("m", dtype="bool"))
     """Whether it is on one of the branches, not near a turn; shape (m,)."""
     cycles: float
     """Cycles of heating and cooling, of all power-ups together."""
@@ -124,9 +124,8 @@ class Cycles:
     """Instants, s, and temperatures, degC, of all means of every power-up, those near turns too."""
 
     def __post_init__(self) -> None:
-        m = len(self.line)
-        for field, shape in (("temperature_degC", (m,)), ("signals", (m, None)), ("heating", (m,))):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
+        check_arrays(self)
+        require_shape(self.temperature_degC, name="temperature_degC", shape=(len(self.line),))
 
     @property
     def time_s(self) -> FloatArray:

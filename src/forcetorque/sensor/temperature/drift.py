@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import half_width, regress
 from forcetorque.base.units import MAD_TO_DEVIATION
@@ -39,24 +39,24 @@ _NODES, _WEIGHTS = np.array([-1.0, 0.0, 1.0]) * np.sqrt(3.0), np.array([1.0, 4.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class DriftFit:
+class DriftFit(ArrayRecord):
     """Drift of k signals; half-widths are of 95 % intervals and infinite where nothing tells."""
 
     reference_degC: float
     """Temperature T0, the mean; degC."""
-    coefficient: FloatArray
+    coefficient: FloatArray = field(metadata=array("k"))
     """Change per degree; shape (k,)."""
-    coefficient_error: FloatArray
+    coefficient_error: FloatArray = field(metadata=array("k"))
     """Its standard error; shape (k,)."""
-    coefficient_half_width: FloatArray
+    coefficient_half_width: FloatArray = field(metadata=array("k"))
     """Shape (k,)."""
-    hysteresis: FloatArray | None
+    hysteresis: FloatArray | None = field(metadata=array("k"))
     """Heating minus cooling at the same temperature; shape (k,); None where only one of them was recorded."""
-    hysteresis_half_width: FloatArray | None
+    hysteresis_half_width: FloatArray | None = field(metadata=array("k"))
     """Shape (k,)."""
-    drift_per_hour: FloatArray | None
+    drift_per_hour: FloatArray | None = field(metadata=array("k"))
     """Change with time, mean of the power-ups; shape (k,); None where it cannot be told from temperature."""
-    drift_half_width: FloatArray | None
+    drift_half_width: FloatArray | None = field(metadata=array("k"))
     """Of the largest half-width of a power-up; shape (k,)."""
     time_share: float
     """Share of the variance of the temperature that offset and time explain."""
@@ -67,23 +67,10 @@ class DriftFit:
     heating and cooling are so even that a lag is hysteresis, and changes nothing else."""
     hysteresis_share: float
     """Share of heating against cooling that offset, time and temperature explain."""
-    residual: FloatArray
+    residual: FloatArray = field(metadata=array("m", "k"))
     """What is left of the means on the branches; shape (m, k)."""
-    at_temperature: FloatArray
+    at_temperature: FloatArray = field(metadata=array("m", "k"))
     """The same without offset and drift in time; shape (m, k)."""
-
-    def __post_init__(self) -> None:
-        k = len(self.coefficient)
-        for field in ("coefficient", "coefficient_error", "coefficient_half_width", "hysteresis"):
-            self._freeze(field, (k,))
-        for field in ("hysteresis_half_width", "drift_per_hour", "drift_half_width"):
-            self._freeze(field, (k,))
-        for field in ("residual", "at_temperature"):
-            self._freeze(field, (None, k))
-
-    def _freeze(self, field: str, shape: tuple[int | None, ...]) -> None:
-        if getattr(self, field) is not None:
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
 
     @property
     def told_from_time(self) -> bool:

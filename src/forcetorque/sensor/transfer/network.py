@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import FloatArray, array
 from forcetorque.base.errors import FitError, MissingExtraError, SensorError
 from forcetorque.sensor.transfer.transfer_function import TransferFunction, calibration_points
 
@@ -27,19 +27,17 @@ class Network(TransferFunction):
     Whether it is monotone is looked at in 2001 places, so a narrow turn between two of them is missed.
     """
 
-    weights: FloatArray
+    weights: FloatArray = field(metadata=array(None))
     """Weight of the stimulus in each neuron; shape (neurons,); one over the unit of the stimulus."""
-    biases: FloatArray
+    biases: FloatArray = field(metadata=array(None))
     """Bias of each neuron; shape (neurons,)."""
-    output_weights: FloatArray
+    output_weights: FloatArray = field(metadata=array(None))
     """Weight of each neuron in the output; shape (neurons,); unit of the output."""
     output_bias: float
     """Bias of the output; unit of the output."""
 
     def __post_init__(self) -> None:
         TransferFunction.__post_init__(self)
-        for field in ("weights", "biases", "output_weights"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(None,)))
         if not len(self.weights) == len(self.biases) == len(self.output_weights) > 0:
             raise SensorError(
                 "Network: expected as many weights, biases and output weights, at least one; "

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.polynomial import Polynomial as PowerSeries
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import FloatArray, array
 from forcetorque.base.errors import FitError, SensorError
 from forcetorque.sensor.transfer.transfer_function import TransferFunction, calibration_points, least_squares
 
@@ -22,15 +22,13 @@ class Polynomial(TransferFunction):
     The direct fit of the inverse, thesis (3.8), is a fit with stimulus and output swapped.
     """
 
-    coefficients: FloatArray
+    coefficients: FloatArray = field(metadata=array(None))
     """D_0 to D_n; shape (n + 1,); unit of the output per that of the stimulus to the power of the index."""
 
     def __post_init__(self) -> None:
         TransferFunction.__post_init__(self)
-        array = read_only(self.coefficients, name="coefficients", shape=(None,))
-        object.__setattr__(self, "coefficients", array)
-        if not len(array) or not np.isfinite(array).all():
-            raise SensorError(f"Polynomial: expected at least one finite coefficient, got {array.tolist()}")
+        if not len(self.coefficients) or not np.isfinite(self.coefficients).all():
+            raise SensorError(f"Polynomial: expected at least one finite coefficient, got {self.coefficients.tolist()}")
 
     def _output(self, stimulus: FloatArray) -> FloatArray:
         return np.asarray(PowerSeries(self.coefficients)(stimulus), dtype=np.float64)

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import FloatArray, array
 from forcetorque.base.errors import FitError, SensorError
 from forcetorque.sensor.transfer.transfer_function import TransferFunction, calibration_points, least_squares
 
@@ -61,15 +61,13 @@ def require_knots(knots: FloatArray, values: FloatArray, *, name: str, least: in
 class PiecewiseLinear(TransferFunction):
     """Straight lines between knots, thesis 3.1.4; beyond the outer knots the outer lines go on."""
 
-    knots: FloatArray
+    knots: FloatArray = field(metadata=array(None))
     """Stimuli at the ends of the sections, ascending; shape (k,)."""
-    values: FloatArray
+    values: FloatArray = field(metadata=array(None))
     """Outputs at the knots; shape (k,)."""
 
     def __post_init__(self) -> None:
         TransferFunction.__post_init__(self)
-        for field in ("knots", "values"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(None,)))
         require_knots(self.knots, self.values, name="PiecewiseLinear", least=2)
 
     def _output(self, stimulus: FloatArray) -> FloatArray:
@@ -129,15 +127,13 @@ _LEAST_KNOTS = 4
 class Spline(TransferFunction):
     """Cubics between knots, with equal slope and curvature where they meet (not-a-knot ends), thesis 3.1.5."""
 
-    knots: FloatArray
+    knots: FloatArray = field(metadata=array(None))
     """Stimuli where the cubics meet, ascending; shape (k,), k at least 4."""
-    values: FloatArray
+    values: FloatArray = field(metadata=array(None))
     """Outputs at the knots; shape (k,)."""
 
     def __post_init__(self) -> None:
         TransferFunction.__post_init__(self)
-        for field in ("knots", "values"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(None,)))
         require_knots(self.knots, self.values, name="Spline", least=_LEAST_KNOTS)
 
     def _curve(self) -> CubicSpline:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray, check_arrays
 from forcetorque.base.errors import FitError, SensorError, ShapeError
 
 _ROUNDING = 1e-9
@@ -34,6 +34,7 @@ class TransferFunction(ABC):
     """Greatest stimulus for which the function is valid."""
 
     def __post_init__(self) -> None:
+        check_arrays(self)
         if not -math.inf < self.lowest < self.highest < math.inf:
             raise SensorError(
                 f"{type(self).__name__}: expected a finite range with lowest below highest, "

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, read_only_mapping
+from forcetorque.base.arrays import ArrayRecord, FloatArray, check_arrays, mapping, read_only
 from forcetorque.base.errors import RobotError, ShapeError, known_names
 from forcetorque.base.pose import make_pose, skew
 from forcetorque.base.units import STANDARD_GRAVITY
@@ -84,7 +84,7 @@ def _limits(model: RobotModel, name: str) -> tuple[float, float]:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Stand:
+class Stand(ArrayRecord):
     """A robot on a pole or on a foot; the functions of this package make its movements."""
 
     model: RobotModel
@@ -97,9 +97,9 @@ class Stand:
     """Largest speed of any joint; its own limit holds where that is lower; rad/s or m/s."""
     margin: float = 0.05
     """Share of every joint's range that is left out at either end."""
-    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict, metadata=mapping())
     """Lowest and highest position of joints, instead of those from limits and margin; rad or m."""
-    posture: Mapping[str, float] = field(default_factory=dict)
+    posture: Mapping[str, float] = field(default_factory=dict, metadata=mapping())
     """Where joints rest; the others rest at zero, or as near to it as their range allows; rad or m."""
     gravity: float = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
@@ -111,8 +111,7 @@ class Stand:
     """Posture at rest; shape (j,); rad or m."""
 
     def __post_init__(self) -> None:
-        for name in ("ranges", "posture"):
-            object.__setattr__(self, name, read_only_mapping(getattr(self, name)))
+        check_arrays(self)
         object.__setattr__(self, "gravity_direction", _unit(self.gravity_direction))
         object.__setattr__(self, "tree", build_tree(self.model, self.support))
         object.__setattr__(self, "joints", free_joints(self.model))

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names
 from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.dynamics import body_pose, expected_wrenches
@@ -266,26 +266,19 @@ _HARMONICS = 4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SumOfSines:
+class SumOfSines(ArrayRecord):
     """A trajectory of joints that are sums of sines, each of its own."""
 
-    names: tuple[str, ...]
+    names: tuple[str, ...] = field(metadata=names("j"))
     """Joints."""
-    centre: FloatArray
+    centre: FloatArray = field(metadata=array("j"))
     """Middle of every joint's range; shape (j,); rad or m."""
-    amplitude: FloatArray
+    amplitude: FloatArray = field(metadata=array("j", _HARMONICS))
     """Amplitudes; shape (j, h); rad or m."""
-    omega: FloatArray
+    omega: FloatArray = field(metadata=array("j", _HARMONICS))
     """Angular frequencies; shape (j, h); rad/s."""
-    phase: FloatArray
+    phase: FloatArray = field(metadata=array("j", _HARMONICS))
     """Phases at 0 s; shape (j, h); rad."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "names", tuple(self.names))
-        joints = len(self.names)
-        object.__setattr__(self, "centre", read_only(self.centre, name="centre", shape=(joints,)))
-        for name in ("amplitude", "omega", "phase"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(joints, _HARMONICS)))
 
     @classmethod
     def draw(

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, names, require_shape
 from forcetorque.base.errors import RobotError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
@@ -53,18 +53,15 @@ class Phase:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Foothold:
+class Foothold(ArrayRecord):
     """A link that stands still in the world from some instant on."""
 
     tree: BodyTree
     """The robot rooted at this link."""
-    world_H_link: FloatArray
+    world_H_link: FloatArray = field(metadata=array(4, 4))
     """Where it stands; z of the world points up; shape (4, 4); m."""
     start_s: float
     """Since when; s."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "world_H_link", read_only(self.world_H_link, name="world_H_link", shape=(4, 4)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -156,7 +153,7 @@ class Touch(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Movement:
+class Movement(ArrayRecord):
     """What all free joints do over some seconds while the support stands still, or is carried as known."""
 
     name: str
@@ -167,13 +164,13 @@ class Movement:
     """The robot."""
     support: str
     """Link that stands still in the world, or is carried, and bears what the touches do not."""
-    world_H_support: FloatArray
+    world_H_support: FloatArray = field(metadata=array(4, 4))
     """Pose of the support in the world, whose z points up; at rest if it is carried; shape (4, 4); m."""
     duration_s: float
     """How long it takes; before and after, it is as its trajectory says; s."""
     trajectory: Callable[[FloatArray], JointMotion]
     """From instants (n,) in s to the motion of all joints that are free, with exact derivatives."""
-    external: tuple[Touch, ...] = ()
+    external: tuple[Touch, ...] = field(default=(), metadata=names())
     """Touches beside the support."""
     carriage: Carriage | Footing | None = None
     """How the support is carried; None if it stands still."""
@@ -185,11 +182,8 @@ class Movement:
     """The robot rooted at the support."""
 
     def __post_init__(self) -> None:
+        check_arrays(self)
         object.__setattr__(self, "kind", MovementKind(self.kind))
-        object.__setattr__(self, "external", tuple(self.external))
-        object.__setattr__(
-            self, "world_H_support", read_only(self.world_H_support, name="world_H_support", shape=(4, 4))
-        )
         object.__setattr__(self, "tree", build_tree(self.model, self.support))
         for touch in self.external:
             if touch.contact.type is not ContactType.KNOWN:

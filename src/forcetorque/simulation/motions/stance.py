@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, read_only
 from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.base.pose import invert_pose, make_pose, rotation_about_z
 from forcetorque.robot.dynamics import link_pose
@@ -135,7 +135,7 @@ _REPLACED = np.array([0.02, 0.015, 0.15])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Stance:
+class Stance(ArrayRecord):
     """A robot on both feet; the functions of this package make its movements.
 
     Its trunk is carried, and legs of six joints follow it to feet whose poses are known.
@@ -149,7 +149,7 @@ class Stance:
     """Link that both legs hang on; the last link that both feet hang on in the URDF if None."""
     crouch_m: float = 0.025
     """How much lower than with straight legs the trunk is at rest; m."""
-    placement: FloatArray = field(default_factory=lambda: np.zeros((2, 3)))
+    placement: FloatArray = field(default_factory=lambda: np.zeros((2, 3)), metadata=array(2, 3))
     """Where each foot stands away from where straight legs put it: forwards and sideways along the axes of the first
     foot, in m, and turned about the vertical, in rad; shape (2, 3)."""
     legs: Legs = field(init=False)
@@ -162,7 +162,7 @@ class Stance:
     """Poses of both feet on the ground; shape (2, 4, 4); m."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "placement", read_only(self.placement, name="placement", shape=(2, 3)))
+        check_arrays(self)
         legs = legs_of(self.stand, self.other, trunk=self.trunk)
         for foot, joints in zip((self.stand.support, self.other), (legs.support, legs.swing), strict=True):
             if len(joints) != _LEG_JOINTS:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, names, read_only, require_shape
 from forcetorque.base.errors import ShapeError
 from forcetorque.robot.motion import JointMotion
 
@@ -25,28 +25,24 @@ _PEAK_STEPS = 20
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Spline:
+class Spline(ArrayRecord):
     """A spline of fifth degree through values."""
 
-    names: tuple[str, ...]
+    names: tuple[str, ...] = field(metadata=names("j"))
     """What the columns are, such as joints."""
-    seconds: FloatArray
+    seconds: FloatArray = field(metadata=array("k"))
     """Instants of the values, ascending; shape (k,), at least 6; s."""
-    values: FloatArray
+    values: FloatArray = field(metadata=array("k", "j"))
     """Values that it goes through; shape (k, names)."""
     _curves: tuple[BSpline[Any], ...] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         from scipy.interpolate import make_interp_spline  # here because importing it takes longer than most commands
 
-        object.__setattr__(self, "names", tuple(self.names))
-        seconds = read_only(self.seconds, name="seconds", shape=(None,))
-        values = read_only(self.values, name="values", shape=(len(seconds), len(self.names)))
-        if len(seconds) <= _DEGREE:
-            raise ShapeError(f"spline: expected at least {_DEGREE + 1} instants, got {len(seconds)}")
-        curve = make_interp_spline(seconds, values, k=_DEGREE)
-        object.__setattr__(self, "seconds", seconds)
-        object.__setattr__(self, "values", values)
+        check_arrays(self)
+        if len(self.seconds) <= _DEGREE:
+            raise ShapeError(f"spline: expected at least {_DEGREE + 1} instants, got {len(self.seconds)}")
+        curve = make_interp_spline(self.seconds, self.values, k=_DEGREE)
         object.__setattr__(self, "_curves", (curve, curve.derivative(1), curve.derivative(2)))
 
     @classmethod
@@ -119,7 +115,7 @@ _PEAK = 1.875
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Waypoints:
+class Waypoints(ArrayRecord):
     """A trajectory through postures, at rest at each: `10 x^3 - 15 x^4 + 6 x^5` of the way in each move [1].
 
     Position, velocity and acceleration are continuous; before the first and after the last move it is at rest.
@@ -128,25 +124,23 @@ class Waypoints:
         [1] Flash, Hogan, The coordination of arm movements, 1985.
     """
 
-    names: tuple[str, ...]
+    names: tuple[str, ...] = field(metadata=names("j"))
     """Joints."""
-    postures: FloatArray
+    postures: FloatArray = field(metadata=array("k", "j"))
     """Postures in turn; shape (k, j); rad or m."""
-    departures_s: FloatArray
+    departures_s: FloatArray = field(metadata=array(None))
     """When each posture but the last is left; shape (k - 1,); s."""
-    durations_s: FloatArray
+    durations_s: FloatArray = field(metadata=array(None))
     """How long each move takes; shape (k - 1,); s."""
     duration_s: float
     """When all is over; s."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "names", tuple(self.names))
-        postures = read_only(self.postures, name="postures", shape=(None, len(self.names)))
-        object.__setattr__(self, "postures", postures)
-        if len(postures) == 0:
+        check_arrays(self)
+        if len(self.postures) == 0:
             raise ShapeError("postures: expected at least one, got none")
         for name in ("departures_s", "durations_s"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(len(postures) - 1,)))
+            require_shape(getattr(self, name), name=name, shape=(len(self.postures) - 1,))
 
     @classmethod
     def at_speed(cls, names: tuple[str, ...], postures: Any, speeds: Any, *, hold_s: float = 0.0) -> Waypoints:
