@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.device.description import Device, HungLoad, device_load
+from forcetorque.device.description import AttachedLoad, Device, device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.expected_wrench import answer_of
 from forcetorque.device.model import BASE, device_model, device_root
@@ -30,7 +30,7 @@ DEVICE = read_device().with_sensors(3)
 DEVICES = {"pitch first": DEVICE, "yaw first": DEVICE.changed(yaw_first=True)}
 
 
-def _motions(device: Device, load: HungLoad) -> dict[str, JointMotion]:
+def _motions(device: Device, load: AttachedLoad) -> dict[str, JointMotion]:
     """Poses at rest, instants of the 12 steps, and motions as fast as they come."""
     trajectory = DeviceTrajectory(device=device, load=load, sequence=twelve_steps(device))
     return {
@@ -83,8 +83,8 @@ def test_wrenches_and_torques_are_those_of_others(oracle, order: str, tmp_path: 
 
 def test_a_gram_is_noticed(tmp_path: Path) -> None:
     """Negative control: the oracle sees a load that is another by a gram."""
-    load = HungLoad.point(35.0, 0.115)
-    (tmp_path / "device.urdf").write_text(urdf_text(device_model(DEVICE, HungLoad.point(35.001, 0.115))))
+    load = AttachedLoad.point(35.0, 0.115)
+    (tmp_path / "device.urdf").write_text(urdf_text(device_model(DEVICE, AttachedLoad.point(35.001, 0.115))))
     motion = _motions(DEVICE, load)["static"]
     wrenches, _ = _idyntree(tmp_path / "device.urdf", DEVICE, motion)
     assert np.abs(wrenches - answer_of(DEVICE, load, motion).wrenches.values).max() > VISIBLE

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.device.description import HungLoad, device_load
+from forcetorque.device.description import AttachedLoad, device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.error_budget import DATA_SHEETS, THESIS_GRADES, ErrorBudget, Grade, Graded, drawn_errors, graded
 from forcetorque.device.expected_wrench import (
@@ -125,7 +125,7 @@ def test_drawing_notices_a_wrong_width() -> None:
 
 def test_table_6_3_of_a_bare_load_of_35_kg_is_that_by_hand() -> None:
     """Amplitudes are full widths: a mass of 35 kg times width over root 12; .340 is printed where it is .303."""
-    bare = HungLoad.point(35.0, 0.11495)
+    bare = AttachedLoad.point(35.0, 0.11495)
     part = ONE.sensor[0].male
     sensor = ONE.sensor[0].model_copy(update={"male": part.model_copy(update={"mass_kg": 0.0})})
     bracket = ONE.hinge.bracket.model_copy(update={"mass_kg": 0.0})

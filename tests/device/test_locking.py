@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from forcetorque.base.errors import RobotError, SensorError
-from forcetorque.device.description import HungLoad, device_load
+from forcetorque.device.description import AttachedLoad, device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.mechanical_demands import hinge_ways, lag_rad, pendulum_Nm
 from forcetorque.device.motion import DeviceTrajectory, Sequence, twelve_steps
@@ -86,7 +86,7 @@ def test_friction_keeps_light_loads_farther_from_the_lock() -> None:
         lag_rad(DEVICE, loads[0], 2.0)
 
 
-def _swung_deg(load: HungLoad, friction_Nm: float) -> tuple[np.ndarray, np.ndarray]:
+def _swung_deg(load: AttachedLoad, friction_Nm: float) -> tuple[np.ndarray, np.ndarray]:
     """Angle from hanging straight, and the position of the hinge, in step 11: a pendulum on a moving pivot, by hand."""
     trajectory = DeviceTrajectory(device=DEVICE, load=load, sequence=twelve_steps(DEVICE))
     way = trajectory.sequence.unlocked.index(True)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RobotError, ShapeError
-from forcetorque.device.description import Device, HungLoad, Turn, device_load
+from forcetorque.device.description import AttachedLoad, Device, Turn, device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.model import hanging
 from forcetorque.device.motion import DeviceTrajectory, Sequence, YawReturn, twelve_steps
@@ -154,7 +154,7 @@ def test_a_load_beyond_the_stops_is_refused() -> None:
 def test_a_load_aside_hangs_aside() -> None:
     """A centre of mass that is off the middle hangs below the hinge."""
     inertia = LOAD.inertia.expressed_in(np.array([[1, 0, 0, 0.1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]))
-    aside = HungLoad(name="aside", inertia=inertia)
+    aside = AttachedLoad(name="aside", inertia=inertia)
     at = hanging(DEVICE, aside, JointMotion.at_rest(("pitch", "yaw"), np.deg2rad([[-60.0, 0.0]])))
     expected = 30.0 - np.rad2deg(np.arctan2(0.1, LOAD.centre_of_mass_m[2]))
     assert np.rad2deg(at.position[0, 0]) == pytest.approx(expected)

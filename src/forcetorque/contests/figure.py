@@ -13,8 +13,7 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.contests.ranking import ContestLoadRow
 from forcetorque.results.figures import (
     ROW_INCHES,
-    SMALL_POINTS,
-    TITLE_POINTS,
+    in_figure_style,
     legend_below,
     look,
     new_figure,
@@ -30,6 +29,7 @@ _BESIDE = 0.012
 """By how much marks of neighbouring contestants lie apart, over the width of a panel."""
 
 
+@in_figure_style
 def contest_figure(rows: Sequence[ContestLoadRow]) -> Figure:
     """Draw root mean square errors over the loads that judged, with 95 % intervals.
 
@@ -53,11 +53,10 @@ def contest_figure(rows: Sequence[ContestLoadRow]) -> Figure:
         for k, name in enumerate(names):
             own = [row for row in rows if row.contestant == name]
             _draw(panel, own, j, k, shift=_BESIDE * width * (k - 0.5 * (len(names) - 1)))
-        panel.set_ylabel(f"{WRENCH_COMPONENTS[j]} error, {WRENCH_UNITS[j]}", fontsize=TITLE_POINTS)
+        panel.set_ylabel(f"{WRENCH_COMPONENTS[j]} error, {WRENCH_UNITS[j]}")
         panel.set_yscale("log")
-        panel.tick_params(labelsize=SMALL_POINTS)
     for panel in panels[1]:
-        panel.set_xlabel("load, kg", fontsize=TITLE_POINTS)
+        panel.set_xlabel("load, kg")
     legend_below(
         figure,
         [(shown_name(name), look(k).key) for k, name in enumerate(names)],

@@ -228,7 +228,7 @@ def _require_order(bounds: tuple[float, ...], field: str) -> None:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class HungLoad:
+class AttachedLoad:
     """A load on the hinge, carrier included."""
 
     name: str
@@ -237,7 +237,7 @@ class HungLoad:
     """In and about the frame of the carrier: at the hinge, y along its axis, z towards the load."""
 
     @classmethod
-    def point(cls, mass_kg: float, distance_m: float) -> HungLoad:
+    def point(cls, mass_kg: float, distance_m: float) -> AttachedLoad:
         """Put all mass in one place straight in front of the hinge.
 
         Args:
@@ -270,7 +270,7 @@ class HungLoad:
         return self.inertia.first_moment / self.inertia.mass
 
 
-def device_load(device: Device, load_kg: float) -> HungLoad:
+def device_load(device: Device, load_kg: float) -> AttachedLoad:
     """Put weights on the carrier.
 
     Args:
@@ -291,8 +291,8 @@ def device_load(device: Device, load_kg: float) -> HungLoad:
         )
     carrier = part_inertia(device.carrier)
     if round(steps) == 0:
-        return HungLoad(name="empty carrier", inertia=carrier)
-    return HungLoad(
+        return AttachedLoad(name="empty carrier", inertia=carrier)
+    return AttachedLoad(
         name=f"{load_kg:g} kg", inertia=carrier + _plates(device.weights, load_kg, load_kg - device.carrier.mass_kg)
     )
 

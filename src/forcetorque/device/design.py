@@ -12,9 +12,9 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.device.demands import DeviceDemands, device_demands
-from forcetorque.device.description import Device, HungLoad, device_load
+from forcetorque.device.description import AttachedLoad, Device, device_load
 from forcetorque.device.device_file import DeviceFile
-from forcetorque.device.expected_wrench import DeviceAnswer, answer_of
+from forcetorque.device.expected_wrench import DeviceResponse, answer_of
 from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.span import DeviceSpan, device_span
 from forcetorque.results.result import Result
@@ -66,7 +66,7 @@ class DeviceRecordingRow(Row):
     experiment: Annotated[str, Shown("experiment", file=True)]
     """Its experiment file."""
     load: Annotated[str, Shown("load")]
-    """What hangs on the device."""
+    """Load attached to the device."""
     use: Annotated[str, Shown("use")]
     """What it is for."""
     seconds: Annotated[float, Shown("time", "s", digits=0)]
@@ -77,12 +77,12 @@ class DeviceRecordingRow(Row):
     """How many of them are saturated."""
 
 
-def load_row(device: Device, load: HungLoad, answer: DeviceAnswer) -> DeviceLoadRow:
+def load_row(device: Device, load: AttachedLoad, answer: DeviceResponse) -> DeviceLoadRow:
     """Sum up what a load does.
 
     Args:
         device: The device.
-        load: What hangs on it.
+        load: Attached load.
         answer: What sensors read and motors hold in the motion.
 
     Returns:
@@ -141,7 +141,7 @@ class DevicePicture:
     """Instants; shape (n,); s."""
     motion: JointMotion
     """Motion of the joints at them."""
-    answer: DeviceAnswer
+    answer: DeviceResponse
     """What sensors read and motors hold with the heaviest load."""
     clouds: dict[str, FloatArray]
     """Wrenches of the innermost sensor by the names of the motions; shapes (n, 6); N, N m."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.device.description import Device, HungLoad, Turn, device_load
+from forcetorque.device.description import AttachedLoad, Device, Turn, device_load
 from forcetorque.device.motion import DeviceTrajectory, Sequence, twelve_steps
 from forcetorque.device.tolerances import Poses, Tolerances
 from forcetorque.workbench.bench import Placement
@@ -69,8 +69,8 @@ class Run:
 
     device: Device
     """The device."""
-    load: HungLoad
-    """What hangs on its hinge."""
+    load: AttachedLoad
+    """Load attached to its hinge."""
     sequence: Sequence
     """The motion."""
     hold_s: float = 1.0
@@ -114,7 +114,7 @@ class Remedy:
     name: str
     """Name."""
     words: str
-    """What is done, in words."""
+    """What is done, as text."""
     runs: tuple[Run, ...]
     """Motions, one for each load."""
 
@@ -164,11 +164,11 @@ def remedies(device: Device, load_kg: float) -> dict[str, Remedy]:
     """
     load = device_load(device, load_kg)
     alone = Run(device=device, load=load, sequence=twelve_steps(device))
-    nearer = HungLoad.point(SECOND_KG, float(load.centre_of_mass_m[2]) - NEARER_M)
+    nearer = AttachedLoad.point(SECOND_KG, float(load.centre_of_mass_m[2]) - NEARER_M)
     locked, turned = device.with_locks(-90.0, 0.0, 90.0), device.changed(turn=Turn())
     swinging = device.changed(hinge=device.hinge.model_copy(update={"encoder": True}))
 
-    def as_built(name: str, words: str, other: HungLoad) -> Remedy:
+    def as_built(name: str, words: str, other: AttachedLoad) -> Remedy:
         return Remedy(name=name, words=words, runs=(alone, Run(device=device, load=other, sequence=alone.sequence)))
 
     def changed(name: str, words: str, other: Device, sequence: Sequence) -> Remedy:

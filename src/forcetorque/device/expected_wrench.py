@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SensorError, known_names
 from forcetorque.base.pose import split_pose
-from forcetorque.device.description import Device, HungLoad
+from forcetorque.device.description import AttachedLoad, Device
 from forcetorque.device.model import BASE, device_model, device_root
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.dynamics import expected_wrenches, link_pose
@@ -24,7 +24,7 @@ from forcetorque.robot.tree import BodyTree, build_tree
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class DeviceAnswer:
+class DeviceResponse:
     """Wrenches and torques of n samples."""
 
     wrenches: Wrenches
@@ -46,12 +46,12 @@ class DeviceAnswer:
         return self.torques[:, self.joints.index(joint)]
 
 
-def answer_of(device: Device, load: HungLoad, motion: JointMotion) -> DeviceAnswer:
+def answer_of(device: Device, load: AttachedLoad, motion: JointMotion) -> DeviceResponse:
     """Compute what a motion does to sensors and motors.
 
     Args:
         device: The device.
-        load: What hangs on its hinge.
+        load: Load attached to its hinge.
         motion: Motion of all its joints, at rest or not.
 
     Returns:
@@ -64,7 +64,7 @@ def answer_of(device: Device, load: HungLoad, motion: JointMotion) -> DeviceAnsw
         equations=(),
     )
     answer = estimate(question, motion, device_root(device))
-    return DeviceAnswer(
+    return DeviceResponse(
         wrenches=Wrenches(names=device.sensor_names, values=answer.expected),
         joints=device.joint_names,
         torques=answer.torques,
@@ -97,8 +97,8 @@ class Reference:
 
     device: Device
     """The device."""
-    load: HungLoad
-    """What hangs on its hinge."""
+    load: AttachedLoad
+    """Load attached to its hinge."""
     poses: JointMotion
     """Poses of all its joints, at rest; n of them."""
     sensor: str

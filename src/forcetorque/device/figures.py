@@ -22,10 +22,9 @@ from forcetorque.device.span import DirectionRow
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,
-    SMALL_POINTS,
-    TITLE_POINTS,
     draw_over_time,
     drawable_each,
+    in_figure_style,
     instants,
     legend_below,
     look,
@@ -41,6 +40,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+@in_figure_style
 def device_figure(time_s: FloatArray, motion: JointMotion, torques: Mapping[str, FloatArray]) -> Figure:
     """Draw positions of joints, and torques on their axes, over time [1].
 
@@ -69,9 +69,8 @@ def device_figure(time_s: FloatArray, motion: JointMotion, torques: Mapping[str,
         for number, values in enumerate(drawable_lines.values()):
             at, drawn = thinned_line(time, values[:, None])
             draw_over_time(panel, at, drawn[:, 0], look(number), turn=number, count=len(drawable_lines))
-        panel.set_ylabel(label, fontsize=TITLE_POINTS)
-        panel.tick_params(labelsize=SMALL_POINTS)
-    panels[-1].set_xlabel("time, s", fontsize=TITLE_POINTS)
+        panel.set_ylabel(label)
+    panels[-1].set_xlabel("time, s")
     figure.align_ylabels()
     keys = [(shown_name(name), look(number).key | {"linestyle": "-"}) for number, name in enumerate(positions)]
     legend_below(figure, keys)
@@ -81,6 +80,7 @@ def device_figure(time_s: FloatArray, motion: JointMotion, torques: Mapping[str,
 _AXES = "xyz"
 
 
+@in_figure_style
 def envelope_figure(silhouettes: Sequence[Silhouette]) -> Figure:
     """Draw what is swept in each view, and the rectangle around it [1].
 
@@ -114,16 +114,16 @@ def _draw_envelope(panel: Axes, silhouette: Silhouette) -> None:
     corners = np.array([low, [high[0], low[1]], high, [low[0], high[1]], low])
     panel.plot(*corners.T, color=REFERENCE_COLOUR, linestyle="--", linewidth=1.0)
     panel.set_aspect("equal", adjustable="datalim")
-    panel.set_title(f"from {silhouette.view}, {silhouette.rectangle_m2:.2f} m2", fontsize=TITLE_POINTS)
+    panel.set_title(f"from {silhouette.view}, {silhouette.rectangle_m2:.2f} m2")
     first, second = VIEWS[silhouette.view]
-    panel.set_xlabel(f"{_AXES[first]}, m", fontsize=TITLE_POINTS)
-    panel.set_ylabel(f"{_AXES[second]}, m", fontsize=TITLE_POINTS)
-    panel.tick_params(labelsize=SMALL_POINTS)
+    panel.set_xlabel(f"{_AXES[first]}, m")
+    panel.set_ylabel(f"{_AXES[second]}, m")
 
 
 _SIZES = ("root mean square", "largest, one off alone", "largest component, all off", "largest norm, all off")
 
 
+@in_figure_style
 def reference_error_figure(grades: Sequence[GradeRow]) -> Figure:
     """Draw root mean squares and largest errors of forces and moments against what requirement 6 allows.
 
@@ -143,7 +143,6 @@ def reference_error_figure(grades: Sequence[GradeRow]) -> Figure:
     below.set_xticks(
         range(len(ordered)),
         [f"{row.gravity_by}\n±{row.plus_minus:g} {row.unit}" for row in ordered],
-        fontsize=SMALL_POINTS,
     )
     legend_below(
         figure,
@@ -169,10 +168,10 @@ def _draw_errors(panel: Axes, errors: FloatArray, limit: float, label: str) -> N
     panel.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     panel.yaxis.set_major_formatter("{x:g}")
     panel.yaxis.set_minor_locator(NullLocator())
-    panel.set_ylabel(label, fontsize=TITLE_POINTS)
-    panel.tick_params(labelsize=SMALL_POINTS)
+    panel.set_ylabel(label)
 
 
+@in_figure_style
 def remedies_figure(rows: Sequence[DirectionRow]) -> Figure:
     """Draw predicted errors by the axis that is loaded; what is not known at all is left out.
 
@@ -201,10 +200,9 @@ def remedies_figure(rows: Sequence[DirectionRow]) -> Figure:
             style = look(number)
             panel.plot(at[known], values[known], linestyle="none", marker=style.marker, color=style.colour)
         panel.set_yscale("log")
-        panel.set_ylabel(f"error of {error}", fontsize=TITLE_POINTS)
-        panel.tick_params(labelsize=SMALL_POINTS)
+        panel.set_ylabel(f"error of {error}")
     panels[-1].set_xticks(range(6), WRENCH_COMPONENTS)
-    panels[-1].set_xlabel("axis that is loaded, by 100 N or 5 N m", fontsize=TITLE_POINTS)
+    panels[-1].set_xlabel("axis that is loaded, by 100 N or 5 N m")
     figure.align_ylabels()
     legend_below(figure, [(shown_name(name), look(k).key | {"linestyle": "none"}) for k, name in enumerate(names)])
     return figure

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, read_only
 from forcetorque.base.errors import SensorError
-from forcetorque.device.description import Device, HungLoad
+from forcetorque.device.description import AttachedLoad, Device
 from forcetorque.device.expected_wrench import answer_of
 from forcetorque.device.model import BASE, device_model
 from forcetorque.device.motion import Sequence, with_free_hinge
@@ -57,12 +57,12 @@ class Silhouette:
         return float(0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
 
 
-def envelope(device: Device, load: HungLoad, poses: JointMotion) -> tuple[Silhouette, ...]:
+def envelope(device: Device, load: AttachedLoad, poses: JointMotion) -> tuple[Silhouette, ...]:
     """Sweep all bodies through a motion: the arm within `ARM_RADIUS_M` of its axis, and the plates as a cylinder.
 
     Args:
         device: The device.
-        load: What hangs on its hinge; plates are drawn for its mass.
+        load: Load attached to its hinge; plates are drawn for its mass.
         poses: Poses through which it moves, close to each other; n of them.
 
     Returns:
@@ -85,7 +85,7 @@ def envelope(device: Device, load: HungLoad, poses: JointMotion) -> tuple[Silhou
     return tuple(silhouettes)
 
 
-def _plate_rims(device: Device, load: HungLoad) -> FloatArray:
+def _plate_rims(device: Device, load: AttachedLoad) -> FloatArray:
     """Both rims of the plates that make up a load, in the frame of the carrier; shape (k, 3); m."""
     weights = device.weights
     top = weights.foot_m + weights.height_m * np.ceil(load.mass_kg / weights.step_kg)
@@ -193,7 +193,7 @@ _SPACING_RAD = np.deg2rad(2.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class HingeWay:
+class HingePath:
     """What gravity does about the hinge on one way of a sequence, with the hinge kept where the way begins."""
 
     step: int
@@ -222,12 +222,12 @@ class HingeWay:
         return bool((self.moment * np.sign(self.end_rad - self.lock_rad) >= -slack).all())
 
 
-def hinge_ways(device: Device, load: HungLoad, sequence: Sequence) -> tuple[HingeWay, ...]:
+def hinge_ways(device: Device, load: AttachedLoad, sequence: Sequence) -> tuple[HingePath, ...]:
     """Find the moments of gravity about the hinge.
 
     Args:
         device: The device.
-        load: What hangs on its hinge.
+        load: Load attached to its hinge.
         sequence: What it does; refused where the load does not come to hang at the lock that a way ends at.
 
     Returns:
@@ -246,7 +246,7 @@ def hinge_ways(device: Device, load: HungLoad, sequence: Sequence) -> tuple[Hing
         at_end = JointMotion.at_rest(sequence.joints, sequence.postures[k + 1 : k + 2])
         ends[k] = with_free_hinge(device, load, at_end).position[0, -1]
     return tuple(
-        HingeWay(
+        HingePath(
             step=sequence.steps[k + 1],
             unlocked=unlocked,
             lock_rad=float(sequence.postures[k, -1]),
@@ -265,7 +265,7 @@ def _kept_at_start(start: FloatArray, end: FloatArray) -> FloatArray:
     return np.asarray(postures, dtype=np.float64)
 
 
-def lag_rad(device: Device, load: HungLoad, friction_Nm: float) -> float:
+def lag_rad(device: Device, load: AttachedLoad, friction_Nm: float) -> float:
     """Tell by how much a load comes to rest short of hanging straight down, the axis of the hinge level.
 
     The last of the way is the weakest: gravity brings the load to a lock below it with a moment that goes to zero. So
@@ -273,7 +273,7 @@ def lag_rad(device: Device, load: HungLoad, friction_Nm: float) -> float:
 
     Args:
         device: The device.
-        load: What hangs on its hinge.
+        load: Load attached to its hinge.
         friction_Nm: Friction of the hinge; N m.
 
     Returns:
@@ -291,12 +291,12 @@ def lag_rad(device: Device, load: HungLoad, friction_Nm: float) -> float:
     return float(np.arcsin(friction_Nm / straight))
 
 
-def pendulum_Nm(device: Device, load: HungLoad) -> float:
+def pendulum_Nm(device: Device, load: AttachedLoad) -> float:
     """Give the largest moment of gravity about a level hinge.
 
     Args:
         device: The device.
-        load: What hangs on its hinge.
+        load: Load attached to its hinge.
 
     Returns:
         Weight times distance of the centre of mass from the axis of the hinge; N m.

@@ -10,7 +10,7 @@ from forcetorque.base.errors import RobotError
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import cross, make_pose, rotation_from_rpy
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.device.description import Axis, Device, HungLoad, part_inertia
+from forcetorque.device.description import AttachedLoad, Axis, Device, part_inertia
 from forcetorque.robot.dynamics import motion_of_link
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
@@ -25,7 +25,7 @@ _ALONG = np.array([0.0, 0.0, 1.0])
 _BENDING = np.array([0.0, 1.0, 0.0])
 
 
-def device_model(device: Device, load: HungLoad) -> RobotModel:
+def device_model(device: Device, load: AttachedLoad) -> RobotModel:
     """Describe a device with a load as a robot.
 
     Its joints are `joint_names` of the device; every sensor `s` sits at the fixed joint `s_joint`, reads in the frame
@@ -33,7 +33,7 @@ def device_model(device: Device, load: HungLoad) -> RobotModel:
 
     Args:
         device: The device.
-        load: What hangs on the hinge.
+        load: Load attached to the hinge.
 
     Returns:
         The robot, rooted at `base`.
@@ -142,12 +142,12 @@ _SLACK_RAD = 1e-9
 """How far a position computed to be at a stop may be beyond it; rad."""
 
 
-def hanging(device: Device, load: HungLoad, motion: JointMotion) -> JointMotion:
+def hanging(device: Device, load: AttachedLoad, motion: JointMotion) -> JointMotion:
     """Let the load hang from an unlocked hinge.
 
     Args:
         device: The device.
-        load: What hangs on the hinge.
+        load: Load attached to the hinge.
         motion: Motion of the other joints; that of the hinge in it, if any, is passed over.
 
     Returns:
@@ -184,7 +184,7 @@ def hanging(device: Device, load: HungLoad, motion: JointMotion) -> JointMotion:
 
 
 def _gravity_in_bracket(
-    device: Device, load: HungLoad, motion: JointMotion
+    device: Device, load: AttachedLoad, motion: JointMotion
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Direction of gravity in the axes of the bracket, and its first two derivatives; shapes (n, 3)."""
     tree, root = build_tree(device_model(device, load), BASE), device_root(device)

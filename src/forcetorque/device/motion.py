@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray, read_only
 from forcetorque.base.errors import RobotError, ShapeError
-from forcetorque.device.description import Device, HungLoad
+from forcetorque.device.description import AttachedLoad, Device
 from forcetorque.device.model import hanging
 from forcetorque.robot.motion import JointMotion
 from forcetorque.simulation.motions.trajectories import Waypoints
@@ -69,12 +69,12 @@ class Sequence:
             unlocked=(False,) * (len(postures) - 1) if unlocked is None else unlocked,
         )
 
-    def still_poses(self, device: Device, load: HungLoad, *, spacing_deg: float = 30.0) -> JointMotion:
+    def still_poses(self, device: Device, load: AttachedLoad, *, spacing_deg: float = 30.0) -> JointMotion:
         """Rest at every posture and on the ways between them.
 
         Args:
             device: The device.
-            load: What hangs on its hinge, which says where it hangs.
+            load: Load attached to its hinge, with its position.
             spacing_deg: How far any joint goes at most from one pose to the next; deg.
 
         Returns:
@@ -93,12 +93,12 @@ class Sequence:
             poses.append(with_free_hinge(device, load, way).position if free and count else way.position)
         return JointMotion.at_rest(self.joints, np.concatenate(poses))
 
-    def require_possible(self, device: Device, load: HungLoad) -> None:
+    def require_possible(self, device: Device, load: AttachedLoad) -> None:
         """Refuse what the device cannot do.
 
         Args:
             device: The device.
-            load: What hangs on its hinge.
+            load: Load attached to its hinge.
 
         Raises:
             RobotError: If a posture is outside of a range, the hinge rests or is moved where it has no lock, it is
@@ -120,7 +120,7 @@ class Sequence:
         for way, free in enumerate(self.unlocked):
             self._require_hinge(device, load, way, free=free)
 
-    def _require_hinge(self, device: Device, load: HungLoad, way: int, *, free: bool) -> None:
+    def _require_hinge(self, device: Device, load: AttachedLoad, way: int, *, free: bool) -> None:
         start, end = self.postures[way : way + 2]
         step = f"sequence {self.name!r}, step {self.steps[way + 1]}"
         if np.abs(np.deg2rad(device.hinge.locks_deg) - end[-1]).min() > _AT_LOCK_RAD:
@@ -165,12 +165,12 @@ def joint_ranges(device: Device) -> dict[str, tuple[float, float]]:
     return {joint: (float(low), float(high)) for joint, (low, high) in ranges.items()}
 
 
-def with_free_hinge(device: Device, load: HungLoad, motion: JointMotion) -> JointMotion:
+def with_free_hinge(device: Device, load: AttachedLoad, motion: JointMotion) -> JointMotion:
     """Let the hinge hang freely in a motion.
 
     Args:
         device: The device.
-        load: What hangs on it.
+        load: Attached load.
         motion: Motion of all joints of the device, the hinge last.
 
     Returns:
@@ -253,8 +253,8 @@ class DeviceTrajectory:
 
     device: Device
     """The device."""
-    load: HungLoad
-    """What hangs on it, which says where an unlocked hinge hangs."""
+    load: AttachedLoad
+    """Attached load, which determines where an unlocked hinge hangs."""
     sequence: Sequence
     """Postures in turn."""
     hold_s: float = 1.0

@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.device.description import Device, HungLoad
+from forcetorque.device.description import AttachedLoad, Device
 from forcetorque.device.held_out import SAMPLES, held_out_loads, sample_noise
 from forcetorque.device.motion import Sequence, joint_ranges, joint_speeds
 from forcetorque.device.tolerances import RestTable, Tolerances
@@ -45,7 +45,7 @@ class DesignedMotion:
     value: float
     """Logarithm of the volume that the matrix is left in, by noise and by what may be wrong with the device."""
     squares: tuple[float, float]
-    """Mean squares of the errors of force and moment that are foretold at held-out loads; N^2, (N m)^2."""
+    """Mean squares of the predicted errors of force and moment at held-out loads; N^2, (N m)^2."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -54,8 +54,8 @@ class Designer:
 
     device: Device
     """The device, with locks at -90, 0 and 90 degrees and no turn."""
-    load: HungLoad
-    """What hangs on it."""
+    load: AttachedLoad
+    """Attached load."""
     sensor: str
     """Sensor that is to be calibrated."""
     seconds: float

@@ -13,7 +13,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.output_file import new_folder
-from forcetorque.device.description import HungLoad, device_load
+from forcetorque.device.description import AttachedLoad, device_load
 from forcetorque.device.design import DeviceDesign, DeviceRecordingRow
 from forcetorque.device.device_file import DeviceFile
 from forcetorque.device.model import BASE, device_model
@@ -53,8 +53,8 @@ class Stretch:
 class DeviceRecording:
     """A recording of one load."""
 
-    load: HungLoad
-    """What hangs on the device."""
+    load: AttachedLoad
+    """Load attached to the device."""
     model: RobotModel
     """The device with it."""
     trajectory: DeviceTrajectory

@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import SensorError
-from forcetorque.device.description import Device, HungLoad
+from forcetorque.device.description import AttachedLoad, Device
 from forcetorque.device.expected_wrench import BRACKET_LENGTH, HINGE, LOAD_LENGTH, MASS, Reference
 from forcetorque.robot.motion import JointMotion
 from forcetorque.workbench.excitation import UncertainLoads
@@ -128,7 +128,7 @@ class Poses:
 
     device: Device
     """The device."""
-    load: HungLoad
+    load: AttachedLoad
     """The load."""
     position: FloatArray
     """Joints of the device; shape (n, j); rad."""
@@ -136,10 +136,10 @@ class Poses:
     """Samples at every pose; shape (n,)."""
 
     @classmethod
-    def of_samples(cls, device: Device, load: HungLoad, position: FloatArray) -> Poses:
+    def of_samples(cls, device: Device, load: AttachedLoad, position: FloatArray) -> Poses:
         """Take samples that follow each other; those of one hold are one pose.
 
-        Without an encoder at the hinge, samples with an unlocked hinge are left out: nobody knows where the load is.
+        Without an encoder at the hinge, samples with an unlocked hinge are left out: the load's position is unknown.
 
         Args:
             device: The device.
@@ -262,12 +262,12 @@ class RestTable:
     """The same of every error that stays, by lock in deg and name; shapes (9, 6); N, N m."""
 
     @classmethod
-    def of(cls, device: Device, load: HungLoad, sensor: str, tolerances: Tolerances) -> RestTable:
+    def of(cls, device: Device, load: AttachedLoad, sensor: str, tolerances: Tolerances) -> RestTable:
         """Tabulate a device without a turn.
 
         Args:
             device: The device.
-            load: What hangs on its hinge.
+            load: Load attached to its hinge.
             sensor: Name of the sensor.
             tolerances: How exact the device is.
 

@@ -17,12 +17,11 @@ from forcetorque.results.figures import (
     DRAWN_SAMPLES,
     REFERENCE_COLOUR,
     ROW_INCHES,
-    SMALL_POINTS,
-    TITLE_POINTS,
     Look,
     draw_over_time,
     drawable,
     drawable_each,
+    in_figure_style,
     instants,
     legend_below,
     look,
@@ -49,6 +48,7 @@ Span = tuple[str, int, int]
 """Label, first sample and sample after the last."""
 
 
+@in_figure_style
 def contact_figure(
     time_s: FloatArray, candidates: Mapping[str, FloatArray], *, unit: str, spans: Sequence[Span] = ()
 ) -> Figure:
@@ -168,7 +168,6 @@ def _name_sessions(panel: Axes, sessions: list[_Session]) -> None:
             va="bottom",
             rotation=slant,
             rotation_mode="anchor",
-            fontsize=SMALL_POINTS,
         )
 
 
@@ -185,6 +184,7 @@ def _wrapped(name: str, room: float) -> str | None:
 _REFERENCE: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 1.5)), "linewidth": 1.4}
 
 
+@in_figure_style
 def torque_figure(
     time_s: FloatArray,
     joints: Sequence[str],
@@ -235,10 +235,9 @@ def torque_figure(
         if truth is not None:
             at, lines = thinned_line(time, truth[:, column, None])
             panel.plot(at, lines[:, 0], **_REFERENCE)
-        panel.set_ylabel(f"{shown_name(joint)}, N m", fontsize=TITLE_POINTS)
-        panel.tick_params(labelsize=SMALL_POINTS)
+        panel.set_ylabel(f"{shown_name(joint)}, N m")
     figure.align_ylabels()
-    panels[-1].set_xlabel("time, s", fontsize=TITLE_POINTS)
+    panels[-1].set_xlabel("time, s")
     keys = [
         (_named(name, torque, truth), look(k).key | {"linestyle": "-"})
         for k, (name, torque) in enumerate(torques.items())

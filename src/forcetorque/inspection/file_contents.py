@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What files hold: streams and clocks of a recording, calibrations, and columns that nobody declared."""
+"""What files hold: streams and clocks of a recording, calibrations, and columns that are not declared."""
 
 from __future__ import annotations
 
@@ -216,7 +216,7 @@ class SeenCalibration(Row):
 
 
 class ColumnRow(Row):
-    """A column of a table, or an array, that nobody declared."""
+    """A column of a table, or an array, that is not declared."""
 
     column: Annotated[str, Shown("column or array")]
     """Its name."""

@@ -241,7 +241,7 @@ def _outliers(residual: _Residual, free: BoolArray) -> list[Finding]:
 
 
 _DOUBTFUL = {"contact", "light_contact", "off_level", "step", "saturation", "frozen", "stuck", "gap", "backward_stamp"}
-"""Kinds of findings that make the samples of their span doubtful."""
+"""Kinds of findings that make the samples of their interval unreliable."""
 
 
 def inspect_recording(recording: Recording) -> tuple[Finding, ...]:

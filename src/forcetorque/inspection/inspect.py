@@ -127,7 +127,7 @@ class Inspection(Result):
         """Give the answer as flat lines, for CSV.
 
         Returns:
-            A line per finding; per column of what nobody declared, or component of a calibration, in their place.
+            A line per finding; per column that is not declared, or component of a calibration, in their place.
         """
         if self.calibration is not None:
             return [row.by_channel() for row in self.calibration.rows]

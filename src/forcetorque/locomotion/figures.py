@@ -17,10 +17,9 @@ from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoo
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,
-    SMALL_POINTS,
-    TITLE_POINTS,
     Look,
     draw_over_time,
+    in_figure_style,
     legend_below,
     look,
     new_figure,
@@ -40,6 +39,7 @@ _WEIGHT: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 1.5))
 _OUTLINE: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": "-", "linewidth": 1.0}
 
 
+@in_figure_style
 def balance_figure(interval: IntervalBalance) -> Figure:
     """Draw the load on each foot over time, shaded where it is down, and the points on soles and ground.
 
@@ -92,9 +92,8 @@ def _draw_loads(panel: Axes, interval: IntervalBalance) -> None:
         )
     if interval.weight_N is not None:
         panel.axhline(interval.weight_N, **_WEIGHT)
-    panel.set_xlabel("time, s", fontsize=TITLE_POINTS)
-    panel.set_ylabel("load, N", fontsize=TITLE_POINTS)
-    panel.tick_params(labelsize=SMALL_POINTS)
+    panel.set_xlabel("time, s")
+    panel.set_ylabel("load, N")
 
 
 def _draw_points(panel: Axes, points: FloatArray, k: int) -> None:
@@ -104,10 +103,9 @@ def _draw_points(panel: Axes, points: FloatArray, k: int) -> None:
 
 
 def _plane(panel: Axes, title: str) -> None:
-    panel.set_title(shown_name(title), fontsize=TITLE_POINTS)
-    panel.set_xlabel("x, mm", fontsize=TITLE_POINTS)
-    panel.set_ylabel("y, mm", fontsize=TITLE_POINTS)
-    panel.tick_params(labelsize=SMALL_POINTS)
+    panel.set_title(shown_name(title))
+    panel.set_xlabel("x, mm")
+    panel.set_ylabel("y, mm")
     panel.set_aspect("equal", adjustable="datalim")
 
 
@@ -133,6 +131,7 @@ _LONGEST_LABEL = 14
 """Characters of the name of a phase that stands level below its place; longer ones are turned."""
 
 
+@in_figure_style
 def coherence_figure(result: Coherence) -> Figure:
     """Draw what the net contact force of every phase is off the weight, with 95 % intervals.
 
@@ -155,8 +154,8 @@ def coherence_figure(result: Coherence) -> Figure:
         rows = [row for row in result.rows if (row.offset, row.offset_interval) == line]
         for axis, panel in enumerate(panels):
             _draw_coherence(panel, rows, looks, axis)
-            panel.set_title(f"E{'xyz'[axis]}", loc="left", fontsize=TITLE_POINTS)
-        panels[0].set_ylabel(shown_name(f"{policy_words(*line)}; N"), fontsize=SMALL_POINTS)
+            panel.set_title(f"E{'xyz'[axis]}", loc="left")
+        panels[0].set_ylabel(shown_name(f"{policy_words(*line)}; N"))
     keys: list[tuple[str, dict[str, Any]]] = [
         (shown_name(names[candidate]), {"color": one.colour, "marker": one.marker, "linestyle": "none"})
         for candidate, one in looks.items()
@@ -190,7 +189,6 @@ def _draw_coherence(panel: Axes, rows: Sequence[PhaseForce], looks: dict[str, Lo
     panel.set_xticks(
         range(len(phases)),
         [shown_name(phase) for phase in phases],
-        fontsize=SMALL_POINTS,
         rotation=30.0 if turned else 0.0,
         ha="right" if turned else "center",
     )
@@ -204,6 +202,7 @@ MOST_CURVES = 6
 _MEASURED, _SWING = look(0), look(1)
 
 
+@in_figure_style
 def motion_figure(motion: Motion) -> Figure:
     """Draw columns over time.
 
@@ -242,13 +241,13 @@ def _draw_motion(panel: Axes, curve: MotionCurve, motion: Motion) -> None:
                 panel.axvline(row.step_at_s + row.settling_s, color=REFERENCE_COLOUR, linestyle="-", linewidth=1.0)
     swings = [row for row in motion.oscillations if row.oscillates and curve.title == f"{row.interval}: {row.column}"]
     words = ", ".join(f"{row.frequency_hz:.3g} Hz" for row in swings) or "no oscillation"
-    panel.set_title(shown_name(f"{curve.title}: {words}"), fontsize=TITLE_POINTS, loc="left")
-    panel.set_ylabel(shown_name(curve.unit), fontsize=SMALL_POINTS)
-    panel.set_xlabel("time, s", fontsize=SMALL_POINTS)
+    panel.set_title(shown_name(f"{curve.title}: {words}"), loc="left")
+    panel.set_ylabel(shown_name(curve.unit))
+    panel.set_xlabel("time, s")
     panel.set_xlim(*np.array([curve.time_s[0], curve.time_s[-1]]))
-    panel.tick_params(labelsize=SMALL_POINTS)
 
 
+@in_figure_style
 def torque_loop_figure(loop: TorqueLoopStudy) -> Figure:
     """Draw what the error of the sensors does, a curve per soles, gains and kind of error.
 
@@ -268,9 +267,8 @@ def torque_loop_figure(loop: TorqueLoopStudy) -> Figure:
         _draw_torque_loop(panels, rows, k)
     names = ("tracking error, N m", "swings on after a push, %", "falls, %")
     for panel, name in zip(panels, names, strict=True):
-        panel.set_xlabel("force error of the sensors under the weight, N", fontsize=TITLE_POINTS)
-        panel.set_ylabel(name, fontsize=TITLE_POINTS)
-        panel.tick_params(labelsize=SMALL_POINTS)
+        panel.set_xlabel("force error of the sensors under the weight, N")
+        panel.set_ylabel(name)
     for panel in panels[1:]:
         panel.set_ylim(-3.0, 103.0)
     legend_below(figure, [(shown_name(name), look(k).key) for k, (name, _) in enumerate(curves)])

@@ -54,7 +54,7 @@ class Plan(Result):
     load_case: str
     """The use whose error is lowered."""
     loads: str
-    """Its loads, in words."""
+    """Its loads, as text."""
     start: Literal["calibration", "prior"]
     """What is known before: a calibration, or the prior matrix alone."""
     advice: str
@@ -112,7 +112,7 @@ def plan(
         The plan.
 
     Raises:
-        ExperimentError: If nobody states a clearance, limits contradict each other, or nothing can move.
+        ExperimentError: If no clearance is given, limits contradict each other, or nothing can move.
         FitError: If the calibration has no covariance, or there is no prior to begin with.
     """
     start = _start(runs, calibration, load_case)

@@ -17,7 +17,7 @@ from forcetorque.experiment.calibration.posterior import Posterior
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Readings:
-    """One more reading at each of n postures, foretold by what is known."""
+    """One more reading at each of n postures, predicted from what is known."""
 
     with_unknowns: FloatArray
     """Covariance of the reading of every row with its unknowns; shape (rows, n, p)."""
@@ -50,7 +50,7 @@ class Aim(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Volume:
-    """Logarithm of the volume that matrix and variables are left in, whatever the use is; it has no unit of load."""
+    """Logarithm of the posterior volume of matrix and variables, for any load case; it has no unit of load."""
 
     def gains(self, posterior: Posterior, centre: FloatArray, readings: Readings) -> FloatArray:
         """As of `Aim`; the offset, of which every reading tells as much as any other, counts too.
@@ -136,7 +136,7 @@ class Criterion:
 
 
 _OPEN = 1e6
-"""Standard deviation of an offset that nobody knows, over the noise of a posture."""
+"""Standard deviation of an unknown offset, over the noise of a posture."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

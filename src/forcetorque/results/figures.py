@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all figures share: size, palette, curves that are checked and thinned, and the way to PNG."""
+"""What all figures share: size, letters, palette, curves that are checked and thinned, and the way to PNG."""
 
 from __future__ import annotations
 
 import io
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from functools import cache
-from typing import TYPE_CHECKING, Any
+from functools import cache, wraps
+from typing import TYPE_CHECKING, Any, ParamSpec
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from forcetorque.recording.alignment import GAP_PERIODS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.backend_bases import RendererBase
     from matplotlib.figure import Figure
 
 
@@ -36,10 +38,20 @@ REFERENCE_LINE: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4
 THIN_REFERENCE_LINE: dict[str, Any] = {**REFERENCE_LINE, "linewidth": 1.2}
 """The same in small panels."""
 
-TITLE_POINTS = 10.0
-"""Size of titles and of the labels of axes; points."""
 SMALL_POINTS = 9.0
-"""Size of legends and of the numbers along axes; points."""
+"""Size of all letters but those of titles; points."""
+FIGURE_STYLE: dict[Any, Any] = {
+    "font.size": SMALL_POINTS,
+    "axes.titlesize": 10.0,
+    "axes.labelsize": SMALL_POINTS,
+    "xtick.labelsize": SMALL_POINTS,
+    "ytick.labelsize": SMALL_POINTS,
+    "legend.fontsize": SMALL_POINTS,
+    "legend.title_fontsize": SMALL_POINTS,
+    "figure.titlesize": 10.0,
+    "figure.labelsize": SMALL_POINTS,
+}
+"""Settings of matplotlib for every figure of the library."""
 
 PLANES = ((0, 1), (1, 2), (0, 2))
 """Axes along and up a panel in the three views of what lies in space."""
@@ -86,6 +98,38 @@ def look(k: int) -> Look:
     return Look(colour=_HUES[k % len(_HUES)], marker=_MARKERS[k % len(_MARKERS)], dashes=_DASHES[k % len(_DASHES)])
 
 
+_P = ParamSpec("_P")
+
+
+def in_figure_style(draw: Callable[_P, Figure]) -> Callable[_P, Figure]:
+    """Draw a figure with the settings of `FIGURE_STYLE`; those of the program are as before afterwards.
+
+    Args:
+        draw: Function that makes a figure.
+
+    Returns:
+        The function with these settings.
+    """
+
+    @wraps(draw)
+    def drawn(*args: _P.args, **kwargs: _P.kwargs) -> Figure:
+        with _figure_style():
+            return draw(*args, **kwargs)
+
+    return drawn
+
+
+def _figure_style() -> AbstractContextManager[None]:
+    try:
+        from matplotlib import rc_context
+    except ImportError as error:
+        raise MissingExtraError(_NO_MATPLOTLIB) from error
+    return rc_context(FIGURE_STYLE)
+
+
+_NO_MATPLOTLIB = "figures are drawn by matplotlib: pip install forcetorque[report]"
+
+
 def new_figure(height: float) -> Figure:
     """Make an empty figure of the common width, which a notebook shows by itself.
 
@@ -101,7 +145,7 @@ def new_figure(height: float) -> Figure:
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
     except ImportError as error:
-        raise MissingExtraError("figures are drawn by matplotlib: pip install forcetorque[report]") from error
+        raise MissingExtraError(_NO_MATPLOTLIB) from error
     # a Figure with its own canvas, not pyplot: no window, no state that others share
     figure = _figure_class()(figsize=(ROW_INCHES[0], height), dpi=DOTS_PER_INCH, layout="constrained")
     FigureCanvasAgg(figure)
@@ -116,6 +160,10 @@ def _figure_class() -> type[Figure]:
     class ShownFigure(Figure):
         def _repr_png_(self) -> bytes:
             return png_bytes(self)
+
+        def draw(self, renderer: RendererBase) -> None:
+            with _figure_style():  # matplotlib makes the numbers along axes when it draws them
+                super().draw(renderer)
 
     return ShownFigure
 

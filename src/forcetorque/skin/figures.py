@@ -16,10 +16,9 @@ from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,
     SMALL_PANEL_POINTS,
-    SMALL_POINTS,
-    TITLE_POINTS,
     draw_over_time,
     drawable,
+    in_figure_style,
     instants,
     legend_below,
     look,
@@ -40,6 +39,7 @@ _TAXEL, _NORMAL = look(1), look(0)
 _ARROW_MM = 10.0
 
 
+@in_figure_style
 def skin_layout_figure(positions: FloatArray, normals: Mapping[str, FloatArray]) -> Figure:
     """Draw where taxels are and which way they look: in space, and as seen along the axes of the link [1].
 
@@ -81,7 +81,7 @@ def _draw_space(panel: Any, places: FloatArray, arrows: FloatArray, *, title: st
     panel.plot(*places.T, "o", color=_TAXEL.colour, markersize=2.2, markeredgewidth=0.6, markerfacecolor="none")
     if arrows.any():
         panel.quiver(*places.T, *arrows.T, color=_NORMAL.colour, linewidth=0.6, arrow_length_ratio=0.3)
-    panel.set_title(shown_name(title), fontsize=TITLE_POINTS)
+    panel.set_title(shown_name(title))
     panel.set_box_aspect(np.maximum(np.ptp(places, axis=0), 2.0 * _ARROW_MM), zoom=0.9)
     panel.locator_params(nbins=4)
     for axis in "xyz":
@@ -113,6 +113,7 @@ _FORMS = (0, 2, 3, 4)
 """Looks of the curves: the second is that of the samples."""
 
 
+@in_figure_style
 def taxel_figure(picture: TaxelPicture) -> Figure:
     """Draw what taxels were calibrated with, and their curves.
 
@@ -142,8 +143,7 @@ def taxel_figure(picture: TaxelPicture) -> Figure:
         (taxels, f"{len(picture.names)} taxels"),
         (one, picture.names[0]),
     ):
-        panel.set_title(shown_name(title), fontsize=TITLE_POINTS, loc="left")
-        panel.tick_params(labelsize=SMALL_POINTS)
+        panel.set_title(shown_name(title), loc="left")
     legend_below(
         figure,
         [
@@ -162,10 +162,9 @@ def _draw_time(panel: Axes, picture: TaxelPicture) -> None:
     panel.plot(time, drawn[:, 0], color=REFERENCE_COLOUR, linewidth=1.0)
     counts = panel.twinx()
     counts.plot(time, drawn[:, 1], color=COLOURS[0], linestyle="--", linewidth=1.0)
-    counts.set_ylabel("mean fall, counts", fontsize=TITLE_POINTS)
-    counts.tick_params(labelsize=SMALL_POINTS)
-    panel.set_xlabel("time, s", fontsize=TITLE_POINTS)
-    panel.set_ylabel("pressure, kPa", fontsize=TITLE_POINTS)
+    counts.set_ylabel("mean fall, counts")
+    panel.set_xlabel("time, s")
+    panel.set_ylabel("pressure, kPa")
 
 
 def _draw_taxels(panel: Axes, picture: TaxelPicture) -> None:
@@ -173,8 +172,8 @@ def _draw_taxels(panel: Axes, picture: TaxelPicture) -> None:
         cloud = thinned_cloud(np.column_stack([picture.fall[:, k], 1e-3 * picture.pressure]), _POINTS)
         style = look(k)
         panel.plot(cloud[:, 0], cloud[:, 1], linestyle="none", color=style.colour, marker=style.marker, markersize=1.5)
-    panel.set_xlabel("counts below rest", fontsize=TITLE_POINTS)
-    panel.set_ylabel("pressure, kPa", fontsize=TITLE_POINTS)
+    panel.set_xlabel("counts below rest")
+    panel.set_ylabel("pressure, kPa")
 
 
 def _draw_curves(panel: Axes, picture: TaxelPicture) -> None:
@@ -186,8 +185,8 @@ def _draw_curves(panel: Axes, picture: TaxelPicture) -> None:
     # a polynomial beyond its range would else leave nothing to see of the samples
     highest = 1e-3 * float(picture.pressure.max())
     panel.set_ylim(-0.1 * highest, 1.2 * highest)
-    panel.set_xlabel("counts below rest", fontsize=TITLE_POINTS)
-    panel.set_ylabel("pressure, kPa", fontsize=TITLE_POINTS)
+    panel.set_xlabel("counts below rest")
+    panel.set_ylabel("pressure, kPa")
 
 
 def _line(k: int) -> dict[str, Any]:
@@ -198,6 +197,7 @@ def _line(k: int) -> dict[str, Any]:
 _REFERENCE: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": "-"}
 
 
+@in_figure_style
 def skin_wrench_figure(picture: SkinWrenchPicture, reference: FloatArray | None = None) -> Figure:
     """Draw the pressures of a patch, laid flat, when the force was largest [1], and forces over time [2].
 
@@ -231,13 +231,11 @@ def _draw_field(figure: Figure, panel: Axes, picture: SkinWrenchPicture) -> None
     drawn = panel.tripcolor(facets, picture.pressed_kPa, shading="gouraud", cmap="cividis")
     panel.plot(across, along, linestyle="none", marker=".", markersize=1.5, color="#FFFFFF")
     bar = figure.colorbar(drawn, ax=panel)
-    bar.set_label("pressure, kPa", fontsize=TITLE_POINTS)
-    bar.ax.tick_params(labelsize=SMALL_POINTS)
+    bar.set_label("pressure, kPa")
     panel.set_aspect("equal")
-    panel.set_xlabel("around, mm", fontsize=TITLE_POINTS)
-    panel.set_ylabel("along, mm", fontsize=TITLE_POINTS)
-    panel.set_title(f"{shown_name(picture.patch)} at {picture.pressed_s:.1f} s", fontsize=TITLE_POINTS, loc="left")
-    panel.tick_params(labelsize=SMALL_POINTS)
+    panel.set_xlabel("around, mm")
+    panel.set_ylabel("along, mm")
+    panel.set_title(f"{shown_name(picture.patch)} at {picture.pressed_s:.1f} s", loc="left")
 
 
 def _draw_forces(panel: Axes, picture: SkinWrenchPicture, reference: FloatArray | None) -> None:
@@ -247,15 +245,15 @@ def _draw_forces(panel: Axes, picture: SkinWrenchPicture, reference: FloatArray 
     for k, force in enumerate(picture.forces.values()):
         time, drawn = thinned_line(picture.seconds, force[:, None])
         panel.plot(time, drawn[:, 0], linewidth=1.4, **_style(k))
-    panel.set_xlabel("time, s", fontsize=TITLE_POINTS)
-    panel.set_ylabel("force, N", fontsize=TITLE_POINTS)
-    panel.tick_params(labelsize=SMALL_POINTS)
+    panel.set_xlabel("time, s")
+    panel.set_ylabel("force, N")
 
 
 def _style(k: int) -> dict[str, Any]:
     return {"color": look(k).colour, "linestyle": look(k).dashes}
 
 
+@in_figure_style
 def skin_event_figure(pictures: Sequence[SkinEventPicture]) -> Figure:
     """Draw the heuristic of every stream of contacts over time.
 
@@ -278,8 +276,8 @@ def skin_event_figure(pictures: Sequence[SkinEventPicture]) -> Figure:
         sizes = drawable(picture.heuristic, name=f"{picture.stream}: heuristic", shape=(len(seconds),))
         time, lines = thinned_line(seconds, sizes[:, None])
         draw_over_time(panel, time, lines[:, 0], look(k), turn=k, count=len(pictures))
-    panel.set_xlabel("time, s", fontsize=TITLE_POINTS)
-    panel.set_ylabel("heuristic, not newtons", fontsize=TITLE_POINTS)
+    panel.set_xlabel("time, s")
+    panel.set_ylabel("heuristic, not newtons")
     panel.set_ylim(bottom=0.0)
     legend_below(figure, [(shown_name(one.stream), look(k).key | {"linestyle": "-"}) for k, one in enumerate(pictures)])
     return figure

@@ -30,8 +30,8 @@ from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset, Valid
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,
-    TITLE_POINTS,
     drawable_each,
+    in_figure_style,
     legend_below,
     look,
     new_figure,
@@ -181,6 +181,7 @@ _Level = tuple[str, float, dict[str, Any]]
 _Curves = dict[str, dict[str, FloatArray]]
 
 
+@in_figure_style
 def lambda_force_figure(
     lambdas: FloatArray,
     curves: Mapping[str, Mapping[str, FloatArray]],
@@ -226,10 +227,10 @@ def lambda_force_figure(
     for panel, group in zip(panels, groups, strict=True):
         _draw(panel, rising, group, kinds, levels)
         if len(group) == 1:
-            panel.set_title(shown_name(next(iter(group))), fontsize=TITLE_POINTS)
+            panel.set_title(shown_name(next(iter(group))))
         if chosen is not None and chosen[0] in group:
             panel.plot(chosen[2], best, zorder=4.0, clip_on=False, **MARKED)
-    figure.supylabel("mean magnitude of the contact force, N", fontsize=TITLE_POINTS)
+    figure.supylabel("mean magnitude of the contact force, N")
     keys = _keys(list(groups[0]), kinds)
     keys += [(f"{name}: {force:.4g} N", style) for name, force, style in levels]
     if chosen is not None:

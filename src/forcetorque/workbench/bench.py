@@ -57,7 +57,7 @@ class Bench:
     prior: FloatArray | None = None
     """Nominal matrix; shape (6, c); N/count, N m/count; None for none."""
     placement: Placement | None = None
-    """How far loads may be off; None where nobody says."""
+    """Uncertainty of the loads; None where none is given."""
 
     def __post_init__(self) -> None:
         n, raw = len(self.loads), read_only(self.raw, name="raw", shape=(len(self.loads), None))

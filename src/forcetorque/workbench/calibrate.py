@@ -143,7 +143,7 @@ def next_words(recording: BenchRecording, blocks: Sequence[BlockRow]) -> str | N
         blocks: Its blocks as they were checked.
 
     Returns:
-        A sentence; None where everything is there and sound, or where means were recorded elsewhere.
+        A sentence; None where everything is there and valid, or where means were recorded elsewhere.
     """
     if recording.recorded == () and recording.bench is not None:
         return None
@@ -174,7 +174,7 @@ def _words(loads: BenchLoads, name: str) -> str:
     )
 
 
-_FORETOLD = 3.0
+_PREDICTED_RATIO = 3.0
 """Error of a series that was left out, over that of single positions, from which others do not foretell it."""
 
 
@@ -194,7 +194,7 @@ def workbench(
         recordings: What each read; several of one bench tell its positions apart from the sensors.
         code_version: Version of this library, for the record.
         created: Date and time, ISO 8601, for the record.
-        full_matrix: Whether loads that do not move all six directions are refused, whatever a prior says.
+        full_matrix: Whether loads that do not move all six directions are refused, with or without a prior matrix.
         only_next: Whether only blocks are checked, and nothing is fitted.
         spec: Limits to judge the calibrations by; None for none.
         seed: Of the deals into folds.
@@ -317,7 +317,7 @@ def _warnings(fits: Sequence[FittedBench], examined: Sequence[Examined]) -> Iter
             yield f"{row.serial}: {row.reason}"
         yield from (f"{row.serial}: {doubt}" for doubt in fit.doubts)
         for series in fit.series:
-            if series.reason or series.ratio > _FORETOLD:
+            if series.reason or series.ratio > _PREDICTED_RATIO:
                 why = series.reason or (
                     f"errors up to {series.largest_force_N:.2f} N, {series.ratio:.1f} times those of single positions"
                 )

@@ -72,7 +72,7 @@ class MissingMoment:
 
     @property
     def words(self) -> str:
-        """The line in words and numbers."""
+        """The line as text."""
         x, y, z = ((1e3 * self.point_m).round(6) + 0.0).tolist()
         along = ", ".join(f"{value:.3f}" for value in (self.axis.round(9) + 0.0).tolist())
         screw = "" if abs(self.pitch_m) < 1e-6 else f", with {1e3 * self.pitch_m:.3g} mm of the force along it"

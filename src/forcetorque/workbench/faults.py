@@ -115,7 +115,7 @@ def _swap(first: IntArray, second: IntArray, apart: FloatArray, components: tupl
 
 
 FALSE_ALARMS = 0.02
-"""Share of sound sensors in which a fault is named."""
+"""Share of undamaged sensors in which a fault is named."""
 MOST_FAULTS = 5
 """Faults that are looked for in one sensor: where there are more, the bench is to be set up anew."""
 
@@ -140,7 +140,7 @@ class Suspect:
     standard_error: FloatArray
     """Their standard errors; shape (d,); 0 where the readings tell nothing of one."""
     log_probability: float
-    """Logarithm of the share of sound sensors in which as much would be seen."""
+    """Logarithm of the share of undamaged sensors in which as much would be seen."""
     structure_forgotten: bool = False
     """Whether the amount is as if the mounting structure of the position were not there."""
 
@@ -182,7 +182,7 @@ def suspects(
         loads: Loads as stated.
         residual: Readings less loads; shape (n, 6); N, N m.
         scatter: How positions scatter.
-        false_alarms: Share of sound sensors in which a fault may be named.
+        false_alarms: Share of undamaged sensors in which a fault may be named.
         kinds: Kinds to look for.
 
     Returns:
@@ -368,9 +368,9 @@ class FaultRow(Row):
     unit: Annotated[str, Shown("unit")]
     """Unit of the amount."""
     probability: float
-    """Share of sound sensors in which as much would be named."""
+    """Share of undamaged sensors in which as much would be named."""
     sentence: str
-    """The same in words."""
+    """The same as text."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

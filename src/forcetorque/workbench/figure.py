@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from forcetorque.results.figures import REFERENCE_COLOUR, ROW_INCHES, legend_below, look, new_figure, shown_name
+from forcetorque.results.figures import (
+    REFERENCE_COLOUR,
+    ROW_INCHES,
+    in_figure_style,
+    legend_below,
+    look,
+    new_figure,
+    shown_name,
+)
 from forcetorque.workbench.result import BenchPicture
 
 if TYPE_CHECKING:
@@ -20,6 +28,7 @@ _AXES = ("x", "y", "z")
 _BINS = 30
 
 
+@in_figure_style
 def bench_figure(picture: BenchPicture) -> Figure:
     """Draw positions of a workbench, grouped by load [1].
 
@@ -58,7 +67,7 @@ def _project(panel: Axes, picture: BenchPicture, first: int, second: int) -> Non
             color=kind.colour,
         )
     panel.set_aspect("equal", adjustable="datalim")
-    panel.set_title("force over the weight", fontsize=10)
+    panel.set_title("force over the weight")
     panel.set_xlabel(f"f{_AXES[first]}")
     panel.set_ylabel(f"f{_AXES[second]}")
 
@@ -70,6 +79,6 @@ def _histogram(panel: Axes, picture: BenchPicture, axis: int) -> None:
     for k, errors in enumerate(picture.errors):
         kind = look(k)
         panel.hist(errors[:, axis], bins=edges, histtype="step", color=kind.colour, linestyle=kind.dashes)
-    panel.set_title(f"error of f{_AXES[axis]}", fontsize=10)
+    panel.set_title(f"error of f{_AXES[axis]}")
     panel.set_xlabel("read less known, N")
     panel.set_ylabel("positions")

@@ -114,10 +114,10 @@ _STEP = 0.7
 """Power of the ratio by which a size is changed in a sweep: with 1 the positions overshoot each other."""
 _TAIL = 30.0
 """Degrees of freedom of what sensors scatter by: nonlinearity and shapes that are not known make tails long, so that
-with those of the number of sensors one sound sensor of fourteen is suspected, not of fifty."""
+with those of the number of sensors one undamaged sensor of fourteen is suspected, not of fifty."""
 _LEAST_SIZE = 1.0
 """Share of the median size that no position falls below: a line through few positions hides what they scatter by, and
-with sizes as small as they look, one sound sensor of ten is suspected."""
+with sizes as small as they look, one undamaged sensor of ten is suspected."""
 _QUANTILE, _DISTANCE = 0.85, 9.446
 """Share of the sensors by which the size of a position is told, and the chi-squared of 6 that they lie below.
 
@@ -138,7 +138,7 @@ class Scatter:
     degrees_of_freedom: float
     """How many independent values tell it; infinite where it is stated."""
     source: str
-    """Where it is from, in words."""
+    """Text that says where it comes from."""
 
 
 def turned_loads(loads: BenchLoads) -> FloatArray:
@@ -319,7 +319,7 @@ def fit_means(bench: Bench, means: WindowMeans) -> GenerativeFit:
     """
     # what loads are off by differs from position to position: it shows in the residual, and is no lasting error
     assumptions = Assumptions(full_scale=bench.full_scale, accuracy=np.zeros(6))
-    # nobody knows when: what one position is off by then says nothing of the next
+    # the instant is unknown: the error of one position does not predict that of the next
     shapes = CANDIDATES if bench.time_s is not None else CANDIDATES[:1]
     return fit_generative([means], bench.prior, assumptions, quadratic=False, shapes=shapes)
 
@@ -398,7 +398,7 @@ def _settled(
     for _ in range(_SWEEPS):
         residual = counts @ matrices[:, :, :-1].transpose(0, 2, 1) + matrices[:, None, :, -1] - loads
         distance = np.einsum("spi,pij,spj->sp", residual, precision, residual, optimize=True)
-        # a scatter that was told from a line that follows a fault is far too large: its size is found beside
+        # a scatter estimated from a line that follows a fault is far too large: its size is estimated separately
         scale = np.median(distance, axis=1, keepdims=True) / _MEDIAN_OF_SIX + _TINY
         worth = 6.0 * len(loads) * np.log(scale[:, 0]) + (_STUDENT + 6.0) * np.log1p(distance / scale).sum(axis=1)
         matrices = _lines(design, counts, size * (_STUDENT + 6.0) / (_STUDENT + distance / scale))

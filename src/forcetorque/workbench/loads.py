@@ -33,7 +33,7 @@ class Weights:
     position_m: FloatArray
     """Where the load acts, in the sensor's frame; shape (n, 3); m."""
     direction: FloatArray
-    """Where gravity points in the sensor's frame, of length 1 whatever was given; shape (n, 3)."""
+    """Where gravity points in the sensor's frame, normalised to length 1; shape (n, 3)."""
     gravity: float
     """Magnitude of gravity; m/s2."""
 

@@ -42,7 +42,7 @@ class BenchSensorRow(Row):
     rank: Annotated[int, Shown("rank")]
     """Directions of load that the positions move."""
     unmoved: Annotated[tuple[str, ...], Shown("loads that nothing moves")]
-    """The others: there the matrix is that of the prior, or nobody's."""
+    """The others: there the matrix is the prior matrix, or undetermined."""
     unseen: str
     """Directions of the raw readings that no load moves; empty for none."""
     fitted: Annotated[bool, Shown("fitted")]

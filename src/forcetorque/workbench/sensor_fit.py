@@ -158,7 +158,7 @@ class FittedBench:
     series: tuple[SeriesRow, ...]
     """Series left out as a whole."""
     doubts: tuple[str, ...] = ()
-    """What makes its data doubtful."""
+    """Warnings about its data."""
 
     @property
     def matrix(self) -> FloatArray | None:

@@ -18,11 +18,10 @@ from forcetorque.results.figures import (
     PLANES,
     ROW_INCHES,
     SMALL_PANEL_POINTS,
-    SMALL_POINTS,
     THIN_REFERENCE_LINE,
-    TITLE_POINTS,
     drawable,
     drawable_each,
+    in_figure_style,
     legend_below,
     look,
     new_figure,
@@ -69,6 +68,7 @@ class _Sensor:
     """Directions, one per row, the largest part positive; shape (c, c)."""
 
 
+@in_figure_style
 def excitation_figure(
     names: Sequence[str],
     variance: Sequence[FloatArray],
@@ -107,7 +107,7 @@ def excitation_figure(
         _draw_deviation(strength, sensor)
         _draw_explained(share, sensor)
         _draw_directions(parts, sensor)
-        strength.set_title(shown_name(sensor.name), loc="left", fontsize=TITLE_POINTS)
+        strength.set_title(shown_name(sensor.name), loc="left")
     keys = [("excited by the loads", {**_EXCITED, "markersize": 8.0, "linewidth": 1.2})]
     keys.append(("not excited", {**_NOT_EXCITED, "markersize": 9.0, "linewidth": 1.2, "linestyle": ":"}))
     keys.append((f"least share of an excited direction, {100 * EXPLAINED_SHARE:.0f} %", THIN_REFERENCE_LINE))
@@ -161,18 +161,16 @@ def _draw_deviation(panel: Axes, sensor: _Sensor) -> None:
     _draw_values(panel, sensor, np.maximum(sensor.deviation, low), low)
     for row, value in enumerate(sensor.deviation):
         text = f"{value:.3g}" if value < 1000.0 else f"{value:.0f}"
-        panel.annotate(
-            text, (max(value, low), row), (8.0, 0.0), textcoords="offset points", va="center", fontsize=SMALL_POINTS
-        )
-    panel.set_ylabel("raw direction", fontsize=SMALL_POINTS)
-    panel.set_xlabel("standard deviation, counts", fontsize=SMALL_POINTS)
+        panel.annotate(text, (max(value, low), row), (8.0, 0.0), textcoords="offset points", va="center")
+    panel.set_ylabel("raw direction")
+    panel.set_xlabel("standard deviation, counts")
 
 
 def _draw_explained(panel: Axes, sensor: _Sensor) -> None:
     panel.axvline(100.0 * EXPLAINED_SHARE, **THIN_REFERENCE_LINE)
     panel.set_xlim(0.0, 105.0)
     _draw_values(panel, sensor, 100.0 * sensor.explained, 0.0)
-    panel.set_xlabel("variance explained by loads, %", fontsize=SMALL_POINTS)
+    panel.set_xlabel("variance explained by loads, %")
 
 
 def _draw_values(panel: Axes, sensor: _Sensor, values: FloatArray, start: float) -> None:
@@ -190,14 +188,13 @@ def _draw_values(panel: Axes, sensor: _Sensor, values: FloatArray, start: float)
             zorder=3,
         )
     _number_directions(panel, len(values))
-    panel.tick_params(labelsize=SMALL_POINTS)
     panel.grid(visible=True, axis="x", color="0.9", linewidth=0.6)
     panel.set_axisbelow(True)
 
 
 def _number_directions(panel: Axes, count: int) -> None:
     panel.set_ylim(count - 0.5, -0.5)
-    panel.set_yticks(range(count), [str(k + 1) for k in range(count)], fontsize=SMALL_POINTS)
+    panel.set_yticks(range(count), [str(k + 1) for k in range(count)])
 
 
 def _draw_directions(panel: Axes, sensor: _Sensor) -> None:
@@ -210,18 +207,19 @@ def _draw_directions(panel: Axes, sensor: _Sensor) -> None:
         text = f"{part:.2f}" if written else "–" if part < -_SEEN else ""
         text = text.replace("-0.00", "0.00").replace("-", "−")
         colour = "white" if abs(part) > _DARK else "black"
-        panel.text(column, row, text, ha="center", va="center", fontsize=SMALL_POINTS, color=colour)
+        panel.text(column, row, text, ha="center", va="center", color=colour)
     _number_directions(panel, len(rows))
     step = 1 if written else 2
-    panel.set_xticks(range(0, len(rows), step), [f"ch{k}" for k in range(0, len(rows), step)], fontsize=SMALL_POINTS)
+    panel.set_xticks(range(0, len(rows), step), [f"ch{k}" for k in range(0, len(rows), step)])
     meaning = "" if written else " (dark: large, –: negative)"
-    panel.set_xlabel(f"part of each channel in the direction{meaning}", fontsize=SMALL_POINTS)
+    panel.set_xlabel(f"part of each channel in the direction{meaning}")
     panel.tick_params(length=0.0)
 
 
 _ROWS = (("force space", "N", FORCE), ("torque space", "N m", MOMENT))
 
 
+@in_figure_style
 def space_figure(clouds: Mapping[str, FloatArray]) -> Figure:
     """Draw which forces and torques each type of data set reaches: in space, and as seen along the axes [1].
 
@@ -263,7 +261,7 @@ def _draw_space(panel: Any, parts: list[FloatArray], labels: list[str], *, title
     for k in _widest_first(parts):
         style, points = look(k), thinned_cloud(parts[k])
         panel.plot(*points.T, style.marker, color=style.colour, markersize=1.6, markeredgewidth=0.0)
-    panel.set_title(title, fontsize=TITLE_POINTS)
+    panel.set_title(title)
     panel.locator_params(nbins=5)
     for axis, label in zip("xyz", labels, strict=True):
         getattr(panel, f"set_{axis}label")(label)

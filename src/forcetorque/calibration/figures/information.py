@@ -14,9 +14,8 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.calibration.summary import LITTLE_LEARNT, LearntDirection
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
-    SMALL_POINTS,
     THIN_REFERENCE_LINE,
-    TITLE_POINTS,
+    in_figure_style,
     legend_below,
     look,
     new_figure,
@@ -49,6 +48,7 @@ _AFTER: dict[str, Any] = {"color": look(0).colour, "marker": look(0).marker, "ma
 _AFTER_LITTLE: dict[str, Any] = {"color": look(1).colour, "marker": "X", "markersize": 9.0}
 
 
+@in_figure_style
 def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> Figure:
     """Draw what the recordings taught of every load direction.
 
@@ -81,8 +81,8 @@ def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> Figure:
                 _draw_errors(panel, factor * errors[place, loads, quantity], little[loads])
             for panel in (share, *panels):
                 _name_directions(panel, WRENCH_COMPONENTS[loads])
-            share.set_ylabel(_LOADS[half], fontsize=SMALL_POINTS)
-        grid[2 * place][0].set_title(shown_name(name), loc="left", fontsize=TITLE_POINTS)
+            share.set_ylabel(_LOADS[half])
+        grid[2 * place][0].set_title(shown_name(name), loc="left")
     legend_below(
         figure,
         [
@@ -124,7 +124,7 @@ def _draw_shares(panel: Axes, shares: Sequence[float]) -> None:
         _write(panel, f"{100.0 * share:.0f} %", (_SHARE_END, row), -1)
     panel.set_xlim(0.0, _SHARE_END)
     panel.set_xticks(range(0, 101, 25))
-    panel.set_xlabel("narrower by, %", fontsize=SMALL_POINTS)
+    panel.set_xlabel("narrower by, %")
 
 
 def _draw_errors(panel: Axes, errors: FloatArray, little: Sequence[bool]) -> None:
@@ -151,7 +151,6 @@ def _write(panel: Axes, text: str, point: tuple[float, float], side: int) -> Non
         textcoords="offset points",
         va="center",
         ha=alignment,
-        fontsize=SMALL_POINTS,
     )
 
 
@@ -167,12 +166,11 @@ def _set_error_axis(panel: Axes, errors: FloatArray, label: str) -> None:
     panel.xaxis.set_major_locator(LogLocator(subs=between))
     panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     panel.xaxis.set_minor_formatter(NullFormatter())
-    panel.set_xlabel(label, fontsize=SMALL_POINTS)
+    panel.set_xlabel(label)
 
 
 def _name_directions(panel: Axes, names: Sequence[str]) -> None:
     panel.set_ylim(len(names) - 0.5, -0.5)
-    panel.set_yticks(range(len(names)), names, fontsize=SMALL_POINTS)
-    panel.tick_params(labelsize=SMALL_POINTS)
+    panel.set_yticks(range(len(names)), names)
     panel.grid(visible=True, axis="x", color="0.9", linewidth=0.6)
     panel.set_axisbelow(True)

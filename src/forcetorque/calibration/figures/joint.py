@@ -15,8 +15,7 @@ from forcetorque.calibration.joint.robust_fit import PartResidual
 from forcetorque.results.figures import (
     COLOURS,
     REFERENCE_COLOUR,
-    SMALL_POINTS,
-    TITLE_POINTS,
+    in_figure_style,
     legend_below,
     new_figure,
     shown_name,
@@ -35,6 +34,7 @@ _BORDER: dict[str, Any] = {"color": "0.6", "linestyle": ":", "linewidth": 1.0}
 _QUANTITIES = (("force", "N", FORCE), ("moment", "N m", MOMENT))
 
 
+@in_figure_style
 def joint_figure(residuals: Sequence[PartResidual]) -> Figure:
     """Draw what is left of the equation of every part: magnitudes of force and moment, window by window.
 
@@ -60,13 +60,13 @@ def joint_figure(residuals: Sequence[PartResidual]) -> Figure:
         own = [one for one in residuals if one.part == part]
         for panel, (quantity, unit, loads) in zip(row, _QUANTITIES, strict=True):
             _draw(panel, own, starts, loads)
-            panel.set_ylabel(f"{quantity}, {unit}", fontsize=SMALL_POINTS)
+            panel.set_ylabel(f"{quantity}, {unit}")
             for start in list(starts.values())[1:]:
                 panel.axvline(start, **_BORDER)
         sensors = ", ".join(dict.fromkeys(name for one in own for name in one.sensors))
-        row[0].set_title(shown_name(f"{part}: {sensors}"), loc="left", fontsize=TITLE_POINTS)
+        row[0].set_title(shown_name(f"{part}: {sensors}"), loc="left")
     for panel in grid[-1]:
-        panel.set_xlabel("time of all intervals, s", fontsize=SMALL_POINTS)
+        panel.set_xlabel("time of all intervals, s")
     legend_below(
         figure,
         [
@@ -100,7 +100,6 @@ def _draw(panel: Axes, residuals: Sequence[PartResidual], starts: dict[str, floa
         panel.plot(time, after, **_AFTER)
         panel.plot(time[~one.kept], after[~one.kept], **_LEFT_OUT)
     panel.set_yscale("log")
-    panel.tick_params(labelsize=SMALL_POINTS)
     panel.grid(visible=True, axis="y", color="0.9", linewidth=0.6)
     panel.set_axisbelow(True)
 

@@ -18,6 +18,7 @@ from forcetorque.results.figures import (
     Look,
     drawable,
     drawable_each,
+    in_figure_style,
     legend_below,
     look,
     new_figure,
@@ -236,6 +237,7 @@ def _is_near(first: FloatArray, second: FloatArray, near: float) -> bool:
     return bool((np.isnan(first) == np.isnan(second)).all() and (np.nan_to_num(np.abs(first - second)) <= near).all())
 
 
+@in_figure_style
 def lambda_difference_figure(lambdas: FloatArray, curves: Mapping[str, FloatArray], *, unit: str) -> Figure:
     """Draw the difference to the Workbench matrix over lambda [1].
 
@@ -297,6 +299,7 @@ class _Curve:
         return self.lambdas[np.isfinite(self.lambdas)]
 
 
+@in_figure_style
 def held_out_figure(
     curves: Mapping[str, tuple[FloatArray, FloatArray, float | None]],
     *,

@@ -21,6 +21,7 @@ from forcetorque.results.figures import (
     draw_over_time,
     drawable,
     drawable_each,
+    in_figure_style,
     instants,
     legend_below,
     look,
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
 _COMPARISON_ROW_HEIGHT = 0.7 * ROW_INCHES[1]
 
 
+@in_figure_style
 def comparison_figure(time_s: FloatArray, reference: FloatArray, candidates: Mapping[str, FloatArray]) -> Figure:
     """Draw the wrench that sensors or calibrations measure against the reference, component by component [1].
 
@@ -109,6 +111,7 @@ _MEANING = (
 )
 
 
+@in_figure_style
 def residual_figure(time_s: FloatArray, residuals: Mapping[str, FloatArray]) -> Figure:
     """Draw the distribution of residuals, and their autocorrelation, component by component.
 
@@ -159,13 +162,12 @@ def _correlations(name: str, values: FloatArray, time: FloatArray) -> list[Autoc
 def _panels(figure: Figure) -> np.ndarray[Any, np.dtype[np.object_]]:
     grid: np.ndarray[Any, np.dtype[np.object_]] = figure.subplots(3, 4, squeeze=False)
     for panel in grid.ravel():
-        panel.tick_params(labelsize=SMALL_POINTS)
         panel.grid(visible=True, color="0.9", linewidth=0.6)
         panel.set_axisbelow(True)
     for panel in grid[:, 0]:
-        panel.set_ylabel("samples, %", fontsize=SMALL_POINTS)
+        panel.set_ylabel("samples, %")
     for panel in grid[2, 1::2]:
-        panel.set_xlabel("lag, s", fontsize=SMALL_POINTS)
+        panel.set_xlabel("lag, s")
     return grid
 
 
@@ -184,9 +186,9 @@ def _draw_histogram(panel: Axes, columns: list[FloatArray], component: str) -> N
         panel.plot(edges[top : top + 2].mean(), share[top], style.marker, color=style.colour, markersize=6.0)
     panel.set_ylim(bottom=0.0)
     panel.margins(y=0.1)
-    panel.set_xlabel(f"{component}, {'N' if component.startswith('f') else 'N m'}", fontsize=SMALL_POINTS, labelpad=1.0)
+    panel.set_xlabel(f"{component}, {'N' if component.startswith('f') else 'N m'}", labelpad=1.0)
     title = f"{beyond} of {sum(map(len, known))} beyond the edges" if beyond else "none beyond the edges"
-    panel.set_title(title, fontsize=SMALL_POINTS)
+    panel.set_title(title)
 
 
 def bin_edges(columns: list[FloatArray]) -> FloatArray:
@@ -237,7 +239,7 @@ def _draw_correlation(panel: Axes, correlations: list[Autocorrelation], componen
                 markeredgewidth=0.5,
                 markevery=[int(len(at) * (m / _MARKS + turn)) for m in range(_MARKS)],
             )
-    panel.set_title(f"autocorrelation ρ of {component}", fontsize=SMALL_POINTS)
+    panel.set_title(f"autocorrelation ρ of {component}")
 
 
 def thinned_lags(lag_s: FloatArray, rho: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -300,6 +302,7 @@ _MIDDLE_LUMINANCE = 0.179
 """Where black and white letters have the same contrast: (L + 0.05)^2 = 1.05 x 0.05."""
 
 
+@in_figure_style
 def difference_figure(names: Sequence[str], differences: FloatArray, *, unit: str) -> Figure:
     """Draw a table of differences between matrices, numbers on colours [1].
 
@@ -354,10 +357,10 @@ def _luminance(colours: FloatArray) -> FloatArray:
 def _name_cells(panel: Axes, names: list[str], room: float, *, level: bool) -> None:
     places = range(len(names))
     panel.tick_params(top=True, bottom=False, labeltop=True, labelbottom=False, length=0.0)
-    panel.set_yticks(places, names, fontsize=SMALL_POINTS)
+    panel.set_yticks(places, names)
     # too many to be named twice: the columns are in the order of the rows
     named = level or room > _SLANTED_INCHES
-    panel.set_xticks(places, names if named else [""] * len(names), fontsize=SMALL_POINTS)
+    panel.set_xticks(places, names if named else [""] * len(names))
     if named and not level:
         for label in panel.get_xticklabels():
             label.set(rotation=_SLANT, ha="left", va="bottom", rotation_mode="anchor")

@@ -14,6 +14,7 @@ from forcetorque.evaluation.load_cases.verdict import LoadCaseError, UseVerdict
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     REFERENCE_LINE,
+    in_figure_style,
     legend_below,
     look,
     new_figure,
@@ -42,6 +43,7 @@ _AFTER_BEYOND: dict[str, Any] = {"color": look(1).colour, "marker": "X", "linest
 _MEASURED: dict[str, Any] = {"color": look(2).colour, "marker": "D", "linestyle": "none"}
 
 
+@in_figure_style
 def use_figure(verdicts: Sequence[UseVerdict], names: Mapping[str, str]) -> Figure:
     """Draw how large the errors at the loads of use will be, with the prior matrix and with the calibration.
 

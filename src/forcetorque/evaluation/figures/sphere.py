@@ -20,10 +20,9 @@ from forcetorque.results.figures import (
     PLANES,
     REFERENCE_COLOUR,
     ROW_INCHES,
-    SMALL_POINTS,
-    TITLE_POINTS,
     Look,
     drawable,
+    in_figure_style,
     legend_below,
     look,
     new_figure,
@@ -45,6 +44,7 @@ _FAR = 2.5
 """An outline that is so many times larger than the cloud would hide it and is not drawn."""
 
 
+@in_figure_style
 def sphere_figure(spheres: Sequence[SensorSphere]) -> Figure:
     """Draw the clouds, ellipsoids and spheres of sensors as seen along the axes [1].
 
@@ -79,7 +79,6 @@ def sphere_figure(spheres: Sequence[SensorSphere]) -> Figure:
         panels[0].set_title(
             shown_name(f"{sphere.sensor} ({sphere.serial}), {names[sphere.candidate]}"),
             loc="left",
-            fontsize=TITLE_POINTS,
         )
     legend_below(figure, _keys(spheres))
     return figure
@@ -171,6 +170,7 @@ _LABELS: Final[dict[Quantity, list[str]]] = {
 }
 
 
+@in_figure_style
 def force_space_figure(
     clouds: Mapping[str, Sequence[tuple[str, FloatArray]]], *, quantity: Quantity = "force"
 ) -> Figure:
@@ -205,7 +205,7 @@ def force_space_figure(
             _draw_force_plane(panel, [(looks[name], points[:, plane]) for name, points in named])
             panel.set_xlabel(labels[plane[0]])
             panel.set_ylabel(labels[plane[1]])
-        panels[0].set_title(shown_name(title), fontsize=TITLE_POINTS, loc="left")
+        panels[0].set_title(shown_name(title), loc="left")
     legend_below(figure, [(shown_name(name), style.key) for name, style in looks.items()])
     return figure
 
@@ -261,6 +261,7 @@ class _Line:
     known: bool
 
 
+@in_figure_style
 def index_figure(groups: Sequence[TrialGroup]) -> Figure:
     """Draw the performance indices of groups of trials, with their intervals, the smallest on top.
 
@@ -289,7 +290,7 @@ def index_figure(groups: Sequence[TrialGroup]) -> Figure:
     panels = figure.subplots(1, len(modes), sharey=True, squeeze=False)[0]
     for panel, mode in zip(panels, modes, strict=True):
         words = "with the model" if mode else "without the model"
-        panel.set_title(f"index {words}", loc="left", fontsize=TITLE_POINTS)
+        panel.set_title(f"index {words}", loc="left")
         panel.set_xlabel("index, kg")
         panel.set_xlim(0.0, _reach([line for group in groups for line in _lines(group, with_reference=mode)]))
         for k, (group, top) in enumerate(zip(ordered, tops[:-1], strict=True)):
@@ -301,7 +302,7 @@ def index_figure(groups: Sequence[TrialGroup]) -> Figure:
         panel.tick_params(axis="y", length=0.0)
         panel.tick_params(axis="x", labeltop=inches > _SCREEN_INCHES)
     panels[0].set_ylim(inches, 0.0)
-    panels[0].set_yticks(0.5 * (tops[:-1] + tops[1:]), _names(ordered), fontsize=SMALL_POINTS)
+    panels[0].set_yticks(0.5 * (tops[:-1] + tops[1:]), _names(ordered))
     legend_below(figure, _index_keys(groups))
     return figure
 

@@ -56,7 +56,7 @@ _FILTER = SavitzkyGolay(window_s=0.3, order=3)
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Hanging:
-    """How a reading goes with the orientation of its sensor."""
+    """How a raw sample depends on the orientation of its sensor."""
 
     stamp_ns: IntArray
     """Middles of the n windows; ns."""

@@ -64,7 +64,7 @@ _OF_JOINTS = {"j", "joint", "joints"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Likeness:
+class ColumnMatch:
     """Columns that look like one quantity."""
 
     quantity: str
@@ -93,7 +93,7 @@ def time_column(headings: Sequence[Heading], steps: Sequence[float | None]) -> i
     return next(iter(named), 0 if steps and steps[0] is not None else None)
 
 
-def likenesses(headings: Sequence[Heading], joints: Sequence[str]) -> tuple[Likeness, ...]:
+def likenesses(headings: Sequence[Heading], joints: Sequence[str]) -> tuple[ColumnMatch, ...]:
     """Say what the columns of a table look like.
 
     Args:
@@ -104,7 +104,7 @@ def likenesses(headings: Sequence[Heading], joints: Sequence[str]) -> tuple[Like
         Groups of columns, each in its order, in the order of their first columns; columns in none look like nothing.
     """
     used: set[int] = set()
-    groups: list[Likeness] = []
+    groups: list[ColumnMatch] = []
     for search in (_of_joints, _wrenches, _rotations, _quaternions, _angles, _vectors, _temperatures, _numbered):
         free = {k: heading.name.strip().lower() for k, heading in enumerate(headings) if k not in used}
         for group in search(free, joints):
@@ -118,7 +118,7 @@ def _plain(text: str) -> str:
     return re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")
 
 
-def _of_joints(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+def _of_joints(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
     """Headings with the name of a joint in them, by what else is in them."""
     by_length = sorted(joints, key=len, reverse=True)
     groups: dict[str, dict[str, int]] = {}
@@ -128,11 +128,11 @@ def _of_joints(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]
         if joint is not None:
             rest = text.replace(f"_{_plain(joint)}_", "_", 1).strip("_")
             groups.setdefault(rest, {}).setdefault(joint, k)
-    likeness: dict[str, Likeness] = {}
+    likeness: dict[str, ColumnMatch] = {}
     for rest, members in groups.items():
         quantity = _motion(rest)
         if quantity is not None and quantity not in likeness:
-            likeness[quantity] = Likeness(quantity=quantity, columns=tuple(members.values()), names=tuple(members))
+            likeness[quantity] = ColumnMatch(quantity=quantity, columns=tuple(members.values()), names=tuple(members))
     return list(likeness.values())
 
 
@@ -152,23 +152,23 @@ def _axes(free: Mapping[int, str], pattern: re.Pattern[str]) -> dict[tuple[str, 
     return groups
 
 
-def _wrenches(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+def _wrenches(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
     moments = _axes(free, _MOMENT)
     wrenches = []
     for key, force in _axes(free, _FORCE).items():
         moment = moments.get(key, {})
         if len(force) == len(moment) == 3:
             columns = tuple(axes[axis] for axes in (force, moment) for axis in "xyz")
-            wrenches.append(Likeness(quantity="wrench", columns=columns))
+            wrenches.append(ColumnMatch(quantity="wrench", columns=columns))
     return wrenches
 
 
-def _rotations(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+def _rotations(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
     order = [f"{row}{column}" for row in "123" for column in "123"]
     groups = _axes(free, _MATRIX).values()
     plain = ({axis.replace("_", ""): k for axis, k in axes.items()} for axes in groups)
     return [
-        Likeness(
+        ColumnMatch(
             quantity="orientation", columns=tuple(axes[entry] for entry in order), form=OrientationForm.MATRIX_ROWS
         )
         for axes in plain
@@ -176,17 +176,19 @@ def _rotations(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]
     ]
 
 
-def _quaternions(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+def _quaternions(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
     return [
-        Likeness(quantity="orientation", columns=tuple(axes[axis] for axis in "xyzw"), form=OrientationForm.QUAT_XYZW)
+        ColumnMatch(
+            quantity="orientation", columns=tuple(axes[axis] for axis in "xyzw"), form=OrientationForm.QUAT_XYZW
+        )
         for axes in _axes(free, _QUATERNION).values()
         if len(axes) == 4
     ]
 
 
-def _angles(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+def _angles(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
     return [
-        Likeness(
+        ColumnMatch(
             quantity="orientation",
             columns=tuple(axes[axis] for axis in ("roll", "pitch", "yaw")),
             form=OrientationForm.EULER,
@@ -196,40 +198,40 @@ def _angles(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
     ]
 
 
-def _vectors(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+def _vectors(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
     vectors = []
     for words, quantity, question in _VECTORS:
         pattern = re.compile(rf"^(?P<before>|.*[ _./:]){words}{_APART}(?P<axis>[xyz])$")
         for axes in _axes(free, pattern).values():
             if len(axes) == 3:
                 columns = tuple(axes[axis] for axis in "xyz")
-                vectors.append(Likeness(quantity=quantity, columns=columns, words=question))
+                vectors.append(ColumnMatch(quantity=quantity, columns=columns, words=question))
     return vectors
 
 
-def _temperatures(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+def _temperatures(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
     warm = [k for k, name in free.items() if name.startswith("temp")]
-    return [Likeness(quantity="temperature", columns=(k,)) for k in warm[:1]]
+    return [ColumnMatch(quantity="temperature", columns=(k,)) for k in warm[:1]]
 
 
-def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
     """Channels of electronics, and as many joints by number as the robot has."""
     groups: dict[tuple[str, str], list[tuple[int, int]]] = {}
     for k, name in free.items():
         match = _NUMBERED.match(name)
         if match:
             groups.setdefault((match["before"], match["behind"]), []).append((int(match["number"]), k))
-    likeness: dict[str, Likeness] = {}
+    likeness: dict[str, ColumnMatch] = {}
     for (before, behind), members in groups.items():
         columns = tuple(k for _, k in sorted(members))
         word = _plain(before or behind)
         if _CHANNELS.search(word) and len(columns) >= 6:
-            likeness.setdefault("raw", Likeness(quantity="raw", columns=columns))
+            likeness.setdefault("raw", ColumnMatch(quantity="raw", columns=columns))
         quantity = _motion(_plain(behind) or word) or _motion(word)
         of_joints = word in _OF_JOINTS or _STATES.match(word) is not None
         counted = len(columns) == len(joints) or (of_joints and 1 < len(columns) <= len(joints))
         if word and quantity is not None and counted:
-            likeness.setdefault(quantity, Likeness(quantity=quantity, columns=columns))
+            likeness.setdefault(quantity, ColumnMatch(quantity=quantity, columns=columns))
     return list(likeness.values())
 
 
@@ -247,7 +249,7 @@ class DraftedStream:
     """Frame of its wrench, where the log says it."""
     table: LogSketch | None = None
     """The table that it is read from; None where the log describes itself."""
-    groups: tuple[Likeness, ...] = ()
+    groups: tuple[ColumnMatch, ...] = ()
     """Columns of the table by what they look like."""
 
     @property

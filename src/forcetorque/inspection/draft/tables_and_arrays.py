@@ -12,7 +12,14 @@ from forcetorque.formats.headings import Heading, read_heading
 from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_sentence
 from forcetorque.formats.tabular.numbers import ISO8601
 from forcetorque.inspection.draft.joints import joints_question
-from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream, Likeness, likenesses, relative, time_column
+from forcetorque.inspection.draft.streams import (
+    ColumnMatch,
+    DraftedLog,
+    DraftedStream,
+    likenesses,
+    relative,
+    time_column,
+)
 from forcetorque.inspection.draft.toml_lines import (
     RATE_LINES,
     TIME_UNITS,
@@ -84,11 +91,11 @@ def _headings(sketch: LogSketch) -> list[Heading]:
     return [read_heading(column.name) for column in sketch.columns]
 
 
-def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[Likeness, ...]:
+def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[ColumnMatch, ...]:
     """Groups of columns, each quantity once; an orientation rules over what may be gravity, which follows from it."""
     if not sketch.has_headings:
         return ()
-    groups: dict[str, Likeness] = {}
+    groups: dict[str, ColumnMatch] = {}
     for group in likenesses(_headings(sketch), joints):
         groups.setdefault(group.quantity, group)
     if "position" in groups:  # which tell the pose
@@ -183,7 +190,7 @@ def _signal_lines(
 
 
 def _group_lines(
-    group: Likeness, sketch: LogSketch, model: RobotModel | None, stream: str, frames: Mapping[str, str]
+    group: ColumnMatch, sketch: LogSketch, model: RobotModel | None, stream: str, frames: Mapping[str, str]
 ) -> list[str]:
     names = [sketch.columns[k].name for k in group.columns]
     units = [read_heading(name).unit for name in names]
@@ -226,13 +233,13 @@ def _repeated(units: Sequence[str]) -> str:
     return toml_value(units) if len(units) <= _FEW else f"[{toml_value(units[0])}, ...]"
 
 
-def _largest(sketch: LogSketch, group: Likeness) -> float | None:
+def _largest(sketch: LogSketch, group: ColumnMatch) -> float | None:
     columns = (sketch.columns[k] for k in group.columns)
     ends = [abs(end) for column in columns for end in (column.smallest, column.largest) if end is not None]
     return max(ends, default=None)
 
 
-def _range_words(sketch: LogSketch, group: Likeness) -> str:
+def _range_words(sketch: LogSketch, group: ColumnMatch) -> str:
     if group.quantity != "wrench":
         extent = _extent(sketch, group.columns)
         return f"; they run {extent}{sketch.range_words}" if extent else ""
@@ -278,7 +285,7 @@ def array_streams(sketch: LogSketch, joints: Sequence[str]) -> tuple[DraftedStre
     return tuple(streams)
 
 
-def array_groups(members: Sequence[SketchedColumns], joints: Sequence[str]) -> Iterable[Likeness]:
+def array_groups(members: Sequence[SketchedColumns], joints: Sequence[str]) -> Iterable[ColumnMatch]:
     """Say what arrays look like by the words in their names, as far as their width fits; each quantity once.
 
     Args:
@@ -297,7 +304,7 @@ def array_groups(members: Sequence[SketchedColumns], joints: Sequence[str]) -> I
             joint_like = width or "joint" in words or "joints" in words or array.columns == len(joints)
             if quantity not in quantities and fits and joint_like and words & set(likely):
                 quantities.add(quantity)
-                yield Likeness(quantity=quantity, columns=(k,))
+                yield ColumnMatch(quantity=quantity, columns=(k,))
                 break
 
 
@@ -372,7 +379,7 @@ def _time_lines(sketch: LogSketch) -> list[str]:
 
 
 def _array_signal(
-    group: Likeness, array: SketchedColumns, model: RobotModel | None, stream: str, frames: Mapping[str, str]
+    group: ColumnMatch, array: SketchedColumns, model: RobotModel | None, stream: str, frames: Mapping[str, str]
 ) -> list[str]:
     quantity = QUANTITIES[group.quantity]
     usual = USUAL_UNITS.get(group.quantity, "")

@@ -10,8 +10,7 @@ import numpy as np
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,
-    SMALL_POINTS,
-    TITLE_POINTS,
+    in_figure_style,
     legend_below,
     look,
     new_figure,
@@ -31,6 +30,7 @@ _COLUMNS = 4
 _MEASURED, _FITTED = look(0), look(1)
 
 
+@in_figure_style
 def response_figure(response: Response) -> Figure:
     """Draw gain, phase and coherence over frequency, and the first decays.
 
@@ -91,21 +91,19 @@ def _bode(panels: list[Axes], curve: ResponseCurve, response: Response) -> None:
         panels[0].loglog(frequency, np.maximum(np.abs(fitted), floor), **style)
         panels[1].semilogx(frequency, (np.degrees(np.angle(fitted)) - 90.0) % 360.0 - 270.0, **style)
     for panel, label in zip(panels, ("gain", "phase, deg", "coherence"), strict=True):
-        panel.set_ylabel(label, fontsize=TITLE_POINTS)
-        panel.set_xlabel("frequency, Hz", fontsize=TITLE_POINTS)
-        panel.tick_params(labelsize=SMALL_POINTS)
-    panels[0].set_title(shown_name(f"{response.sensor}, {response.signal}"), fontsize=TITLE_POINTS, loc="left")
+        panel.set_ylabel(label)
+        panel.set_xlabel("frequency, Hz")
+    panels[0].set_title(shown_name(f"{response.sensor}, {response.signal}"), loc="left")
 
 
 def _decay(panel: Axes, decay: DecayCurve, *, first: bool, signal: str) -> None:
     time = 1e3 * decay.time_s
     panel.plot(time, decay.reading, color=_MEASURED.colour, linestyle=_MEASURED.dashes, linewidth=1.0)
     panel.plot(time, decay.fitted, color=_FITTED.colour, linestyle=_FITTED.dashes, linewidth=1.2)
-    panel.set_title(_short(decay.title), fontsize=SMALL_POINTS, loc="left")
-    panel.set_xlabel("behind the event, ms", fontsize=SMALL_POINTS)
+    panel.set_title(_short(decay.title), loc="left")
+    panel.set_xlabel("behind the event, ms")
     if first:
-        panel.set_ylabel(shown_name(signal), fontsize=SMALL_POINTS)
-    panel.tick_params(labelsize=SMALL_POINTS)
+        panel.set_ylabel(shown_name(signal))
 
 
 def _short(title: str) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.results.figures import COLOURS, ROW_INCHES, new_figure, thinned_line
+from forcetorque.results.figures import COLOURS, ROW_INCHES, in_figure_style, new_figure, thinned_line
 from forcetorque.sensor.gains.gains import SensorGains
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+@in_figure_style
 def gain_figure(sensors: Sequence[SensorGains]) -> Figure:
     """Draw the raw channels against their limits, with the present and with the recommended gains [1].
 
@@ -58,5 +59,5 @@ def _draw(panel: Axes, gains: SensorGains, counts: FloatArray, *, title: str) ->
         panel.plot(time, drawn[:, k], style, color=colour, linewidth=0.9, label=advised.channel)
     reach = max(1.1 * limit, float(np.abs(counts).max()))
     panel.set_ylim(-reach, reach)
-    panel.set_title(title, fontsize=10)
+    panel.set_title(title)
     panel.set_xlabel("time, s")

@@ -10,8 +10,7 @@ import numpy as np
 
 from forcetorque.results.figures import (
     ROW_INCHES,
-    SMALL_POINTS,
-    TITLE_POINTS,
+    in_figure_style,
     legend_below,
     look,
     new_figure,
@@ -30,6 +29,7 @@ _POINTS = 400
 _BRANCHES = ((1.0, "heating", look(1)), (-1.0, "cooling", look(0)))
 
 
+@in_figure_style
 def thermal_figure(sensors: Sequence[SensorThermal]) -> Figure:
     """Draw readings without offset and drift in time over temperature, with the fitted line of either branch.
 
@@ -47,9 +47,9 @@ def thermal_figure(sensors: Sequence[SensorThermal]) -> Figure:
     for k, sensor in enumerate(sensors):
         for j, panel in enumerate(panels[2 * k : 2 * k + 2].ravel()):
             _draw(panel, sensor, j)
-        panels[2 * k, 0].set_title(shown_name(f"{sensor.sensor} ({sensor.serial})"), fontsize=TITLE_POINTS, loc="left")
+        panels[2 * k, 0].set_title(shown_name(f"{sensor.sensor} ({sensor.serial})"), loc="left")
         for panel in panels[2 * k + 1]:
-            panel.set_xlabel("temperature, degC", fontsize=TITLE_POINTS)
+            panel.set_xlabel("temperature, degC")
     dots = [(name, _dots(style) | {"linestyle": "none"}) for _, name, style in _BRANCHES]
     lines = [(f"{name}, fitted", {"color": style.colour, "linestyle": style.dashes}) for _, name, style in _BRANCHES]
     legend_below(figure, [*dots, *lines])
@@ -68,8 +68,7 @@ def _draw(panel: Axes, sensor: SensorThermal, j: int) -> None:
         ends = np.array([degrees.min(), degrees.max()])
         line = row.drift_per_degC * (ends - curve.reference_degC) + 0.5 * sign * (row.hysteresis or 0.0)
         panel.plot(ends, line, color=style.colour, linestyle=style.dashes, linewidth=1.4)
-    panel.set_ylabel(curve.signals[j], fontsize=TITLE_POINTS)
-    panel.tick_params(labelsize=SMALL_POINTS)
+    panel.set_ylabel(curve.signals[j])
 
 
 def _dots(style: Any) -> dict[str, Any]:
