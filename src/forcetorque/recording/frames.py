@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, require_shape
 from forcetorque.base.errors import FormatError, RecordingError, UnitError
 from forcetorque.base.pose import make_pose
 from forcetorque.base.units import STANDARD_GRAVITY, si_factor
@@ -74,7 +74,7 @@ def _turns_about(axes: str) -> bool:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class OrientationLayout:
+class OrientationLayout(ArrayRecord):
     """What the numbers of a log say of the orientation of a frame."""
 
     form: OrientationForm
@@ -85,14 +85,14 @@ class OrientationLayout:
     """Of Euler angles the axes in the order of the angles, such as `zyx`."""
     about: EulerAxes | None = None
     """Of Euler angles whether the axes move."""
-    gravity_direction: FloatArray = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
+    gravity_direction: FloatArray = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]), metadata=array(3))
     """Direction in which things fall, along the world's axes; shape (3,)."""
     gravity: float = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
 
     def __post_init__(self) -> None:
-        direction = read_only(self.gravity_direction, name="gravity_direction", shape=(3,))
-        object.__setattr__(self, "gravity_direction", direction)
+        check_arrays(self)
+        direction = self.gravity_direction
         length = float(np.linalg.norm(direction))
         if not (np.isfinite(length) and length > 0.0 and np.isfinite(self.gravity) and self.gravity > 0.0):
             raise FormatError(

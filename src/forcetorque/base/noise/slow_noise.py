@@ -10,7 +10,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, require_shape
 from forcetorque.base.errors import FitError
 
 
@@ -56,14 +56,14 @@ _TOO_CLOSE = "slow noise: the instants are too close to each other to tell it fr
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Timeline:
+class Timeline(ArrayRecord):
     """When n means were taken; slow noise goes on within a recording and starts anew with the next."""
 
-    time_s: FloatArray
+    time_s: FloatArray = field(metadata=array("n"))
     """Instants, not falling within a recording; shape (n,); s."""
-    recording: IntArray
+    recording: IntArray = field(metadata=array("n", dtype="int"))
     """Number of the recording of each; those of one recording stand together; shape (n,)."""
-    share: FloatArray
+    share: FloatArray = field(metadata=array("n"))
     """Samples in each mean over the usual number: its white noise has the variance s^2 / share; shape (n,)."""
     _precisions: dict[float, tuple[FloatArray, FloatArray, float]] = field(default_factory=dict, init=False, repr=False)
 
@@ -83,17 +83,16 @@ class Timeline:
             ShapeError: If the shapes differ.
             FitError: If time falls within a recording, or a share is not above 0.
         """
-        time = read_only(time_s, name="time_s", shape=(None,))
-        n = len(time)
-        number = np.zeros(n, dtype=np.int64) if recording is None else np.array(recording, dtype=np.int64)
-        require_shape(number, name="recording", shape=(n,))
-        number.setflags(write=False)
-        part = read_only(np.ones(n) if share is None else share, name="share", shape=(n,))
-        if (np.diff(time)[np.diff(number) == 0] < 0.0).any():
+        line = cls(
+            time_s=time_s,
+            recording=np.zeros(np.shape(time_s), dtype=np.int64) if recording is None else recording,
+            share=np.ones(np.shape(time_s)) if share is None else share,
+        )
+        if (np.diff(line.time_s)[np.diff(line.recording) == 0] < 0.0).any():
             raise FitError("time_s: expected instants that do not fall within a recording; sort the samples")
-        if not (part > 0.0).all():
+        if not (line.share > 0.0).all():
             raise FitError("share: expected numbers above 0; leave out means of no sample")
-        return cls(time_s=time, recording=number, share=part)
+        return line
 
     def __len__(self) -> int:
         return len(self.time_s)
@@ -216,23 +215,17 @@ _ROUNDING = 1e-13
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Regression:
+class Regression(ArrayRecord):
     """Coefficients of k columns of values on one design of p columns."""
 
-    coefficients: FloatArray
+    coefficients: FloatArray = field(metadata=array("k", "p"))
     """Mean of the mixture; shape (k, p)."""
-    covariance: FloatArray
+    covariance: FloatArray = field(metadata=array("k", "p", "p"))
     """Their covariance, spread of the mixture included; shape (k, p, p); infinite without a degree of freedom."""
-    degrees_of_freedom: FloatArray
+    degrees_of_freedom: FloatArray = field(metadata=array("k", "p"))
     """Of Student's t of every coefficient; shape (k, p); 0 where nothing is left to tell the noise."""
-    noise: FloatArray
+    noise: FloatArray = field(metadata=array("k"))
     """Standard deviation of the white part of a full mean; shape (k,)."""
-
-    def __post_init__(self) -> None:
-        k, p = np.shape(self.coefficients)
-        shapes = {"coefficients": (k, p), "covariance": (k, p, p), "degrees_of_freedom": (k, p), "noise": (k,)}
-        for component, shape in shapes.items():
-            object.__setattr__(self, component, read_only(getattr(self, component), name=component, shape=shape))
 
     @property
     def standard_error(self) -> FloatArray:

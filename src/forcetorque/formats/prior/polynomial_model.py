@@ -7,13 +7,13 @@ Its inputs are wrenches as another calibration gives them, so it corrects a cali
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.input_file import read_xml
 from forcetorque.base.output_file import write_bytes_atomically
@@ -26,19 +26,15 @@ _LARGEST = 1e12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PolynomialModel:
+class PolynomialModel(ArrayRecord):
     """A correction of calibrated wrenches: `wrench = matrix reading + offset`."""
 
-    matrix: FloatArray
+    matrix: FloatArray = field(metadata=array(6, None))
     """Matrix; shape (6, c)."""
-    offset: FloatArray
+    offset: FloatArray = field(metadata=array(6))
     """Offset; shape (6,); N, N m."""
     name: str = "polynomial"
     """What the file calls the model."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", read_only(self.matrix, name="matrix", shape=(6, None)))
-        object.__setattr__(self, "offset", read_only(self.offset, name="offset", shape=(6,)))
 
 
 class PolynomialModelFile:
