@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol, TypeVar, runtime_checkable
+from typing import NamedTuple, Protocol, Self, TypeVar, runtime_checkable
 
 import numpy as np
 
@@ -28,6 +28,15 @@ class LogTable(Table):
     """Files or folders of the same form in which it goes on, in the order of time."""
 
 
+class StreamReading(NamedTuple):
+    """One stream of a log, and what was found while reading it."""
+
+    stream: Stream
+    """The stream."""
+    findings: tuple[Finding, ...] = ()
+    """What is wrong with it; empty if nothing is."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LogReading:
     """What every format gives: streams, each with the name of its clock, and what is wrong with them."""
@@ -38,6 +47,31 @@ class LogReading:
     """What was found while reading them."""
     origin: Mapping[str, str] | None = None
     """What the log itself says of where it comes from; None if nothing."""
+
+    @classmethod
+    def of(
+        cls,
+        readings: Iterable[StreamReading],
+        *,
+        unread: Iterable[Finding] = (),
+        origin: Mapping[str, str] | None = None,
+    ) -> Self:
+        """Collect the streams of a log.
+
+        Args:
+            readings: The streams, each with its findings.
+            unread: Findings on what was not read; they come first.
+            origin: As of the class.
+
+        Returns:
+            All of them.
+        """
+        streams = tuple(readings)
+        return cls(
+            streams=tuple(reading.stream for reading in streams),
+            findings=(*unread, *(finding for reading in streams for finding in reading.findings)),
+            origin=origin,
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -205,6 +239,32 @@ def median_step(values: FloatArray | IntArray) -> float | None:
     steps = np.diff(values)
     median = float(np.median(steps)) if len(steps) and (steps >= 0).all() else 0.0
     return median if median > 0.0 else None
+
+
+def sketched_numbers(name: str, values: FloatArray, *, rows: int, unit: str | None = None) -> SketchedColumns:
+    """Describe the numbers of a single column.
+
+    Args:
+        name: Its name.
+        values: Its first numbers; shape (n,); numbers that are not finite count for no extreme and no mean.
+        rows: How many rows it has.
+        unit: Unit that its name states.
+
+    Returns:
+        The column with its range, and its step where it may be times.
+    """
+    finite = values[np.isfinite(values)]
+    if not len(finite):
+        return SketchedColumns(name=name, rows=rows, unit=unit)
+    return SketchedColumns(
+        name=name,
+        rows=rows,
+        unit=unit,
+        smallest=float(finite.min()),
+        largest=float(finite.max()),
+        mean=float(finite.mean()),
+        step=median_step(values),
+    )
 
 
 def skipped_words(skipped: Mapping[str, str]) -> str:

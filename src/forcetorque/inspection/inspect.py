@@ -18,7 +18,7 @@ from forcetorque.experiment.file import ExperimentFile, parse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.tried_clocks import load_tried_clocks
 from forcetorque.formats.log_format import SketchingFormat, not_read_sentence
-from forcetorque.formats.prior.prior_file import PriorFile, StatedUnits
+from forcetorque.formats.prior.prior_file import PriorFile
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.formats.registry import format_named, not_recognised, recognised_format
 from forcetorque.inspection.draft.log import looks
@@ -213,7 +213,7 @@ def _prior(source: Path) -> PriorFile:
     try:
         return read_prior_file(source)
     except FormatError:
-        file = read_prior_file(source, StatedUnits(force="N", moment="N m"))
+        file = read_prior_file(source, force_unit="N", moment_unit="N m")
     words = "as if its units were N and N m per count, which it does not state"
     return replace(file, notes=(words,))
 

@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.recording.alignment import GAP_PERIODS
-from forcetorque.recording.delay_equation import DelayEquation, Stretch, even_means, smoothed
+from forcetorque.recording.delay_equation import DelayEquation, even_means, smoothed
 
 EVEN = 0.01
 """Deviation from even steps, in steps, that is no reason to interpolate."""
@@ -180,7 +180,8 @@ def estimate_delay(
             "state around_s, where it is to be looked for, or a larger within_s"
         )
     equation = DelayEquation(
-        [Stretch(time_s=at[most:-most], reading=values[most:-most]) for at, values, _ in sampled],
+        [at[most:-most] for at in grids],
+        [values[most:-most] for _, values, _ in sampled],
         reference_time_s=np.concatenate(grids),
         reference=np.concatenate([other for _, _, other in sampled]),
         step_s=step,

@@ -27,16 +27,6 @@ _FEWEST_STEPS = 10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Stretch:
-    """A reading at n even steps of time."""
-
-    time_s: FloatArray
-    """Instants; shape (n,); s."""
-    reading: FloatArray
-    """Reading; shape (n, k)."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Root:
     """Delay and drift that solve the equation, with standard errors."""
 
@@ -61,21 +51,23 @@ class _Left:
 
 
 class DelayEquation:
-    """Reading and reference of several stretches of time."""
+    """Reading and reference of several intervals."""
 
     def __init__(
         self,
-        stretches: Sequence[Stretch],
+        times_s: Sequence[FloatArray],
+        measured: Sequence[FloatArray],
         *,
         reference_time_s: FloatArray,
         reference: FloatArray,
         step_s: float,
         middle_s: float,
     ) -> None:
-        """Take stretches that lie inside the reference, by as much as delays will be.
+        """Take intervals that lie inside the reference, by as much as delays will be.
 
         Args:
-            stretches: The reading.
+            times_s: Even steps of time of every interval; shapes (n,); s.
+            measured: Reading at these steps; shapes (n, k).
             reference_time_s: Stamps of the reference, rising; shape (m,); s.
             reference: Reference; shape (m, p).
             step_s: Step of time of the reading; s.
@@ -83,14 +75,14 @@ class DelayEquation:
         """
         from scipy.interpolate import CubicSpline  # here because importing it takes longer than most commands
 
-        self.time = np.concatenate([stretch.time_s for stretch in stretches])
-        self.reading = np.concatenate([stretch.reading for stretch in stretches])
+        self.time = np.concatenate(times_s)
+        self.reading = np.concatenate(measured)
         self.step, self.since = step_s, self.time - middle_s
         self._curve = CubicSpline(reference_time_s, reference)
-        lengths = [len(stretch.time_s) for stretch in stretches]
-        number = np.repeat(np.arange(len(stretches)), lengths)
+        lengths = list(map(len, times_s))
+        number = np.repeat(np.arange(len(lengths)), lengths)
         along = np.concatenate([np.linspace(-1.0, 1.0, length) for length in lengths])
-        own = number[:, None] == np.arange(len(stretches))
+        own = number[:, None] == np.arange(len(lengths))
         self._constant = np.hstack([own, own * along[:, None]]).astype(np.float64)
 
     def solved(self, start: float, *, with_drift: bool) -> Root:

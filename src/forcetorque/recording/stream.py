@@ -34,7 +34,7 @@ class Quantity:
 
     name: str
     """Name of the signal in a stream."""
-    labels: Labels
+    labels: Labels = Labels.FIXED
     """What names its columns."""
     columns: tuple[str, ...] = ()
     """Column names where they are fixed."""
@@ -53,7 +53,6 @@ QUANTITIES = {
     for quantity in (
         Quantity(
             name="wrench",
-            labels=Labels.FIXED,
             columns=WRENCH_COMPONENTS,
             units=WRENCH_UNITS,
             has_frame=True,
@@ -61,7 +60,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="applied_wrench",
-            labels=Labels.FIXED,
             columns=WRENCH_COMPONENTS,
             units=WRENCH_UNITS,
             has_frame=True,
@@ -69,7 +67,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="vertical_force",
-            labels=Labels.FIXED,
             columns=("vertical_force",),
             units=("N",),
             description="Force of the ground on a foot along the normal of its sole, positive where it presses.",
@@ -115,14 +112,12 @@ QUANTITIES = {
         ),
         Quantity(
             name="temperature",
-            labels=Labels.FIXED,
             columns=("temperature",),
             units=("degC",),
             description="Temperature of a sensor.",
         ),
         Quantity(
             name="proper_acceleration",
-            labels=Labels.FIXED,
             columns=_XYZ,
             units=("m/s2",) * 3,
             has_frame=True,
@@ -130,7 +125,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="orientation",
-            labels=Labels.FIXED,
             columns=tuple(f"r{row}{column}" for row in "123" for column in "123"),
             units=("1",) * 9,
             has_frame=True,
@@ -138,7 +132,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="translation",
-            labels=Labels.FIXED,
             columns=_XYZ,
             units=("m",) * 3,
             has_frame=True,
@@ -146,7 +139,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="gravity",
-            labels=Labels.FIXED,
             columns=_XYZ,
             units=("m/s2",) * 3,
             has_frame=True,
@@ -154,7 +146,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="angular_velocity",
-            labels=Labels.FIXED,
             columns=_XYZ,
             units=("rad/s",) * 3,
             has_frame=True,
@@ -162,7 +153,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="angular_acceleration",
-            labels=Labels.FIXED,
             columns=_XYZ,
             units=("rad/s2",) * 3,
             has_frame=True,
@@ -170,7 +160,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="saturated",
-            labels=Labels.FIXED,
             columns=("saturated",),
             units=("0 or 1",),
             description="Status of a board: 1 while a channel is at its limit and the last valid sample is held.",
@@ -190,7 +179,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="pressure",
-            labels=Labels.FIXED,
             columns=("pressure",),
             units=("Pa",),
             description="Pressure of a chamber or bag above that of the air around, which skin is calibrated with.",
@@ -202,7 +190,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="device_stamp",
-            labels=Labels.FIXED,
             columns=("device_stamp",),
             units=("tick",),
             description="The device's own clock, in its own unit: shows transport delay and jitter.",

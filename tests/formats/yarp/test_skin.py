@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.registry import recognised_format
-from forcetorque.formats.yarp.discover import PortKind, discover_ports, read_port
+from forcetorque.formats.yarp.discover import PortKind, discover_ports, read_found_port
 from forcetorque.formats.yarp.skin_ports import read_skin
 from tests.formats.yarp.port_logs import write_port
 
@@ -52,7 +52,7 @@ def test_it_is_discovered_by_its_folder(tmp_path: Path) -> None:
         "skin/arm_comp:o": PortKind.UNKNOWN,
     }
     assert "rises with pressure where counts fall" in str(ports["skin/arm_comp:o"].reason)
-    (reading,) = read_port(ports["skin/arm:o"])
+    (reading,) = read_found_port(ports["skin/arm:o"])
     np.testing.assert_array_equal(reading.stream.signal("taxel_counts").values, COUNTS)
 
 

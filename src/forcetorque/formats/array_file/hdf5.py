@@ -10,7 +10,6 @@ from typing import Any
 from forcetorque.base.arrays import FloatArray
 from forcetorque.formats.array_file.streams import ArrayContents
 from forcetorque.formats.hdf5_file import dataset_numbers, datasets, is_numeric, members, opened_hdf5, require_readable
-from forcetorque.formats.robometry.channels import log_group
 
 MAGIC_73 = b"MATLAB 7.3 MAT-file"
 """What files of MATLAB 7.3 begin with, before the signature of HDF5."""
@@ -27,19 +26,6 @@ def is_matlab_73(path: Path) -> bool:
     """
     with path.open("rb") as file:
         return file.read(len(MAGIC_73)) == MAGIC_73
-
-
-def labels_itself(path: Path) -> bool:
-    """Tell whether a file is a log of robometry, which says what it holds.
-
-    Args:
-        path: An HDF5 file.
-
-    Returns:
-        Whether it is.
-    """
-    with opened_hdf5(path) as file:
-        return log_group(file) is not None
 
 
 def hdf5_contents(path: Path, *, matlab: bool) -> ArrayContents:
@@ -62,7 +48,7 @@ def hdf5_contents(path: Path, *, matlab: bool) -> ArrayContents:
                 shapes[name] = _rows_and_columns(entry.dataset.shape, matlab=matlab)
             else:
                 skipped[name] = reason
-    return ArrayContents(shapes=dict(sorted(shapes.items())), skipped=dict(sorted(skipped.items())))
+    return dict(sorted(shapes.items())), dict(sorted(skipped.items()))
 
 
 def read_hdf5(path: Path, names: Collection[str], *, matlab: bool) -> dict[str, FloatArray]:

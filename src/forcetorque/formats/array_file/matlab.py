@@ -304,7 +304,7 @@ def matlab_contents(path: Path) -> ArrayContents:
             shapes[matrix.name] = (matrix.shape[0], matrix.shape[1])
         else:
             skipped[matrix.name] = matrix.content
-    return ArrayContents(shapes=shapes, skipped=skipped)
+    return shapes, skipped
 
 
 def read_matlab(path: Path, names: Collection[str]) -> dict[str, FloatArray]:

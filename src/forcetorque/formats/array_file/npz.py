@@ -79,7 +79,7 @@ def npz_contents(path: Path) -> ArrayContents:
                 shapes[name] = (shape[0], math.prod(shape[1:]))
             else:
                 skipped[name] = f"{' x '.join(map(str, shape))} values of {dtype}"
-    return ArrayContents(shapes=shapes, skipped=skipped)
+    return shapes, skipped
 
 
 def read_npz(path: Path, names: Collection[str]) -> dict[str, FloatArray]:

@@ -19,7 +19,7 @@ from forcetorque.base.input_file import read_xml
 from forcetorque.base.pose import invert_pose, make_pose
 from forcetorque.base.units import si_factor
 from forcetorque.base.wrench import wrench_matrix
-from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
+from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 
 _AXES = ("Fx", "Fy", "Fz", "Tx", "Ty", "Tz")
 _FORCES = {"n": "N", "kn": "kN", "lbf": "lbf", "lb": "lbf", "kg": "kgf", "kgf": "kgf"}
@@ -50,7 +50,7 @@ class AtiCalibration:
         """Look for the root element."""
         return "<FTSensor" in text
 
-    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+    def read(self, path: Path, text: str) -> PriorFile:
         """Read it."""
         root = read_xml(path)
         try:

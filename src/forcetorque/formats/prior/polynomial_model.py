@@ -17,7 +17,7 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.input_file import read_xml
 from forcetorque.base.output_file import write_bytes_atomically
-from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
+from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 
 _GROUP = "modelClassParams"
 _ROW = re.compile(r"row([0-9]{1,4})")
@@ -46,7 +46,7 @@ class PolynomialModelFile:
         """Look for the name of the group."""
         return _GROUP in text and "<group" in text
 
-    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+    def read(self, path: Path, text: str) -> PriorFile:
         """Read it."""
         model = read_polynomial_model(path)
         return PriorFile(

@@ -22,16 +22,6 @@ class RawUnit(StrEnum):
     WRENCH = "N, N m"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StatedUnits:
-    """Units that a file does not state and somebody else does."""
-
-    force: str | None = None
-    """Unit of the first three rows; None where nobody said."""
-    moment: str | None = None
-    """Unit of the last three rows; None where nobody said."""
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PriorFile(ArrayRecord):
     """A calibration that a sensor came with."""
@@ -80,13 +70,12 @@ class PriorFormat(Protocol):
             Whether it is.
         """
 
-    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+    def read(self, path: Path, text: str) -> PriorFile:
         """Read a file.
 
         Args:
             path: File.
             text: Its content.
-            units: Units for a form that states none.
 
         Returns:
             What it says.

@@ -14,7 +14,7 @@ from pydantic import Field
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ForceTorqueError, FormatError, known_names
 from forcetorque.base.toml_file import Table, Text
-from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable
+from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable, StreamReading
 from forcetorque.formats.ros.bag import Bag, bag_files, is_bag, opened_bag
 from forcetorque.formats.ros.messages import (
     IMU_TYPE,
@@ -117,7 +117,7 @@ def topic_stream(
     world: str | None,
     joint_units: Mapping[str, str],
     orientation: OrientationLayout | None = None,
-) -> tuple[Stream, tuple[Finding, ...]]:
+) -> StreamReading:
     """Make the stream of a topic.
 
     Args:
@@ -160,7 +160,7 @@ def topic_stream(
         # drivers that leave the counter at zero do not count
         sequence=counters if counters is not None and world is None and counters.any() else None,
     )
-    return stream, (*stamp_findings, *findings)
+    return StreamReading(stream, (*stamp_findings, *findings))
 
 
 def _stamps(samples: Samples, name: str, order: IntArray) -> tuple[IntArray, tuple[Finding, ...]]:
@@ -277,9 +277,6 @@ class RosLog(LogTable):
     """What is read."""
 
 
-_Reading = tuple[Stream, tuple[Finding, ...]]
-
-
 class RosFormat:
     """Bags of ROS 1 (.bag) and of ROS 2 (.db3, .mcap, or the folder of either)."""
 
@@ -292,7 +289,7 @@ class RosFormat:
 
     def describe(self, path: Path) -> LogDescription:
         """Read every topic of a type that is known; the others are findings."""
-        readings: dict[str, _Reading] = {}
+        readings: dict[str, StreamReading] = {}
         unread: list[Finding] = []
         with opened_bag(path) as bag:
             for topic, kind in sorted(bag.types.items()):
@@ -318,11 +315,7 @@ class RosFormat:
                     RosStream.model_construct(name=topic, topic=topic, frame=None, world=None) for topic in readings
                 ),
             ),
-            reading=LogReading(
-                streams=tuple(stream for stream, _ in readings.values()),
-                findings=(*unread, *(finding for _, findings in readings.values() for finding in findings)),
-                origin={"format": "ros", "path": str(path)},
-            ),
+            reading=LogReading.of(readings.values(), unread=unread, origin={"format": "ros", "path": str(path)}),
         )
 
     def read(self, stated: RosLog, context: LogContext) -> LogReading:
@@ -335,10 +328,7 @@ class RosFormat:
                 with context.stated_in(f"stream[{k}]"):
                     framed = entry.model_copy(update={"frame": entry.frame or context.sensors.get(entry.name)})
                     readings.append(_read(bag, framed, context.joint_units))
-        return LogReading(
-            streams=tuple(stream for stream, _ in readings),
-            findings=tuple(finding for _, findings in readings for finding in findings),
-        )
+        return LogReading.of(readings)
 
 
 def _not_described(kind: str) -> str | None:
@@ -349,7 +339,7 @@ def _not_described(kind: str) -> str | None:
     return None if kind in MESSAGES else f"nothing reads messages of {kind}"
 
 
-def _read(bag: Bag, entry: RosStream, joint_units: Mapping[str, str]) -> _Reading:
+def _read(bag: Bag, entry: RosStream, joint_units: Mapping[str, str]) -> StreamReading:
     types = bag.types
     if entry.topic not in types:
         raise FormatError(f"{bag.path}: no topic {entry.topic!r}; {known_names(entry.topic, types)}")

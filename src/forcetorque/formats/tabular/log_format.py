@@ -13,7 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.base.errors import FormatError
 from forcetorque.base.toml_file import Table, Text
-from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogSketch, LogTable
+from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogSketch, LogTable, StreamReading
 from forcetorque.formats.signals import StatedRate, StatedSignal
 from forcetorque.formats.tabular.sketch import is_table, sketch_table
 from forcetorque.formats.tabular.table import ROW_NS, read_table, table_columns
@@ -138,14 +138,10 @@ class TabularFormat:
     def read(self, stated: TabularLog, context: LogContext) -> LogReading:
         """Read every file that is stated."""
         context.folder(stated.path)
-        readings = [_read_stream(k, stated, context) for k in range(len(stated.stream))]
-        return LogReading(
-            streams=tuple(stream for reading in readings for stream in reading.streams),
-            findings=tuple(finding for reading in readings for finding in reading.findings),
-        )
+        return LogReading.of([_read_stream(k, stated, context) for k in range(len(stated.stream))])
 
 
-def _read_stream(k: int, stated: TabularLog, context: LogContext) -> LogReading:
+def _read_stream(k: int, stated: TabularLog, context: LogContext) -> StreamReading:
     entry = stated.stream[k]
     paths = [context.file(stated.path / file) for file in entry.files]
     with context.stated_in(f"stream[{k}]"):
@@ -155,14 +151,13 @@ def _read_stream(k: int, stated: TabularLog, context: LogContext) -> LogReading:
         ]
         pieces = [stream for reading in readings for stream in reading.streams]
         joined = joined_stream(_numbered_on(pieces) if entry.stamp == "row" else pieces, [*map(str, paths)])
-    skipped = () if entry.skip_rows == 0 else (_skipped(entry),)
-    doubts = (finding for reading in readings for finding in reading.findings)
-    return LogReading(streams=(joined,), findings=(*skipped, *entry.rate_findings(entry.name, len(joined)), *doubts))
-
-
-def _skipped(entry: TabularStream) -> Finding:
-    text = f"{entry.skip_rows} line(s) in front of the table are not read, as stated"
-    return Finding(stream=entry.name, kind="skipped_rows", message=text, count=entry.skip_rows)
+    findings = [*entry.rate_findings(entry.name, len(joined))]
+    if entry.skip_rows:
+        text = f"{entry.skip_rows} line(s) in front of the table are not read, as stated"
+        skipped = Finding(stream=entry.name, kind="skipped_rows", message=text, count=entry.skip_rows)
+        findings.insert(0, skipped)
+    findings += [finding for reading in readings for finding in reading.findings]
+    return StreamReading(joined, tuple(findings))
 
 
 def _layout(entry: TabularStream, number: int) -> TableLayout:

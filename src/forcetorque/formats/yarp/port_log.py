@@ -15,7 +15,7 @@ from __future__ import annotations
 import gzip
 import re
 import zlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BufferedIOBase
@@ -26,6 +26,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.input_file import require_unpacked
+from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import (
     Bottle,
     LineGroup,
@@ -40,6 +41,10 @@ from forcetorque.formats.yarp.message import (
     quote,
 )
 from forcetorque.recording.recording import Finding
+from forcetorque.recording.stream import Signal, Stream
+
+CLOCK = "yarp"
+"""Name of the clock of all streams of a YARP network, whose machines are assumed to be synchronised."""
 
 LOG_NAMES = ("data.log", "data.log.gz")
 """Names that the file of messages may have."""
@@ -229,6 +234,22 @@ class PortLog:
     """Chosen numbers; shape (n, width); NaN where a message has none."""
     findings: tuple[Finding, ...]
     """What is to be known about the stamps."""
+
+    def reading(self, stream: str, signals: Mapping[str, Signal], *, findings: Sequence[Finding] = ()) -> StreamReading:
+        """Make a stream of the messages.
+
+        Args:
+            stream: Name for the stream.
+            signals: Signals by quantity, one sample per message.
+            findings: Findings on the signals.
+
+        Returns:
+            The stream, with the findings on the stamps in front of those on the signals.
+        """
+        return StreamReading(
+            Stream(name=stream, clock=CLOCK, stamp_ns=self.stamp_ns, signals=signals, sequence=self.sequence),
+            (*self.findings, *findings),
+        )
 
 
 def read_port_log(port_dir: str | Path, *, stream: str, choose: Choose) -> PortLog:

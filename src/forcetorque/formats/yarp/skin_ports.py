@@ -9,14 +9,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FormatError, RecordingError
+from forcetorque.base.toml_file import Table, Text
+from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import Bottle, BottleValue, check_head, is_number, leaves, parse_bottle
-from forcetorque.formats.yarp.plain_ports import CLOCK, PortReading, expect_numbers
+from forcetorque.formats.yarp.plain_ports import expect_numbers
 from forcetorque.formats.yarp.port_log import (
+    CLOCK,
     LINE_LIMIT,
     PortFolder,
     find_port,
@@ -242,7 +247,7 @@ MOST_TAXELS = 10_000
 """Numbers of one patch: the torso of iCub has 768."""
 
 
-def read_skin(port_dir: str | Path, *, stream: str, taxels: int) -> PortReading:
+def read_skin(port_dir: str | Path, *, stream: str, taxels: int) -> StreamReading:
     """Read the log of a port of skin.
 
     Args:
@@ -265,12 +270,7 @@ def read_skin(port_dir: str | Path, *, stream: str, taxels: int) -> PortReading:
     choose = partial(expect_numbers, names=names, advice="state how many numbers a message of this patch has")
     log = read_port_log(port_dir, stream=stream, choose=choose)
     counts = Signal(quantity="taxel_counts", values=log.values, columns=names, units=("counts",) * taxels)
-    return PortReading(
-        stream=Stream(
-            name=stream, clock=CLOCK, stamp_ns=log.stamp_ns, signals={counts.quantity: counts}, sequence=log.sequence
-        ),
-        findings=log.findings,
-    )
+    return log.reading(stream, {counts.quantity: counts})
 
 
 def holds_skin(path: str, count: int) -> bool:
@@ -304,19 +304,18 @@ _EVENT = re.compile(rb"^\S+ (?:\S+ ){1,2}\(\(-?\d+ -?\d+ -?\d+ -?\d+\) \(")
 """A message that begins with a contact."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SkinPart:
-    """A patch of skin of which contacts are wanted."""
+class SkinPart(Table):
+    """One patch of skin of a YARP port `skin_events:o`."""
 
-    number: int
-    """Its number in the messages, such as 12 for the right lower leg."""
-    stream: str
-    """Name for its stream."""
-    frame: str
-    """Frame that the messages give its contacts in."""
+    name: Text
+    """Name of the stream in the recording."""
+    number: Annotated[int, Field(ge=0, strict=True)]
+    """Its skin part in the messages, such as 12 for the right lower leg."""
+    frame: Text
+    """Link of the URDF in whose frame the messages give its contacts, such as `r_forearm_dh_frame`."""
 
 
-def read_skin_events(port_dir: str | Path, *, parts: Sequence[SkinPart]) -> tuple[PortReading, ...]:
+def read_skin_events(port_dir: str | Path, *, parts: Sequence[SkinPart]) -> tuple[StreamReading, ...]:
     """Read the contacts on some patches from the log of a skinManager.
 
     Args:
@@ -379,13 +378,13 @@ def skin_parts(port_dir: str | Path) -> tuple[int, ...]:
 def _check_parts(parts: Sequence[SkinPart]) -> None:
     if not parts:
         raise RecordingError("skin parts: expected at least one, got none")
-    named = {"number": [str(part.number) for part in parts], "stream": [part.stream for part in parts]}
+    named = {"number": [str(part.number) for part in parts], "stream": [part.name for part in parts]}
     for name, values in named.items():
         if len(set(values)) != len(values):
             raise RecordingError(f"skin parts: expected each {name} once, got {', '.join(values)}; keep one")
 
 
-def _reading(part: SkinPart, port: PortFolder, log: SkinEventLog) -> PortReading:
+def _reading(part: SkinPart, port: PortFolder, log: SkinEventLog) -> StreamReading:
     events = [tuple(event for event in message if event.skin_part == part.number) for message in log.events]
     _require_one_frame(part, port, events)
     width = max(1, *map(len, events))
@@ -397,13 +396,13 @@ def _reading(part: SkinPart, port: PortFolder, log: SkinEventLog) -> PortReading
         frame=part.frame,
     )
     stream = Stream(
-        name=part.stream,
+        name=part.name,
         clock=OTHER_CLOCK if log.two_clocks else CLOCK,
         stamp_ns=log.stamp_ns,
         signals={signal.quantity: signal},
         sequence=log.sequence,
     )
-    return PortReading(stream=stream, findings=tuple(_findings(part, port, log)))
+    return StreamReading(stream, tuple(_findings(part, port, log)))
 
 
 def _require_one_frame(part: SkinPart, port: PortFolder, events: Sequence[Sequence[SkinEvent]]) -> None:
@@ -446,7 +445,7 @@ def _findings(part: SkinPart, port: PortFolder, log: SkinEventLog) -> list[Findi
     )
     return [
         Finding(
-            stream=part.stream,
+            stream=part.name,
             kind=kind,
             message=message,
             count=samples,

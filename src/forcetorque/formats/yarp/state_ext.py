@@ -18,19 +18,17 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
+from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import FAIL, OK, Bottle, is_number
 from forcetorque.formats.yarp.plain_ports import (
-    CLOCK,
     JOINT_UNITS,
     NAME_ALL,
-    PortReading,
     joint_signal,
     places_of_joints,
     units_of_joints,
 )
 from forcetorque.formats.yarp.port_log import PortLog, read_port_log
 from forcetorque.recording.recording import Finding
-from forcetorque.recording.stream import Stream
 
 _MOTOR = ("motor position", "motor velocity", "motor acceleration")
 _MODES = ("control mode", "interaction mode")
@@ -45,7 +43,7 @@ _FIRST_WITH_FLAGS = 20
 
 def read_state_ext(
     port_dir: str | Path, *, stream: str, joints: Sequence[str], joint_units: Mapping[str, str] | None = None
-) -> PortReading:
+) -> StreamReading:
     """Read the log of a control board's port.
 
     Rotary joints are logged in deg and given in rad; prismatic ones are logged and given in m.
@@ -73,7 +71,7 @@ def read_state_ext(
     names = [joints[place] for place in places_of_joints(joints)]
     units = units_of_joints(names, joint_units)
     log = read_port_log(port_dir, stream=stream, choose=_BoardMessages(joints=tuple(joints)))
-    findings = list(log.findings)
+    findings: list[Finding] = []
     logged: dict[str, FloatArray] = {}
     for name, values in zip(JOINT_UNITS, np.split(log.values, len(JOINT_UNITS), axis=1), strict=True):
         findings.extend(_failures(stream, name, values, log))
@@ -82,10 +80,7 @@ def read_state_ext(
         else:
             logged[name] = values
     signals = {name: joint_signal(name, values, joints=names, units=units) for name, values in logged.items()}
-    return PortReading(
-        stream=Stream(name=stream, clock=CLOCK, stamp_ns=log.stamp_ns, signals=signals, sequence=log.sequence),
-        findings=tuple(findings),
-    )
+    return log.reading(stream, signals, findings=findings)
 
 
 def count_joints(message: Bottle) -> int:

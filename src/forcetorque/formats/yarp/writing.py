@@ -16,7 +16,7 @@ from forcetorque.base.errors import MissingFileError, RecordingError
 from forcetorque.base.output_file import real_path, temporary_beside
 from forcetorque.base.units import si_factor
 from forcetorque.formats.yarp.discover import PortKind
-from forcetorque.formats.yarp.measures import READ_LISTS, MeasuresList, MeasuresSensor
+from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor
 from forcetorque.formats.yarp.plain_ports import JOINT_UNITS, angles_of
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
@@ -184,7 +184,7 @@ def _sensor_values(stream: Stream, sensor: MeasuresSensor) -> FloatArray:
         return _reading(stream).values
     if sensor.quantity == "orientation":
         return angles_of(stream.signal("orientation"))
-    factors = [si_factor(unit)[1] for unit in READ_LISTS[sensor.list].logged_units]
+    factors = [si_factor(unit)[1] for unit in sensor.logged_units]
     return stream.signal(sensor.quantity).values / factors
 
 
