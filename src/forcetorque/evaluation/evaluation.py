@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.noise.means import one_after_another
+from forcetorque.base.noise.means import joined_times
 from forcetorque.evaluation.load_cases.validation_evidence import (
     JudgedExcitation,
     PriorComparison,
@@ -335,7 +335,7 @@ def _pooled(rows: Sequence[_Judged]) -> _Judged:
         rows[0],
         wrench=np.concatenate([row.wrench for row in rows]),
         reference=np.concatenate([row.reference for row in rows]),
-        time_s=one_after_another([row.time_s for row in rows]),
+        time_s=joined_times([row.time_s for row in rows]),
     )
 
 

@@ -42,11 +42,11 @@ class LogReading:
     """What every format gives: streams, each with the name of its clock, and what is wrong with them."""
 
     streams: tuple[Stream, ...]
-    """Streams, in the order in which they were asked for."""
+    """Streams, in the order in which they were specified."""
     findings: tuple[Finding, ...] = ()
     """What was found while reading them."""
     origin: Mapping[str, str] | None = None
-    """What the log itself says of where it comes from; None if nothing."""
+    """What the log itself states about its origin; None if nothing."""
 
     @classmethod
     def of(
@@ -76,7 +76,7 @@ class LogReading:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LogDescription:
-    """A log that nobody has said anything about, under names that are made up from its files."""
+    """A log without an experiment file, under names that are made up from its files."""
 
     table: LogTable
     """What the `[recording]` table of an experiment file would state of it."""
@@ -127,7 +127,7 @@ class LogFormat(Protocol[StatedLog]):
         """What it is recognised by, for the message where nothing is; None if it never is."""
 
     def recognises(self, path: Path) -> bool:
-        """Tell whether a file or a folder is such a log, by as little of its content as that takes.
+        """Check whether a file or a folder is such a log, by as little of its content as that takes.
 
         Args:
             path: File or folder; it exists.
@@ -137,7 +137,7 @@ class LogFormat(Protocol[StatedLog]):
         """
 
     def describe(self, path: Path) -> LogDescription:
-        """Read a log without anyone saying what is in it.
+        """Read a log without an experiment file.
 
         Args:
             path: File or folder that is recognised.
@@ -154,13 +154,13 @@ class LogFormat(Protocol[StatedLog]):
 
         Args:
             stated: The `[recording]` table.
-            context: What else the experiment says; resolves the files.
+            context: What else the experiment file specifies; resolves the files.
 
         Returns:
-            The streams that are stated.
+            The streams that are specified.
 
         Raises:
-            ForceTorqueError: If a file is not there or holds something else than what is stated.
+            ForceTorqueError: If a file is not there or holds something else than what is specified.
         """
 
 
@@ -193,7 +193,7 @@ class SketchedColumns:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LogSketch:
-    """A log that does not say what it holds."""
+    """A log that does not state what it holds."""
 
     path: Path
     """The file."""
@@ -221,13 +221,13 @@ class LogSketch:
     """Why they are not of all."""
 
     @property
-    def range_words(self) -> str:
-        """Words about the rows that ranges are of, where these are not all; else empty."""
+    def range_text(self) -> str:
+        """Text about the rows that ranges are of, where these are not all; else empty."""
         return "" if self.ranged_rows is None else f" in the first {self.ranged_rows} rows"
 
 
 def median_step(values: FloatArray | IntArray) -> float | None:
-    """Say how far numbers are apart that rise as times do.
+    """Give the step of numbers that rise as times do.
 
     Args:
         values: Numbers in the order of the file; shape (n,).
@@ -267,7 +267,7 @@ def sketched_numbers(name: str, values: FloatArray, *, rows: int, unit: str | No
     )
 
 
-def skipped_words(skipped: Mapping[str, str]) -> str:
+def skipped_text(skipped: Mapping[str, str]) -> str:
     """List what of a file of arrays cannot be read.
 
     Args:
@@ -280,21 +280,21 @@ def skipped_words(skipped: Mapping[str, str]) -> str:
     return ", ".join(shown) + (f" and {len(skipped) - len(shown)} more" if len(skipped) > len(shown) else "")
 
 
-def not_read_sentence(skipped: Mapping[str, str]) -> str:
-    """Say what of a file of arrays is not read.
+def not_read_message(skipped: Mapping[str, str]) -> str:
+    """Report what of a file of arrays is not read.
 
     Args:
         skipped: As of a sketch; at least one.
 
     Returns:
-        The sentence that every command says of it.
+        The message of every command.
     """
-    return f"not read, for only arrays of real numbers within the file are: {skipped_words(skipped)}"
+    return f"not read, for only arrays of real numbers within the file are: {skipped_text(skipped)}"
 
 
 @runtime_checkable
 class SketchingFormat(Protocol):
-    """A format whose logs say nothing of units."""
+    """A format whose logs state no units."""
 
     def sketch(self, path: Path) -> LogSketch:
         """Look at a log that is recognised.
@@ -303,5 +303,5 @@ class SketchingFormat(Protocol):
             path: The file.
 
         Returns:
-            What can be told.
+            What names and numbers show.
         """

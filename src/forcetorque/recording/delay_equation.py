@@ -20,18 +20,18 @@ _SMOOTH_STEPS = 2.0
 _ROUNDING = 1e-9
 """Part of the largest singular value below which a direction of the reference does not move."""
 _WAVES = 6
-"""Half waves along the recording that tell the error of its sum. Fewer make intervals wide, more too narrow where what
-is left lasts long: of a reading that the reference leaves part of, as long as the slowest motion."""
+"""Half waves along the recording that estimate the error of its sum. Fewer make intervals wide, more too narrow where
+what is left lasts long: of a reading that the reference leaves part of, as long as the slowest motion."""
 _FEWEST_STEPS = 10
 """Steps of time in a block, at least."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Root:
+class DelaySolution:
     """Delay and drift that solve the equation, with standard errors."""
 
     values: FloatArray
-    """Delay in s, then drift where it was asked for; shape (q,)."""
+    """Delay in s, then drift where it was requested; shape (q,)."""
     standard_error: FloatArray
     """Standard errors; shape (q,)."""
     degrees_of_freedom: FloatArray
@@ -41,7 +41,7 @@ class Root:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Left:
+class _Residual:
     """What is left at a delay."""
 
     error: FloatArray  # (n, k)
@@ -85,7 +85,7 @@ class DelayEquation:
         own = number[:, None] == np.arange(len(lengths))
         self._constant = np.hstack([own, own * along[:, None]]).astype(np.float64)
 
-    def solved(self, start: float, *, with_drift: bool) -> Root:
+    def solve(self, start: float, *, with_drift: bool) -> DelaySolution:
         """Solve it.
 
         Args:
@@ -98,14 +98,14 @@ class DelayEquation:
         theta = np.array([start, 0.0]) if with_drift else np.array([start])
         near = _NEAR * self.step / np.array([1.0, max(float(np.abs(self.since).max()), self.step)])[: len(theta)]
         for _ in range(_ITERATIONS):
-            left = self._left(theta)
+            left = self._residual(theta)
             change = np.linalg.pinv(left.curvature) @ left.score.sum(axis=0)
             theta = theta + np.clip(change, -4.0 * near, 4.0 * near)
             if (np.abs(change) < _CLOSE * near).all():
                 break
-        left = self._left(theta)
+        left = self._residual(theta)
         q = len(theta)
-        # of a reference with noise only the derivative of the equation itself tells how sharp the solution is
+        # of a reference with noise only the derivative of the equation itself gives how sharp the solution is
         slope = np.column_stack(
             [(self._score(theta - d) - self._score(theta + d)) / (2.0 * d[k]) for k, d in enumerate(np.diag(near))]
         )
@@ -114,7 +114,7 @@ class DelayEquation:
         covariance = inverse @ (waves.T @ waves / len(waves)) @ inverse.T
         sharp = bool((np.linalg.eigvals(slope).real > 0.0).all())
         error = np.sqrt(np.diag(covariance)) if sharp else np.full(q, np.inf)
-        return Root(
+        return DelaySolution(
             values=theta,
             standard_error=error,
             degrees_of_freedom=np.full(q, float(len(waves))),
@@ -122,26 +122,26 @@ class DelayEquation:
         )
 
     def advantage(self, delay: float, rival: float | None, *, blocks: int) -> float:
-        """Say how surely a delay leaves less than another.
+        """Give how surely a delay leaves less than another.
 
         Args:
             delay: The delay; s.
             rival: The other; s; None for a reading that follows nothing.
-            blocks: Stretches of equal information that count as independent.
+            blocks: Segments of equal information that count as independent.
 
         Returns:
             Logarithm of what the other leaves more, block by block, in standard errors of its mean.
         """
-        left = self._left(np.array([delay]))
-        other = self._unexplained() if rival is None else self._left(np.array([rival])).error
+        left = self._residual(np.array([delay]))
+        other = self._unexplained() if rival is None else self._residual(np.array([rival])).error
         weight = 1.0 / np.maximum((left.error**2).mean(axis=0), np.finfo(float).tiny)
         squares = np.column_stack([other**2 @ weight, left.error**2 @ weight])
         sums = np.maximum(_block_sums(squares, left.information, blocks), np.finfo(float).tiny)
         more = np.log(sums[:, 0] / sums[:, 1])
-        spread = float(more.std(ddof=1))
-        return float(more.mean() / spread * np.sqrt(len(more))) if spread > 0.0 else 0.0
+        deviation = float(more.std(ddof=1))
+        return float(more.mean() / deviation * np.sqrt(len(more))) if deviation > 0.0 else 0.0
 
-    def _left(self, theta: FloatArray) -> _Left:
+    def _residual(self, theta: FloatArray) -> _Residual:
         at = self.time - theta[0] - (theta[1] * self.since if len(theta) > 1 else 0.0)
         design = np.hstack([self._constant, self._curve(at)])
         basis, coefficients = _projection(design, self.reading)
@@ -151,7 +151,7 @@ class DelayEquation:
         directions = [scale[:, None] * speed for scale in scales]
         directions = [one - basis @ (basis.T @ one) for one in directions]
         weight = 1.0 / np.maximum((error**2).mean(axis=0), np.finfo(float).tiny)
-        return _Left(
+        return _Residual(
             error,
             (directions[0] ** 2) @ weight,
             np.column_stack([(one * error) @ weight for one in directions]),
@@ -159,7 +159,7 @@ class DelayEquation:
         )
 
     def _score(self, theta: FloatArray) -> FloatArray:
-        return self._left(theta).score.sum(axis=0)
+        return self._residual(theta).score.sum(axis=0)
 
     def _unexplained(self) -> FloatArray:
         basis, _ = _projection(self._constant, self.reading)

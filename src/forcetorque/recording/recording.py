@@ -35,14 +35,14 @@ class Use(StrEnum):
     CALIBRATION = "calibration"
     """Its samples are fitted."""
     VALIDATION = "validation"
-    """Its samples judge a calibration and are never fitted."""
+    """Its samples validate a calibration and are never fitted."""
     IGNORE = "ignore"
-    """Its samples are neither fitted nor judged, also where another interval covers them."""
+    """Its samples are neither fitted nor used for validation, also where another interval covers them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Support(ArrayRecord):
-    """A frame that stands still in the world while it is the only unknown contact."""
+    """A frame that is static in the world while it is the only unknown contact."""
 
     frame: str
     """Link of the robot model."""
@@ -64,10 +64,10 @@ class Support(ArrayRecord):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class MovingSupport(ArrayRecord):
-    """A frame that is the only unknown contact while an IMU tells how the robot moves."""
+    """A frame that is the only unknown contact while an IMU measures how the robot moves."""
 
     frame: str
-    """Link of the robot model; it need not stand still."""
+    """Link of the robot model; it need not do not move."""
     motion_streams: tuple[str, ...] = field(metadata=names())
     """Streams with the IMU's signals: proper acceleration or gravity, and angular velocity."""
 
@@ -115,7 +115,7 @@ class Interval:
             raise RecordingError(f"interval {self.label!r}: its use is {self.use}, which needs a support frame")
 
     def holds(self, stamp_ns: IntArray) -> BoolArray:
-        """Tell which instants lie in the interval.
+        """Find which instants lie in the interval.
 
         Args:
             stamp_ns: Instants; shape (n,); ns on the recording's clock.

@@ -56,7 +56,7 @@ QUANTITIES = {
             columns=WRENCH_COMPONENTS,
             units=WRENCH_UNITS,
             has_frame=True,
-            description="Reading of a force-torque sensor that was already turned into force, then moment.",
+            description="Measurement of a force-torque sensor, already converted to force, then moment.",
         ),
         Quantity(
             name="applied_wrench",
@@ -75,7 +75,7 @@ QUANTITIES = {
             name="raw",
             labels=Labels.CHANNELS,
             units=("counts",),
-            description="Reading of a force-torque sensor as its electronics deliver it.",
+            description="Raw samples of a force-torque sensor as its electronics deliver it.",
         ),
         Quantity(
             name="position",
@@ -121,14 +121,14 @@ QUANTITIES = {
             columns=_XYZ,
             units=("m/s2",) * 3,
             has_frame=True,
-            description="Reading of an accelerometer: +9.8 m/s2 upwards at rest.",
+            description="Measurement of an accelerometer: +9.8 m/s2 upwards at rest.",
         ),
         Quantity(
             name="orientation",
             columns=tuple(f"r{row}{column}" for row in "123" for column in "123"),
             units=("1",) * 9,
             has_frame=True,
-            description="Rotation matrix of a frame, row by row: it turns vectors along its axes to the world's.",
+            description="Rotation matrix of a frame, row by row: it rotates vectors along its axes to the world's.",
         ),
         Quantity(
             name="translation",
@@ -149,7 +149,7 @@ QUANTITIES = {
             columns=_XYZ,
             units=("rad/s",) * 3,
             has_frame=True,
-            description="Reading of a gyroscope.",
+            description="Measurement of a gyroscope.",
         ),
         Quantity(
             name="angular_acceleration",
@@ -168,7 +168,7 @@ QUANTITIES = {
             name="taxel_counts",
             labels=Labels.TAXELS,
             units=("counts",),
-            description="Reading of every taxel of a patch of skin as its electronics deliver it; pressure lowers it.",
+            description="Counts of every taxel of a patch of skin as its electronics deliver it; pressure lowers them.",
         ),
         Quantity(
             name="skin_event",
@@ -186,7 +186,7 @@ QUANTITIES = {
         Quantity(
             name="scalar",
             labels=Labels.CHANNELS,
-            description="Anything else that may move a reading, such as a supply voltage; names and units of the log.",
+            description="Any other variable that may change a measurement, such as a supply voltage, as logged.",
         ),
         Quantity(
             name="device_stamp",

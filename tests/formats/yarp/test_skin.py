@@ -31,7 +31,7 @@ def test_counts_are_read(tmp_path: Path) -> None:
 def test_another_number_of_taxels_is_refused(tmp_path: Path) -> None:
     """Too few for the messages, and a number that no triangles have."""
     folder = write_port(tmp_path, TEXT)
-    with pytest.raises(FormatError, match="expected 12 numbers .* got 24; state how many numbers"):
+    with pytest.raises(FormatError, match="expected 12 numbers .* got 24; specify how many numbers"):
         read_skin(folder, stream="patch", taxels=12)
     with pytest.raises(FormatError, match="expected 12 numbers for each triangle, 10000 at most, got 25"):
         read_skin(folder, stream="patch", taxels=25)

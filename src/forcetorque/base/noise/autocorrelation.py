@@ -32,7 +32,7 @@ class Autocorrelation(ArrayRecord):
     count: int
     """Number of samples n; those that are no finite numbers are not counted."""
     segments: int
-    """Number of stretches without a pause."""
+    """Number of segments without a pause."""
     lag_s: FloatArray = field(metadata=array("l"))
     """Lags from 0 on, evenly spaced; shape (l,); s."""
     rho: FloatArray = field(metadata=array("l"))
@@ -65,9 +65,10 @@ def autocorrelation(values: Any, time_s: Any) -> Autocorrelation:
 
     That was derived for reversible chains. A vibration that lies over a slow error makes the sum negative early, while
     the slow error goes on: lags from some k to 2 k that together are positive by `CLEAR_DEVIATIONS` of the noise are
-    therefore counted, with all before them, if that makes the time longer (a heuristic). A signal that only swings is
-    taken for worth less than it is. No correlation that takes longer than a segment is counted; and a signal worth only
-    some ten independent samples is too short to tell how few, and is easily taken for worth half as much again.
+    therefore counted, with all before them, if that makes the time longer (a heuristic). A signal that only oscillates
+    is taken for worth less than it is. No correlation that takes longer than a segment is counted; and a signal worth
+    only some ten independent samples is too short to estimate how few, and is easily taken for worth half as much
+    again.
 
     Args:
         values: The signal; shape (n,). What is not a finite number makes no pair.

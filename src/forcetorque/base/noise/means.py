@@ -59,7 +59,7 @@ def means_over(time_s: Any, columns: Any, window_s: float = WINDOW_S) -> tuple[F
     return middle, np.add.reduceat(signals, starts, axis=0) / counts[:, None], counts
 
 
-def one_after_another(instants: Sequence[FloatArray]) -> FloatArray:
+def joined_times(instants: Sequence[FloatArray]) -> FloatArray:
     """Put the instants of several recordings on one axis, so far apart that no slow noise goes on between them.
 
     Args:
@@ -88,11 +88,11 @@ class MeanError(ArrayRecord):
     standard_error: FloatArray = field(metadata=array("k"))
     """Standard errors; shape (k,); NaN for a single value."""
     degrees_of_freedom: FloatArray = field(metadata=array("k"))
-    """Degrees of freedom of Student's t; shape (k,); 0 where an error cannot be told."""
+    """Degrees of freedom of Student's t; shape (k,); 0 where an error is undetermined."""
 
     @property
     def half_width(self) -> FloatArray:
-        """Half-widths of the 95 % intervals; shape (k,); infinite where an error cannot be told."""
+        """Half-widths of the 95 % intervals; shape (k,); infinite where an error is undetermined."""
         return half_width(self.standard_error, self.degrees_of_freedom)
 
 
@@ -101,7 +101,7 @@ def mean_error(values: Any, time_s: Any) -> MeanError:
 
     Noise is white plus a slow offset. By simulation of recordings of 60 to 300 s, the 95 % intervals hold the mean in
     96 % to 99 % under white noise, and in 91 % and more under slow noise that shows and forgets itself within the
-    recording; in 83 % if it takes three times as long. No recording tells of an offset that wanders as slowly as the
+    recording; in 83 % if it takes three times as long. No recording shows an offset that drifts as slowly as the
     recording is long and hides in the white part: with a tenth of its deviation, 61 %.
 
     Args:
@@ -244,7 +244,7 @@ def is_stationary(values: Any, time_s: Any) -> BoolArray:
 
     - noise that is worth less than `FEWEST_INDEPENDENT` independent values is likelier: trends, steps, drifts;
     - one frequency has more power than noise: oscillations, gaits;
-    - power is spread over frequencies otherwise than in the fit (Bartlett's test of the cumulative periodogram);
+    - power is distributed over frequencies otherwise than in the fit (Bartlett's test of the cumulative periodogram);
     - it never changes: logs without noise.
 
     Args:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""White noise plus a slowly wandering offset, and least squares under it with standard errors."""
+"""White noise plus a slowly drifting offset, and least squares under it with standard errors."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ an offset to recordings of minutes."""
 _LEAST_STEP = 1e-6
 """Instants count as at least this part of a time constant apart: at the same instant the process has no inverse."""
 
-_TOO_CLOSE = "slow noise: the instants are too close to each other to tell it from white noise"
+_TOO_CLOSE = "slow noise: the instants are too close to each other to distinguish it from white noise"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -130,17 +130,17 @@ class Timeline(ArrayRecord):
         """
         from scipy.linalg.lapack import dpttrs  # here because importing it takes longer than most commands
 
-        weighed, log_white = columns * self.share[:, None], -float(np.log(self.share).sum())
+        weighted, log_white = columns * self.share[:, None], -float(np.log(self.share).sum())
         if noise.is_white or not len(self):
-            return weighed, log_white
+            return weighted, log_white
         if len(self) == 1:  # LAPACK wants a side diagonal
             total = 1.0 + noise.ratio * float(self.share[0])
-            return weighed / total, log_white + float(np.log(total))
+            return weighted / total, log_white + float(np.log(total))
         pivots, multipliers, log_inverse = self._factors(noise)
-        inner, wrong = dpttrs(pivots, multipliers, weighed)
+        inner, wrong = dpttrs(pivots, multipliers, weighted)
         if wrong:
             raise FitError(_TOO_CLOSE)
-        solved = weighed - noise.ratio * self.share[:, None] * inner
+        solved = weighted - noise.ratio * self.share[:, None] * inner
         return solved, log_white + float(np.log(pivots).sum()) - log_inverse
 
     def precision_diagonal(self, noise: SlowNoise) -> FloatArray:
@@ -160,8 +160,8 @@ class Timeline(ArrayRecord):
         if len(self) == 1:
             return self.share / (1.0 + noise.ratio * self.share)
         forward = self._factors(noise)[0]
-        turned = Timeline(time_s=-self.time_s[::-1], recording=self.recording[::-1], share=self.share[::-1])
-        backward = turned._factors(noise)[0][::-1]
+        reverse = Timeline(time_s=-self.time_s[::-1], recording=self.recording[::-1], share=self.share[::-1])
+        backward = reverse._factors(noise)[0][::-1]
         diagonal = self._precisions[noise.time_constant_s][0] + noise.ratio * self.share
         inner = 1.0 / (forward + backward - diagonal)  # diagonal of the inverse of a tridiagonal matrix
         return self.share - noise.ratio * self.share**2 * inner
@@ -221,9 +221,9 @@ class Regression(ArrayRecord):
     coefficients: FloatArray = field(metadata=array("k", "p"))
     """Mean of the mixture; shape (k, p)."""
     covariance: FloatArray = field(metadata=array("k", "p", "p"))
-    """Their covariance, spread of the mixture included; shape (k, p, p); infinite without a degree of freedom."""
+    """Their covariance, scatter of the mixture included; shape (k, p, p); infinite without a degree of freedom."""
     degrees_of_freedom: FloatArray = field(metadata=array("k", "p"))
-    """Of Student's t of every coefficient; shape (k, p); 0 where nothing is left to tell the noise."""
+    """Of Student's t of every coefficient; shape (k, p); 0 where nothing is left to estimate the noise."""
     noise: FloatArray = field(metadata=array("k"))
     """Standard deviation of the white part of a full mean; shape (k,)."""
 
@@ -272,7 +272,7 @@ def regress(
         line: When the values were taken; n of them.
         design: Design of full rank p; shape (n, p).
         values: Values; shape (n, k).
-        about: Coefficients that are stated whatever comes out, such as plain means; shape (k, p). The covariance is
+        about: Coefficients that are given in advance, such as plain means; shape (k, p). The covariance is
             then about them.
         shapes: Shapes of noise that are tried.
 
@@ -332,7 +332,7 @@ class _Fits:
         coefficients = shared @ inverse
         squares = np.diagonal(moments, axis1=1, axis2=2)[:, p:] - np.einsum("skp,skp->sk", coefficients, shared)
         squares = np.maximum(squares, 0.0)
-        changing = np.where(squares > 0.0, squares, 1.0)  # of what never changes every shape says the same
+        changing = np.where(squares > 0.0, squares, 1.0)  # of what never changes every shape has the same likelihood
         constant = log_determinant - np.linalg.slogdet(inverse)[1]
         return cls(
             coefficients=coefficients,
@@ -343,7 +343,7 @@ class _Fits:
 
 
 def log_prior(noise: SlowNoise) -> float:
-    """Say how usual a shape of noise is before the record is seen.
+    """Give how usual a shape of noise is before the record is seen.
 
     Args:
         noise: The shape.

@@ -16,20 +16,20 @@ MAGIC_73 = b"MATLAB 7.3 MAT-file"
 
 
 def is_matlab_73(path: Path) -> bool:
-    """Tell whether a file is one of MATLAB 7.3, by its first bytes.
+    """Check whether a file is one of MATLAB 7.3, by its first bytes.
 
     Args:
         path: A file.
 
     Returns:
-        Whether it says so.
+        Whether the signature is there.
     """
     with path.open("rb") as file:
         return file.read(len(MAGIC_73)) == MAGIC_73
 
 
 def hdf5_contents(path: Path, *, matlab: bool) -> ArrayContents:
-    """Tell what a file holds, without reading its numbers.
+    """List what a file holds, without reading its numbers.
 
     Args:
         path: The file.
@@ -43,7 +43,7 @@ def hdf5_contents(path: Path, *, matlab: bool) -> ArrayContents:
     with opened_hdf5(path) as file:
         for entry in members(file):
             name = _name(entry.path, matlab=matlab)
-            reason = entry.elsewhere or _not_read(entry.dataset, matlab=matlab)
+            reason = entry.not_in_file or _not_read(entry.dataset, matlab=matlab)
             if reason is None:
                 shapes[name] = _rows_and_columns(entry.dataset.shape, matlab=matlab)
             else:

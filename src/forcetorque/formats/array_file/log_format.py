@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of named arrays as formats of logs: every array, column and unit that is read is stated."""
+"""Files of named arrays as formats of logs: every array, column and unit that is read is specified."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from forcetorque.formats.log_format import (
     LogSketch,
     SketchedColumns,
     sketched_numbers,
-    skipped_words,
+    skipped_text,
 )
 from forcetorque.formats.robometry.channels import is_robometry_log
 from forcetorque.recording.recording import Finding
@@ -41,7 +41,7 @@ from forcetorque.recording.stream import Stream
 
 
 class _ArrayFormat(ABC):
-    """Single files of arrays, which say nothing of units: they are recognised to say what must be stated."""
+    """Single files of arrays, which state no units: they are recognised to report what must be specified."""
 
     sign: ClassVar[str]
 
@@ -62,7 +62,7 @@ class _ArrayFormat(ABC):
         shapes, skipped = self._contents(path)
         if not shapes:
             raise FormatError(
-                f"{path}: expected arrays of real numbers, got {skipped_words(skipped) or 'none'}; save each as an "
+                f"{path}: expected arrays of real numbers, got {skipped_text(skipped) or 'none'}; save each as an "
                 "array of rows and columns"
             )
         values = self._read(path, shapes, [name for name, (rows, columns) in shapes.items() if columns == 1 < rows])
@@ -75,15 +75,15 @@ class _ArrayFormat(ABC):
         return LogSketch(path=path, is_table=False, columns=columns, skipped_arrays=skipped)
 
     def describe(self, path: Path) -> LogDescription:
-        """Refuse: nothing is guessed from names or numbers; say which there are."""
+        """Refuse: nothing is inferred from names or numbers; list which there are."""
         names = [f"{name} ({rows} x {columns})" for name, (rows, columns) in self._contents(path)[0].items()]
         raise FormatError(
-            f"{path}: expected a log that says what it holds, got the variables {', '.join(names) or 'none'}; state "
-            "their columns and units in an experiment file; `forcetorque init` begins one"
+            f"{path}: expected a log that states what it holds, got the variables {', '.join(names) or 'none'}; "
+            "specify their columns and units in an experiment file; `forcetorque init` begins one"
         )
 
     def read(self, stated: ArrayLog, context: LogContext) -> LogReading:
-        """Read every array that is stated."""
+        """Read every array that is specified."""
         path = context.file(stated.path)
         shapes, skipped = self._contents(path)
         arrays = self._read(path, shapes, wanted_arrays(stated.stream))

@@ -187,7 +187,7 @@ def _estimated(name: str, signals: Mapping[str, Signal], other: Stream) -> tuple
     if set(signals) != {"pressure"} or "taxel_counts" not in other.signals:
         raise FormatError(
             f'shift_rows = "estimated": expected a pressure with the rows of a stream of taxel_counts, got '
-            f"{', '.join(signals)} with those of {', '.join(other.signals)}; state a number of rows"
+            f"{', '.join(signals)} with those of {', '.join(other.signals)}; specify a number of rows"
         )
     start = other.stamp_ns[0]
     seconds = (other.stamp_ns - start) * 1e-9
@@ -213,7 +213,7 @@ def wanted_arrays(streams: tuple[ArrayStream, ...]) -> tuple[str, ...]:
     """Name the arrays that streams are made of.
 
     Args:
-        streams: What is stated.
+        streams: What is specified.
 
     Returns:
         Their names, each once.
@@ -229,15 +229,15 @@ def array_stream(
 
     Args:
         path: The file, for messages.
-        entry: What is stated of the stream.
+        entry: What is specified of the stream.
         arrays: Arrays of the file by name; shape (rows, columns).
-        earlier: Streams that are stated before it.
+        earlier: Streams that are specified before it.
 
     Returns:
-        The stream, in SI units, and what is doubtful in it.
+        The stream, in SI units, and findings.
 
     Raises:
-        FormatError: If the arrays are not what is stated.
+        FormatError: If the arrays are not what is specified.
     """
     if entry.name in earlier:
         raise FormatError(f"{path}: two streams are named {entry.name!r}; give each its own name")
@@ -278,7 +278,7 @@ def _signals(
         raise FormatError(f"{path}: {entry.name}: expected every quantity once, got one of them twice")
     if {"orientation", "gravity"} <= set(stated):
         raise FormatError(
-            f"{path}: {entry.name}: expected orientation or gravity, which follows from it, got both; state one"
+            f"{path}: {entry.name}: expected orientation or gravity, which follows from it, got both; specify one"
         )
     signals: dict[str, Signal] = {}
     findings: tuple[Finding, ...] = ()

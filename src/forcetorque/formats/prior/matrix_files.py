@@ -30,7 +30,7 @@ class IcubMatrix:
         """Look for one number of hex digits a line; a short or damaged file is one too, by its name."""
         lines = text.split("\n")
         codes = [line.strip() for line in lines[:_MOST_CODES_LOOKED_AT]]
-        # nearly all: what is wrong with one of them is said by its reader, line by line
+        # nearly all: its reader reports what is wrong with one of them, line by line
         hex_only = sum(re.fullmatch("[0-9A-Fa-f]{1,4}", code) is not None for code in codes) >= _FEWEST_CODES
         return (hex_only and len(lines) > _CODES) or serial_number_in_name(path) is not None
 

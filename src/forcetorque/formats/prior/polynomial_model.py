@@ -77,8 +77,8 @@ def read_polynomial_model(path: Path | str) -> PolynomialModel:
     try:
         return _read(read_xml(file))
     except FormatError as error:
-        words = str(error)
-        raise FormatError(words if words.startswith(str(file)) else f"{file}: {words}") from error
+        numbers = str(error)
+        raise FormatError(numbers if numbers.startswith(str(file)) else f"{file}: {numbers}") from error
 
 
 def write_polynomial_model(path: Path | str, model: PolynomialModel) -> None:
@@ -129,9 +129,9 @@ def _count(params: dict[str, str], name: str) -> int:
 
 def _six(where: str, text: str) -> list[float]:
     match = _LIST.fullmatch(text)
-    words = [] if match is None else match[1].replace(",", " ").split()
+    numbers = [] if match is None else match[1].replace(",", " ").split()
     try:
-        values = [float(word) for word in words]
+        values = [float(word) for word in numbers]
     except ValueError:
         values = []
     if len(values) != 6 or not all(abs(value) < _LARGEST for value in values):

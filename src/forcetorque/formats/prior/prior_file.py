@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a file of any form says of a sensor's calibration, in SI units, and what a form has to have."""
+"""Calibration of a sensor from a file of any form, in SI units, and the members that a form needs."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class PriorFile(ArrayRecord):
     """A calibration that a sensor came with."""
 
     form: str
-    """What the file is, in words."""
+    """What the file is, as text."""
     matrix: FloatArray = field(metadata=array(6, None))
     """Matrix; rows fx to tz, columns the c channels; shape (6, c); N, N m per raw unit."""
     raw_unit: RawUnit
@@ -60,7 +60,7 @@ class PriorFormat(Protocol):
         """What it is recognised by, for the message where nothing is."""
 
     def recognises(self, path: Path, text: str) -> bool:
-        """Tell whether a file is one.
+        """Check whether a file is one.
 
         Args:
             path: File.
@@ -78,8 +78,8 @@ class PriorFormat(Protocol):
             text: Its content.
 
         Returns:
-            What it says.
+            Its content.
 
         Raises:
-            FormatError: If it is damaged, or says what is not known here.
+            FormatError: If it is damaged, or has content that is not known here.
         """

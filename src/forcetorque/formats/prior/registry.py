@@ -25,7 +25,7 @@ PRIOR_FORMATS: tuple[PriorFormat, ...] = (
     ExportedTable(),
     PlainTable(),
 )
-"""Forms of priors, asked in their order; the first that knows a file reads it."""
+"""Forms of prior calibrations, tried in their order; the first that recognises a file reads it."""
 
 _KINDS = (
     (b"%PDF", "a PDF document"),
@@ -42,7 +42,7 @@ _ROOT = re.compile(r"<([A-Za-z_][\w:.-]{0,60})")
 
 
 def holds_prior(path: Path) -> bool:
-    """Tell whether a file is a calibration of any known form, whatever is wrong with it.
+    """Check whether a file is a calibration of any known form, damaged or not.
 
     Args:
         path: File; it exists.
@@ -63,7 +63,7 @@ def read_prior_file(path: Path | str, *, force_unit: str | None = None, moment_u
         moment_unit: Unit of the last three rows, for plain numbers.
 
     Returns:
-        What it says, in SI units.
+        Its content, in SI units.
 
     Raises:
         MissingFileError: If there is no such file.
@@ -97,7 +97,7 @@ def _text(file: Path) -> str | None:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        # a matrix file with a damaged byte is said to be one
+        # a matrix file with a damaged byte is reported as one
         return data.decode("latin-1") if IcubMatrix().recognises(file, "") else None
 
 
@@ -106,7 +106,7 @@ def _kind(file: Path, text: str | None) -> str:
     if text is None:
         with file.open("rb") as stream:
             head = stream.read(16)
-        kinds = [words for magic, words in _KINDS if head.startswith(magic)]
+        kinds = [kind for magic, kind in _KINDS if head.startswith(magic)]
         size = file.stat().st_size
         return kinds[0] if kinds else f"a file of {size} bytes that is no small text"
     stripped = text.lstrip()

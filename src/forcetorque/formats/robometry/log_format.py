@@ -69,7 +69,7 @@ class RobometryLog(LogTable):
 
 
 class RobometryFormat:
-    """Single files that label elements and units: they are described without anyone saying what is in them."""
+    """Single files that label elements and units: they are described without an experiment file."""
 
     table = RobometryLog
     sign = f"an HDF5 file with {DESCRIPTION}"
@@ -86,7 +86,7 @@ class RobometryFormat:
             paths = tuple(channel_paths(group))
             channels = sorted(set(map(_channel_of, paths)))
             readings: dict[str, StreamReading] = {}
-            unread = [_elsewhere(group, entry) for entry in members(group) if entry.elsewhere is not None]
+            unread = [_not_in_file(group, entry) for entry in members(group) if entry.not_in_file is not None]
             for channel in channels:
                 try:
                     readings[channel] = _read(
@@ -106,7 +106,7 @@ class RobometryFormat:
         )
 
     def read(self, stated: RobometryLog, context: LogContext) -> LogReading:
-        """Read every channel that is stated."""
+        """Read every channel that is specified."""
         path = context.file(stated.path)
         units = {channel: (unit,) if isinstance(unit, str) else unit for channel, unit in stated.units.items()}
         readings = []
@@ -124,8 +124,8 @@ class RobometryFormat:
         return LogReading.of(readings)
 
 
-def _elsewhere(group: Any, entry: Member) -> Finding:
-    text = f"expected numbers in the file itself, got a {entry.elsewhere}, which is not followed"
+def _not_in_file(group: Any, entry: Member) -> Finding:
+    text = f"expected numbers in the file itself, got a {entry.not_in_file}, which is not followed"
     path = entry.path.removeprefix(group.name).strip("/")
     return Finding(stream=path, kind="not_read", message=text, count=0)
 
@@ -163,7 +163,7 @@ def _read(
         raise FormatError(f"{file}: {entry.channel}: expected a channel of a sensor or {JOINTS}; this is neither")
     if QUANTITIES[quantity].has_frame and entry.frame is None:
         raise FormatError(
-            f"{file}: {entry.channel}: expected a frame, or a [[sensor]] that reads {entry.name!r}; state frame"
+            f"{file}: {entry.channel}: expected a frame, or a [[sensor]] that reads {entry.name!r}; specify frame"
         )
     channel = read_channel(group, entry.channel)
     if entry.orientation is not None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables that nobody has declared: whether a file is one, what its columns hold, and their extents."""
+"""Tables without a declared layout: whether a file is one, what its columns hold, and their extents."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import unpacked_limit
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.log_format import LogSketch, SketchedColumns, median_step, sketched_numbers
-from forcetorque.formats.tabular.dialect import LOOKED_AT, MOST_COLUMNS, beginning, form_of, hindrance
+from forcetorque.formats.tabular.dialect import LOOKED_AT, MOST_COLUMNS, first_lines, rejection_reason, table_form
 from forcetorque.formats.tabular.numbers import ISO8601, column_of_dates
 from forcetorque.formats.tabular.row_readers import (
     first_batch,
@@ -61,7 +61,7 @@ _UNIT_NORM = 1e-3
 
 
 def is_table(path: Path) -> bool:
-    """Tell whether a file is a table of numbers, by its first lines.
+    """Check whether a file is a table of numbers, by its first lines.
 
     Args:
         path: File or folder; it exists.
@@ -75,7 +75,7 @@ def is_table(path: Path) -> bool:
         return False
     if is_parquet_file(path):
         return True
-    form = form_of(beginning(path))
+    form = table_form(first_lines(path))
     return form is not None and (form.has_headings or form.delimiter != " ")
 
 
@@ -107,11 +107,11 @@ def _sketch_parquet(path: Path) -> LogSketch:
 
 
 def _sketch_text(path: Path) -> LogSketch:
-    text = beginning(path)
-    form = form_of(text)
+    text = first_lines(path)
+    form = table_form(text)
     if form is None:
         raise FormatError(
-            hindrance(path)
+            rejection_reason(path)
             or f"{path}: expected a table of numbers below at most one line of headings, got another text"
         )
     lines = [line for line in text.splitlines()[form.lines_above :] if line.strip()]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The ports in a folder of logs, and what each of them holds, told from its first message.
+"""The ports in a folder of logs, and what each of them holds by its first message.
 
-Lists say what they are. Plain numbers do not: six may be a force-torque sensor or the positions of
+Lists are recognised by their form. Plain numbers are not: six may be a force-torque sensor or the positions of
 six joints, twelve an inertial sensor or the positions of twelve. The name decides that: they are
 positions if the name of the port's folder starts with `state`, counts of taxels if it lies in a
 folder `skin`, and a sensor otherwise.
@@ -86,7 +86,7 @@ class FoundPort:
 
 
 def discover_ports(folder: str | Path) -> tuple[FoundPort, ...]:
-    """Find all ports in a folder of logs and tell from the first message what each of them holds.
+    """Find all ports in a folder of logs and identify by the first message what each of them holds.
 
     Only the first line of each log is read, of one with contacts on skin all: any may be the
     first of a patch. Links to folders are not followed.
@@ -105,17 +105,17 @@ def discover_ports(folder: str | Path) -> tuple[FoundPort, ...]:
     paths = {
         port: port.relative_to(root).as_posix() if port != root else port.resolve().name for port in _port_folders(root)
     }
-    return tuple(_look_at(root, port, path) for port, path in sorted(paths.items(), key=itemgetter(1)))
+    return tuple(_identified(root, port, path) for port, path in sorted(paths.items(), key=itemgetter(1)))
 
 
 def has_ports(folder: Path) -> bool:
-    """Tell whether there is any port in a folder, without opening it.
+    """Check whether there is any port in a folder, without opening it.
 
     Args:
         folder: Folder to search at any depth.
 
     Returns:
-        Whether there is one, of whatever it holds.
+        Whether there is one, of any content.
     """
     return next(_port_folders(folder), None) is not None
 
@@ -155,7 +155,7 @@ def _with_unread_angles(reading: StreamReading, found: FoundPort) -> StreamReadi
     rotated = read_inertial(found.folder, stream=found.path, frame=found.path, orientation=ROLL_PITCH_YAW).stream
     if (rotated.signal("orientation").values == np.eye(3).ravel()).all():
         return reading
-    text = f"roll, pitch and yaw of an inertial sensor: state, in a stream of its own, {STATE_SENSE}"
+    text = f"roll, pitch and yaw of an inertial sensor: specify, in a stream of its own, {STATE_SENSE}"
     unread = Finding(stream=found.path, kind="not_read", message=text, count=0)
     return reading._replace(findings=(*reading.findings, unread))
 
@@ -180,7 +180,7 @@ def _port_folders(root: Path) -> Iterator[Path]:
             yield here
 
 
-def _look_at(root: Path, folder: Path, path: str) -> FoundPort:
+def _identified(root: Path, folder: Path, path: str) -> FoundPort:
     try:
         table = _table_of(folder, path)
     except ForceTorqueError as error:

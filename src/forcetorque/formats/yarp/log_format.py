@@ -58,7 +58,7 @@ class YarpFormat:
         )
 
     def read(self, stated: YarpLog, context: LogContext) -> LogReading:
-        """Read every port that is stated."""
+        """Read every port that is specified."""
         context.folder(stated.path)
         readings: list[StreamReading] = []
         for k, port in enumerate(stated.stream):

@@ -128,7 +128,7 @@ def read_measures(port_dir: str | Path, *, sensors: Sequence[MeasuresSensor]) ->
     """Read the log of a device with several sensors.
 
     Angular velocities are logged in deg/s and given in rad/s, orientations as roll, pitch and yaw in deg and given as
-    rotation matrix and gravity. The messages do not say whether the
+    rotation matrix and gravity. The messages do not state whether the
     device calibrates its force-torque sensors: that they hold N and N m is assumed.
 
     Where messages carry the sender's and the dumper's stamp, the sender's is taken if it is
@@ -164,7 +164,7 @@ def sensor_sizes(message: Bottle) -> list[list[int]]:
         Numbers of each sensor, its stamp included, for each list that the message has.
 
     Raises:
-        FormatError: If it is not a message of such a device; the text does not say where.
+        FormatError: If it is not a message of such a device; the message does not name the line.
     """
     lists = [element for element in message if isinstance(element, tuple)]
     if len(lists) != len(message) or len(lists) < MIN_LISTS:

@@ -19,7 +19,7 @@ from forcetorque.recording.frames import OrientationLayout, orientation_signals
 from forcetorque.recording.stream import QUANTITIES, Signal
 
 ANGLES = ("roll", "pitch", "yaw")
-"""Names of the numbers, of which `recording.ROLL_PITCH_YAW` says what they mean."""
+"""Names of the numbers, whose meaning is `recording.ROLL_PITCH_YAW`."""
 
 
 def angles_of(orientation: Signal) -> FloatArray:
@@ -56,7 +56,7 @@ NAME_ALL = f'name all joints of this board in its order, "{NO_JOINT}" for one th
 """What to do where a board has another number of joints."""
 
 
-def places_of_joints(board: Sequence[str]) -> list[int]:
+def indices_of_joints(board: Sequence[str]) -> list[int]:
     """Find the joints of the robot among those of a board.
 
     Args:
@@ -68,14 +68,14 @@ def places_of_joints(board: Sequence[str]) -> list[int]:
     Raises:
         RecordingError: If the robot lacks all of them.
     """
-    places = [place for place, joint in enumerate(board) if joint != NO_JOINT]
-    if board and not places:
+    indices = [index for index, joint in enumerate(board) if joint != NO_JOINT]
+    if board and not indices:
         raise RecordingError(f"joints: expected the name of at least one joint of the robot, got {list(board)}")
-    return places
+    return indices
 
 
 def units_of_joints(joints: Sequence[str], joint_units: Mapping[str, str] | None) -> tuple[str, ...]:
-    """Tell the unit of each joint.
+    """Give the unit of each joint.
 
     Args:
         joints: Names of the joints.
@@ -129,7 +129,7 @@ def expect_numbers(message: Bottle, names: Sequence[str], *, advice: str) -> ran
         The place of every number.
 
     Raises:
-        FormatError: If it holds something else; the text does not say where.
+        FormatError: If it holds something else; the message does not name the line.
     """
     numbers = sum(map(is_number, message))
     others = len(message) - numbers
@@ -226,13 +226,13 @@ def read_state(
         FormatError: If the log is anything but one message of so many numbers per line.
         RecordingError: If no joint is named or one twice, or `joint_units` names another joint or unit.
     """
-    places = places_of_joints(joints)
-    names = [joints[place] for place in places]
+    indices = indices_of_joints(joints)
+    names = [joints[index] for index in indices]
     units = units_of_joints(names, joint_units)
 
     def choose(message: Bottle) -> list[int]:
         numbers = expect_numbers(message, joints, advice=NAME_ALL)
-        return [numbers[place] for place in places]
+        return [numbers[index] for index in indices]
 
     log = read_port_log(port_dir, stream=stream, choose=choose)
     return log.reading(stream, {"position": joint_signal("position", log.values, joints=names, units=units)})

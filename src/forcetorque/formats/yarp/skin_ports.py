@@ -59,7 +59,7 @@ class SkinEvent:
     skin_part: int
     """Number of the patch of skin."""
     place: tuple[int, int]
-    """Numbers of the part of the body and of the link, which say in which frame the vectors are."""
+    """Numbers of the part of the body and of the link, which fix the frame of the vectors."""
     values: tuple[float, ...]
     """Numbers as in `COLUMNS`."""
 
@@ -75,7 +75,7 @@ def parse_events_line(line: bytes, *, n_stamps: int) -> tuple[Bottle, tuple[Skin
         Sequence number with stamps, and the contacts; none where nothing is touched.
 
     Raises:
-        FormatError: If the line is anything else; the text does not say where.
+        FormatError: If the line is anything else; the message does not name the line.
     """
     if not line.strip():
         raise FormatError("expected a message, got a blank line; delete it")
@@ -147,7 +147,7 @@ class SkinEventLog:
     left_out: int
     """Messages that only the other clock stamped."""
     dumper_ahead_s: float | None
-    """How far the dumper's clock is ahead of the sender's; None where the log does not tell; s."""
+    """How far the dumper's clock is ahead of the sender's; None where the log does not show it; s."""
 
     @property
     def two_clocks(self) -> bool:
@@ -267,14 +267,14 @@ def read_skin(port_dir: str | Path, *, stream: str, taxels: int) -> StreamReadin
             "those of a message"
         )
     names = tuple(map(str, range(taxels)))
-    choose = partial(expect_numbers, names=names, advice="state how many numbers a message of this patch has")
+    choose = partial(expect_numbers, names=names, advice="specify how many numbers a message of this patch has")
     log = read_port_log(port_dir, stream=stream, choose=choose)
     counts = Signal(quantity="taxel_counts", values=log.values, columns=names, units=("counts",) * taxels)
     return log.reading(stream, {counts.quantity: counts})
 
 
 def holds_skin(path: str, count: int) -> bool:
-    """Tell from name and size of its messages whether a port of plain numbers is one of skin.
+    """Check by name and size of its messages whether a port of plain numbers is one of skin.
 
     Args:
         path: Path of the port's folder below the folder of logs, with `/`.
@@ -337,7 +337,7 @@ def read_skin_events(port_dir: str | Path, *, parts: Sequence[SkinPart]) -> tupl
 
 
 def holds_skin_events(port: PortFolder) -> bool:
-    """Tell from the first message that is not empty whether a port holds contacts on skin.
+    """Check by the first message that is not empty whether a port holds contacts on skin.
 
     Args:
         port: The port folder.
@@ -359,7 +359,7 @@ def holds_skin_events(port: PortFolder) -> bool:
 
 
 def skin_parts(port_dir: str | Path) -> tuple[int, ...]:
-    """Tell which patches of skin are touched anywhere in a log.
+    """Find which patches of skin have contacts anywhere in a log.
 
     Args:
         port_dir: Folder of the port.
@@ -437,7 +437,7 @@ def _findings(part: SkinPart, port: PortFolder, log: SkinEventLog) -> list[Findi
     if log.two_clocks and log.dumper_ahead_s is not None:
         text = (
             f"the dumper's clock is {log.dumper_ahead_s:+.0f} s from the one that stamped the contacts; only streams "
-            "of the same sender may be laid beside them"
+            "of the same sender may be compared with them"
         )
         statements.append(("two_clocks", text, count, log.dumper_ahead_s))
     statements.append(

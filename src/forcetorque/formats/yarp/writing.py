@@ -81,7 +81,7 @@ def _check_path(path: str) -> None:
 
 
 DIGITS = 15
-"""Significant digits of a number: as many as a float64 holds whatever its value."""
+"""Significant digits of a number: as many as a float64 holds for any value."""
 
 _OTHER_LISTS = 8
 """Lists of a stateExt message after position, velocity and acceleration, in the layout of 2017 to 2025."""
@@ -159,7 +159,7 @@ def _board_messages(stream: Stream) -> Iterator[str]:
 
 
 def _list_texts(stream: Stream, quantity: str, values: FloatArray) -> list[str]:
-    """A list fails as a whole: NaN in all joints of a sample is its flag, NaN in some cannot be said."""
+    """A list fails as a whole: NaN in all joints of a sample is its flag, NaN in some has no notation."""
     failed: BoolArray = np.logical_and.reduce(np.isnan(values), axis=1)
     whole = _finite(stream, np.where(failed[:, None], 0.0, values), what=f"the {quantity} of some joints")
     return [_list(row, flag="fail" if bad else "ok") for row, bad in zip(whole.tolist(), failed.tolist(), strict=True)]
