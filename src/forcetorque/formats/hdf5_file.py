@@ -144,15 +144,15 @@ def is_hdf5_file(path: Path) -> bool:
     if not path.is_file():
         return False
     with path.open("rb") as file:
-        location = 0
-        while location <= _LONGEST_HEADER:
-            file.seek(location)
+        offset = 0
+        while offset <= _LONGEST_HEADER:
+            file.seek(offset)
             start = file.read(len(SIGNATURE))
             if start == SIGNATURE:
                 return True
             if not start:
                 return False
-            location = max(512, 2 * location)
+            offset = max(512, 2 * offset)
     return False
 
 
@@ -229,9 +229,9 @@ def members(group: h5py.Group) -> Iterator[Member]:
             if not is_member(here, name):
                 yield Member(path=f"{here.name.rstrip('/')}/{name}", dataset=None, not_in_file="link")
                 continue
-            location = not_in_file(here, name)
-            if location is not None:
-                yield Member(path=f"{here.name.rstrip('/')}/{name}", dataset=None, not_in_file=location)
+            reason = not_in_file(here, name)
+            if reason is not None:
+                yield Member(path=f"{here.name.rstrip('/')}/{name}", dataset=None, not_in_file=reason)
                 continue
             entry = here[name]
             if isinstance(entry, h5py.Dataset):
@@ -292,10 +292,10 @@ def member(group: h5py.Group, name: str) -> Any:
                 f"{group.file.filename}: {group.name}: expected {name} in the file itself, got none or a link; copy it "
                 "there"
             )
-        location = not_in_file(here, part)
-        if location is not None:
+        reason = not_in_file(here, part)
+        if reason is not None:
             raise FormatError(
-                f"{group.file.filename}: {group.name}: {name}: expected numbers in the file itself, got a {location}; "
+                f"{group.file.filename}: {group.name}: {name}: expected numbers in the file itself, got a {reason}; "
                 "save them in one file"
             )
         here = here[part]

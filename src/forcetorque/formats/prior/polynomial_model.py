@@ -77,8 +77,8 @@ def read_polynomial_model(path: Path | str) -> PolynomialModel:
     try:
         return _read(read_xml(file))
     except FormatError as error:
-        numbers = str(error)
-        raise FormatError(numbers if numbers.startswith(str(file)) else f"{file}: {numbers}") from error
+        message = str(error)
+        raise FormatError(message if message.startswith(str(file)) else f"{file}: {message}") from error
 
 
 def write_polynomial_model(path: Path | str, model: PolynomialModel) -> None:

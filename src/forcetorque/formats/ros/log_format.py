@@ -39,7 +39,7 @@ _RATES = {"position": "", "velocity": "/s", "torque": ""}
 
 @dataclass(kw_only=True)
 class Samples:
-    """What was read of a topic, in segments of k messages that have one layout."""
+    """What was read of a topic, in batches of k messages that have one layout."""
 
     stamps: list[IntArray] = field(default_factory=list)
     """Stamps of the sender; shape (k,) each; ns."""
@@ -54,12 +54,12 @@ class Samples:
     names: dict[str, None] = field(default_factory=dict)
     """Joints or channels that messages name, each once."""
     batch_names: list[tuple[str, ...]] = field(default_factory=list)
-    """Those of every segment, in its order of columns."""
+    """Those of every batch, in its order of columns."""
     order: list[IntArray] = field(default_factory=list)
     """Places of the messages among all of the topic; shape (k,) each."""
 
     def joined(self, name: str) -> FloatArray:
-        """Put the segments of some numbers one behind the other; shape (n, k)."""
+        """Put the batches of some numbers one behind the other; shape (n, k)."""
         return np.concatenate([batch[name] for batch in self.numbers])
 
 

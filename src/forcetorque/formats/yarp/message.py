@@ -207,7 +207,7 @@ _LOWER_CASE = np.uint8(0x20)
 """Bit that makes ASCII letters small ones."""
 _LINE = re.compile(rb"[^\n\x8a]*[\n\x8a]")
 _PIECE_SIZE = 1 << 17
-"""Bytes taken at a time: the arrays of a segment stay in the processor's cache."""
+"""Bytes taken at a time: the arrays of so many stay in the processor's cache."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -344,10 +344,10 @@ def _read_block(
     groups = group_lines(text, n_structure=layouts[first.skeleton].n_structure)
     for group in groups:
         _add_layout(group, port, n_before, layouts, choose)
-    groups_numbers = [_convert(group, layouts[group.skeleton], port, n_before) for group in groups]
-    if len(groups_numbers) == 1:
-        return groups_numbers[0]
-    return _joined(groups_numbers, order=np.argsort(np.concatenate([group.rows for group in groups])))
+    numbers = [_convert(group, layouts[group.skeleton], port, n_before) for group in groups]
+    if len(numbers) == 1:
+        return numbers[0]
+    return _joined(numbers, order=np.argsort(np.concatenate([group.rows for group in groups])))
 
 
 def _add_layout(
@@ -361,12 +361,12 @@ def _add_layout(
             raise FormatError(f"{port.data}:{n_before + int(group.rows[0]) + 1}: {error}") from error
 
 
-def _joined(groups_numbers: Sequence[Numbers], *, order: IntArray | slice = slice(None)) -> Numbers:
+def _joined(numbers: Sequence[Numbers], *, order: IntArray | slice = slice(None)) -> Numbers:
     return Numbers(
-        sequence=np.concatenate([part.sequence for part in groups_numbers])[order],
-        stamp_ns=np.concatenate([part.stamp_ns for part in groups_numbers])[order],
-        by_dumper=np.concatenate([part.by_dumper for part in groups_numbers])[order],
-        values=np.concatenate([part.values for part in groups_numbers])[order],
+        sequence=np.concatenate([part.sequence for part in numbers])[order],
+        stamp_ns=np.concatenate([part.stamp_ns for part in numbers])[order],
+        by_dumper=np.concatenate([part.by_dumper for part in numbers])[order],
+        values=np.concatenate([part.values for part in numbers])[order],
     )
 
 
