@@ -10,14 +10,14 @@ import pytest
 from pydantic import ValidationError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.stored_model import Part
+from forcetorque.base.stored_model import StoredTable
 
 
-class _Kept(Part):
+class _Kept(StoredTable):
     table: Annotated[FloatArray, ArrayField((None, 3))]
 
 
-class _Fixed(Part):
+class _Fixed(StoredTable):
     vector: Annotated[FloatArray, ArrayField((3,))]
 
 

@@ -110,7 +110,7 @@ def test_a_run_that_touches_something_tells_no_clock(data_dir: Path, tmp_path: P
     stated = text.replace('delay_s = "estimate"', "delay_s = 0.006").replace(
         "delay_s = 0.0\n", 'delay_s = "estimate"\n'
     )
-    with pytest.raises(RecordingError, match=r"clock\[1\]: .*does not tell the delay"):
+    with pytest.raises(RecordingError, match=r"clock\[1\]: .*the delay is not identifiable"):
         _load(stated, data_dir, tmp_path)
 
 

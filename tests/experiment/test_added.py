@@ -43,7 +43,7 @@ from tests.test_import_order import NEEDS
 RECORDED = r"\b(Runs|SensorRun|Campaign|Experiment|MotionSignal|FootForces)\b"
 """Arguments that hold recordings."""
 CLOCK = '\n[[clock]]\nstream = "arm_ft"\nto = "joints"\ndelay_s = 0.0\n'
-ADDED = "arm_ft: stamped 0 ms later than 'joints', as stated"
+ADDED = "arm_ft: stamped 0 ms later than 'joints', as specified"
 RECORD = {"code_version": "0", "created": "2026-01-01T00:00:00+00:00"}
 LIMITS = AcceptanceFile.model_validate(
     {"schema": "forcetorque/acceptance/1", "name": "test", "evaluate": {"force_error_mean_N": 5.0}}

@@ -228,7 +228,7 @@ def test_the_motion_of_the_sensor_tells_where_the_model_knows_of_no_mass() -> No
 )
 def test_noise_of_an_arm_at_rest_tells_no_clock(name: str) -> None:
     """Negative control."""
-    with pytest.raises(RecordingError, match=r"clock\[0\]: .*(does not tell the delay|lies at the end)"):
+    with pytest.raises(RecordingError, match=r"clock\[0\]: .*(the delay is not identifiable|lies at the end)"):
         told(PAIRS[name], 3, delay_s=0.05, still=True)
 
 

@@ -14,7 +14,8 @@ from forcetorque.experiment.sections import Smoothing
 from forcetorque.formats.parquet import ParquetLog
 from forcetorque.formats.ros.log_format import RosLog
 from forcetorque.formats.tabular.log_format import TabularLog
-from forcetorque.formats.yarp.log_format import StateExtPort, YarpLog
+from forcetorque.formats.yarp.log_format import YarpLog
+from forcetorque.formats.yarp.port_tables import StateExtPort
 from forcetorque.recording.recording import Use
 from tests.scenes.experiments import JOINTS, PARQUET, TEXTS, TWO, YARP
 

@@ -196,7 +196,7 @@ def test_a_channel_at_rest_and_a_wrong_limit_lose_nothing(arm: Path) -> None:
     wide = _changed(plain, 256.0 * _raw(plain))
     assert not sample_quality(wide, wide.sensor("arm_ft")).unusable.any()
     (limit,) = [finding for finding in inspect_experiment(wide, by_model=False) if finding.kind == "saturation"]
-    assert "state limit_counts of [[sensor]]" in limit.message
+    assert "specify limit_counts of [[sensor]]" in limit.message
 
 
 def test_a_log_that_is_frozen_all_over_says_so(arm: Path) -> None:

@@ -195,7 +195,11 @@ def test_inspecting_says_what_to_state(tmp_path: Path) -> None:
         (QUATERNION, {}, "expected frame, whose orientations these are, and orientation"),
         (QUATERNION, {"frame": None, "orientation": SENSE}, "expected frame, whose orientations these are"),
         (UNNAMED[0], {}, "expected frame and world for poses"),
-        (UNNAMED[0], {"world": "base", "orientation": SENSE}, "expected no sense: a pose turns vectors from its frame"),
+        (
+            UNNAMED[0],
+            {"world": "base", "orientation": SENSE},
+            "expected no sense: a pose rotates vectors from its",
+        ),
         ("sensor_msgs/msg/Temperature", {"orientation": SENSE}, "expected no orientation for messages of sensor_msgs"),
     ],
 )

@@ -14,7 +14,7 @@ import pyarrow.csv as pacsv
 import pytest
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError, OutputError
-from forcetorque.base.toml_file import open_questions
+from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
@@ -55,7 +55,7 @@ def _written(folder: Path, text: str, urdf: str = "") -> Path:
 
 
 def _keys(text: str) -> list[str]:
-    return [question.key for question in open_questions(text)]
+    return [question.key for question in unanswered_keys(text)]
 
 
 @pytest.fixture(scope="module")
@@ -113,7 +113,7 @@ def test_an_open_question_stops_every_command_by_its_line(tmp_path: Path, drafte
         text = answered(drafted, {key: ANSWERS[key] for key in asked[:answers]})
         file.write_text(text, encoding="utf-8")
         line = next(k for k, words in enumerate(text.splitlines(), start=1) if words.startswith(f"{asked[answers]} ="))
-        with pytest.raises(FormatError, match=rf"experiment.toml:{line}: {asked[answers]} is a question that is still"):
+        with pytest.raises(FormatError, match=rf"experiment.toml:{line}: {asked[answers]} is still to be filled in"):
             parse_experiment(file)
     file.write_text(answered(drafted, ANSWERS), encoding="utf-8")
     assert parse_experiment(file).sensor[0].serial == "FT-28"
@@ -122,7 +122,7 @@ def test_an_open_question_stops_every_command_by_its_line(tmp_path: Path, drafte
 def test_a_question_mark_in_a_name_or_a_comment_asks_nothing() -> None:
     """Only a value that is nothing else is a question; signs in texts before it are no comments."""
     text = 'a = "why?"\n# b = "?"\nc = { x = "a#b", d = "?" }, # d: which\ne = ["?"]\n'
-    assert [(one.line, one.key, one.words) for one in open_questions(text)] == [(3, "d", "d: which"), (4, "e", "")]
+    assert [(one.line, one.key, one.words) for one in unanswered_keys(text)] == [(3, "d", "d: which"), (4, "e", "")]
 
 
 def test_a_push_is_in_no_interval(drafted: str) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError
-from forcetorque.base.toml_file import open_questions
+from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.inspection.draft.draft import draft_experiment
@@ -47,7 +47,7 @@ def _drafted(*logs: Path) -> str:
 
 
 def _keys(text: str) -> list[str]:
-    return [question.key for question in open_questions(text)]
+    return [question.key for question in unanswered_keys(text)]
 
 
 def _loaded(text: str, folder: Path, **more: str) -> Experiment:
@@ -131,7 +131,7 @@ def test_streams_of_clocks_with_names_are_asked_for(tmp_path: Path) -> None:
     )
     write_recording(tmp_path / "log", Recording(streams={one.name: one for one in streams}))
     text = draft_experiment([tmp_path / "log"], urdf=FOLDER / "robot.urdf").content
-    (clock,) = (question for question in open_questions(text) if question.key == "delay_s")
+    (clock,) = (question for question in unanswered_keys(text) if question.key == "delay_s")
     assert "the clock 'board' stamped it, 'robot' stamped 'joints'" in clock.words
     assert 'stream = ["acc", "gyro"]\nto = "joints"' in text
 

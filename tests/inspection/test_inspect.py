@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError
-from forcetorque.formats.yarp.log_format import read_log_folder
+from forcetorque.formats.yarp.log_format import YarpFormat
 from forcetorque.inspection.inspect import finding_rows, finding_table, inspect_log
 from forcetorque.recording.recording import Finding
 from tests.results.showing import require_shown
@@ -53,10 +53,10 @@ def test_a_dumper_folder_is_a_recording(arm: Path) -> None:
     port = arm / "log" / "talk"
     port.mkdir()
     (port / "data.log").write_text('0 1700000000.0 "hello"\n', encoding="utf-8")
-    recording = read_log_folder(arm / "log")
-    assert set(recording.streams) == {"arm/stateExt:o", "arm_ft/analog:o"}
-    assert [finding.stream for finding in recording.findings if finding.kind == "not_read"] == ["talk"]
+    reading = YarpFormat().describe(arm / "log").reading
+    assert {stream.name for stream in reading.streams} == {"arm/stateExt:o", "arm_ft/analog:o"}
+    assert [finding.stream for finding in reading.findings if finding.kind == "not_read"] == ["talk"]
     with pytest.raises(FormatError, match=r"found 1 port\(s\) and none to read"):
-        read_log_folder(port)
+        YarpFormat().describe(port)
     with pytest.raises(MissingFileError, match="expected an experiment file or the folder of a log"):
         inspect_log(arm / "nothing")

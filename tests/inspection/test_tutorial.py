@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.base.toml_file import open_questions
+from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.inspection.draft.draft import Draft
 from tests.app.outcome import Run
@@ -101,7 +101,7 @@ def test_the_script_of_the_page_runs(capsys: pytest.CaptureFixture[str], monkeyp
     exec(compile(code, "tutorial.md", "exec"), names)
     draft = names["draft"]
     assert isinstance(draft, Draft)
-    assert [question.key for question in draft.questions] == [one.key for one in open_questions(draft.content)]
+    assert [question.key for question in draft.questions] == [one.key for one in unanswered_keys(draft.content)]
     assert len(draft.questions) == 5
     assert "questions, one a line" in capsys.readouterr().out
 

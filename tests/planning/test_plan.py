@@ -144,7 +144,7 @@ def test_a_clock_belongs_to_what_was_recorded(arm: Path) -> None:
     first, plain = (plan(_run(arm, PLAN + words), recordings=1, seconds=30.0) for words in (clock, ""))
     assert first.recordings == plain.recordings
     assert set(first.warnings) - set(plain.warnings) == {
-        "arm_ft: stamped 0 ms later than 'joints', as stated: its stamps are brought to that clock"
+        "arm_ft: stamped 0 ms later than 'joints', as specified: its stamps are brought to that clock"
     }
     with pytest.raises(ExperimentError, match=r"expected \[recording\], to whose streams \[\[clock\]\] is done"):
         _unrecorded(arm, PLAN + clock)

@@ -174,7 +174,7 @@ def test_contacts_of_a_real_robot(data_dir: Path, tmp_path: Path, name: str, par
     """All that the log has are drawn and reported, on the one clock of their sender, in no newtons."""
     for kind in ("data", "info"):
         (tmp_path / f"{kind}.log").symlink_to(data_dir / "icub_skin_events_pps" / f"{name}_{kind}.log")
-    wanted = [SkinPart(number=number, stream=f"part {number}", frame=f"frame_{number}") for number in parts]
+    wanted = [SkinPart(number=number, name=f"part {number}", frame=f"frame_{number}") for number in parts]
     streams = [reading.stream for reading in read_skin_events(tmp_path, parts=wanted)]
     recording, draft = Recording(streams={one.name: one for one in streams}), SceneDraft()
     frames = [part.frame for part in wanted]

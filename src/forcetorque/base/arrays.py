@@ -23,7 +23,7 @@ BoolArray = npt.NDArray[np.bool_]
 
 
 def read_only(values: Any, *, name: str, shape: tuple[int | None, ...]) -> FloatArray:
-    """Copy values to a float64 array that nobody can change afterwards.
+    """Copy values to a float64 array that is read-only.
 
     An array that is read-only already, with all memory that it is a view of, is taken as it is: a
     recording of ten million samples need not be held twice, and a file mapped for reading not at all.
@@ -46,7 +46,7 @@ def read_only(values: Any, *, name: str, shape: tuple[int | None, ...]) -> Float
 
 
 def read_only_integers(values: Any, *, name: str, shape: tuple[int | None, ...]) -> IntArray:
-    """Copy whole numbers to an int64 array that nobody can change afterwards.
+    """Copy whole numbers to an int64 array that is read-only.
 
     Args:
         values: Anything NumPy can turn into whole numbers; an empty list is none of them.
@@ -179,7 +179,7 @@ def _read_only_flags(values: Any, *, name: str, shape: tuple[int | None, ...]) -
 
 
 def _is_frozen(values: Any) -> bool:
-    """Whether it is a C-ordered float64 array that nobody holds a writable view of by accident."""
+    """Whether it is a C-ordered float64 array without a writable view by accident."""
     if not isinstance(values, np.ndarray) or values.dtype != np.float64 or not values.flags.c_contiguous:
         return False
     while isinstance(values, np.ndarray):
@@ -264,7 +264,7 @@ class ArrayField:
 
 
 class ArrayModel(BaseModel):
-    """A model whose fields may be arrays, compared by their numbers: NumPy has no single answer, so pydantic fails."""
+    """A model whose fields may be arrays, compared by their numbers: NumPy gives an array, so pydantic fails."""
 
     def __eq__(self, other: object) -> bool:
         return type(other) is type(self) and _same(self.__dict__, other.__dict__)
@@ -286,7 +286,7 @@ _Value = TypeVar("_Value")
 
 
 def read_only_mapping(mapping: Mapping[_Key, _Value]) -> MappingProxyType[_Key, _Value]:
-    """Copy a mapping to one that nobody can change afterwards.
+    """Copy a mapping to one that is read-only.
 
     Args:
         mapping: Any mapping.

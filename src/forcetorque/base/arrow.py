@@ -40,13 +40,13 @@ def require_small_parquet(file: Path, metadata: Any, columns: Collection[str]) -
 
     Args:
         file: The file.
-        metadata: What Arrow says of it.
+        metadata: Metadata of Arrow.
         columns: Names of the columns that are read.
 
     Raises:
         FormatError: If what it packs, or their numbers, are more.
     """
-    # what is said of single columns is not asked for: Arrow ends the process where that is damaged
+    # the metadata of single columns is not read: Arrow ends the process where that is damaged
     packed = sum(metadata.row_group(k).total_byte_size for k in range(metadata.num_row_groups))
     require_unpacked(file, max(metadata.num_rows * len(columns) * np.dtype(np.float64).itemsize, packed))
 

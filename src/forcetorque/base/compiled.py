@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What compiled functions share: a key for the copy on disk, a word when one is made, arrays of one kind.
+"""What compiled functions share: a key for the copy on disk, a message when one is made, arrays of one kind.
 
 Importing this loads the compiler, so only modules that are themselves imported when they are needed do.
 """
@@ -39,16 +39,16 @@ def source_digest(*folders: Path) -> str:
 
 
 class _Announce(event.Listener):
-    """Says so when a compilation starts; a copy on disk starts none."""
+    """Logs a message when a compilation starts; a copy on disk starts none."""
 
     def __init__(self, message: str) -> None:
         self.message = message
-        self.said = False
+        self.logged = False
 
     def on_start(self, event: Any) -> None:
-        if not self.said:
+        if not self.logged:
             _LOG.info(self.message)
-            self.said = True
+            self.logged = True
 
     def on_end(self, event: Any) -> None:
         pass
@@ -58,7 +58,7 @@ def announced(message: str) -> AbstractContextManager[Any]:
     """Log a message, once, if anything is compiled inside the context.
 
     Args:
-        message: What to say.
+        message: The message.
 
     Returns:
         The context.

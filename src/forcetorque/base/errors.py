@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One error tree; every message says where, what was expected, what came and what to do."""
+"""One error tree; every message gives where, what was expected, what came and what to do."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class UnitError(ForceTorqueError, ValueError):
 
 
 class FormatError(ForceTorqueError, ValueError):
-    """A file or a text is not what its format says."""
+    """A file or a text is not what its format requires."""
 
 
 class MissingFileError(ForceTorqueError, FileNotFoundError):
@@ -30,11 +30,11 @@ class MissingFileError(ForceTorqueError, FileNotFoundError):
 
 
 class OutputError(ForceTorqueError, FileExistsError):
-    """A file that is to be written is an input, or was made by somebody else."""
+    """A file that is to be written is an input, or was made by another program."""
 
 
 class RobotError(ForceTorqueError, ValueError):
-    """A robot model is not a tree of links, or lacks what was asked of it."""
+    """A robot model is not a tree of links, or lacks what was requested."""
 
 
 class RecordingError(ForceTorqueError, ValueError):
@@ -46,11 +46,11 @@ class ExperimentError(ForceTorqueError, ValueError):
 
 
 class EstimationError(ForceTorqueError, ValueError):
-    """An estimation was asked for what its sensors and contacts cannot tell."""
+    """The requested quantity is not identifiable from the sensors and contacts."""
 
 
 class FitError(ForceTorqueError, ValueError):
-    """Data do not determine what a fit was asked for."""
+    """Data do not determine what a fit estimates."""
 
 
 class SensorError(ForceTorqueError, ValueError):
@@ -92,7 +92,7 @@ def known_names(wanted: object, known: Iterable[str]) -> str:
 
 
 def quoted(text: str) -> str:
-    """Show a text of a file in a message: on one line, and not longer than what says what is wrong with it.
+    """Show a text of a file in a message: on one line, and not longer than the report of what is wrong with it.
 
     Args:
         text: Anything.

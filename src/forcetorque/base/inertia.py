@@ -3,17 +3,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, read_only
 from forcetorque.base.pose import skew, split_pose
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Inertia:
+class Inertia(ArrayRecord):
     """Inertia of a rigid body in a frame; adding two in the same frame joins the bodies.
 
     The second moment is kept even where the mass is zero: real robot models contain such links,
@@ -22,14 +22,10 @@ class Inertia:
 
     mass: float
     """Mass; kg."""
-    first_moment: FloatArray
+    first_moment: FloatArray = field(metadata=array(3))
     """Mass times centre of mass; shape (3,); kg m."""
-    second_moment: FloatArray
+    second_moment: FloatArray = field(metadata=array(3, 3))
     """Rotational inertia about the origin of the frame; shape (3, 3); kg m2."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "first_moment", read_only(self.first_moment, name="first_moment", shape=(3,)))
-        object.__setattr__(self, "second_moment", read_only(self.second_moment, name="second_moment", shape=(3, 3)))
 
     @classmethod
     def zero(cls) -> Inertia:

@@ -27,8 +27,8 @@ _NAME = re.compile(r"\.forcetorque-[0-9a-f]{32}\.tmp")
 def temporary_beside(target: Path, *, folder: bool = False) -> Iterator[Path]:
     """Make an empty file or folder beside a target, to be filled and renamed to it in the body.
 
-    It is locked while it is there, so that runs tell what others still write from what a killed run left. Leftovers in
-    the same folder are removed first. Where there are no such locks, nothing of others is removed.
+    It is locked while it is there, so that runs distinguish what others still write from what a killed run left.
+    Leftovers in the same folder are removed first. Where there are no such locks, nothing of others is removed.
 
     Args:
         target: The file or folder that it becomes; its parent exists. A rename within one folder is atomic.
@@ -54,7 +54,7 @@ def _made(target: Path, *, folder: bool) -> tuple[Path, int | None]:
         if folder:
             path.mkdir()
         else:
-            path.touch(exist_ok=False)  # as any new file, not by `tempfile`, whose files nobody else may read
+            path.touch(exist_ok=False)  # as any new file, not by `tempfile`, whose files no other user may read
         if not _can_lock():
             return path, None
         with suppress(FileNotFoundError):
@@ -70,7 +70,7 @@ def _remove_leftovers(folder: Path) -> None:
     with suppress(OSError), os.scandir(folder) as entries:
         for entry in entries:
             if _NAME.fullmatch(entry.name):
-                with suppress(OSError):  # somebody else's, or removed by another run meanwhile
+                with suppress(OSError):  # of another user, or removed by another run meanwhile
                     _remove_unlocked(Path(entry.path))
 
 
@@ -107,7 +107,7 @@ def _locked(descriptor: int) -> bool | None:
 
 @contextmanager
 def new_folder(output: Path) -> Iterator[Path]:
-    """Make a folder under a name that nobody has, and give it its own at the end.
+    """Make a folder under a temporary name, and rename it at the end.
 
     Args:
         output: Folder to make.
@@ -126,7 +126,7 @@ def new_folder(output: Path) -> Iterator[Path]:
             yield fresh
             fresh.rename(output)
     finally:
-        with suppress(OSError):  # not empty: the folder is in it, or somebody else's
+        with suppress(OSError):  # not empty: the folder is in it, or another one
             for parent in parents:
                 parent.rmdir()
 
@@ -136,7 +136,7 @@ def refuse_existing(output: Path, *, where: str = "") -> None:
 
     Args:
         output: Folder to make.
-        where: What the message says in front of its name, such as the option that names it.
+        where: What the message has in front of its name, such as the option that names it.
 
     Raises:
         ForceTorqueError: If it is there.
@@ -149,7 +149,7 @@ def real_path(path: Path | str) -> Path:
     """Follow the symbolic links of a path, which need not exist.
 
     `Path.resolve` of Python 3.11 and 3.12 raises RuntimeError where links lead round in a circle. Here such a link
-    stays as it is, and whoever opens it gets the OSError that says so.
+    stays as it is, and opening it raises the OSError that reports it.
 
     Args:
         path: Any path.
@@ -266,10 +266,10 @@ def declare_outputs(*paths: Path | None, force: bool | None = None) -> None:
 
     Args:
         paths: Files to write; `-` is standard output, None is none.
-        force: Whether a file that somebody else made may be replaced, as `--force` says; None without that option.
+        force: Whether a file that another program made may be replaced, as `--force` allows; None without that option.
 
     Raises:
-        OutputError: If a file is an input of the run, or was made by somebody else and `force` is not given.
+        OutputError: If a file is an input of the run, or was made by another program and `force` is not given.
     """
     for path in paths:
         if path is None or path == STANDARD_OUTPUT:
@@ -280,12 +280,12 @@ def declare_outputs(*paths: Path | None, force: bool | None = None) -> None:
 
 
 def refuse_output(path: Path | str, *, inputs_sha256: Collection[str] = (), force: bool = False) -> None:
-    """Refuse to replace a file that is an input of a result, or was made by somebody else.
+    """Refuse to replace a file that is an input of a result, or was made by another program.
 
     Args:
         path: File to write.
         inputs_sha256: SHA-256 in hex of the inputs of what is written.
-        force: Whether a file that somebody else made may be replaced; an input never is.
+        force: Whether a file that another program made may be replaced; an input never is.
 
     Raises:
         OutputError: If the file must not be replaced.
@@ -298,14 +298,14 @@ def refuse_output(path: Path | str, *, inputs_sha256: Collection[str] = (), forc
         with file.open("rb") as stream:
             if hashlib.file_digest(stream, "sha256").hexdigest() in inputs_sha256:
                 raise OutputError(f"{file}: expected a file to write, got an input of the result; choose another name")
-    if not is_declared_output(file):  # the command has been asked already
+    if not is_declared_output(file):  # the command has checked it already
         _refuse_foreign(file, force=force)
 
 
 def is_replaceable(path: Path) -> bool:
-    """Tell whether a file is a result or a figure, by its content.
+    """Check whether a file is a result or a figure, by its content.
 
-    A URDF, an experiment file, a log, a recording, a mesh and a matrix file are none, whoever wrote them.
+    A URDF, an experiment file, a log, a recording, a mesh and a matrix file are none, whichever program wrote them.
 
     Args:
         path: A file that exists.

@@ -104,7 +104,7 @@ def rpy_from_rotation(parent_R_child: Any) -> FloatArray:
     """Give roll, pitch and yaw of a rotation, so that `rotation_from_rpy` builds it again.
 
     Roll is taken of what is left when the yaw is undone, so that the three fit each other to rounding near a pitch of
-    90 degrees too, where one of them alone says little.
+    90 degrees too, where one of them alone is badly determined.
 
     Args:
         parent_R_child: Rotation matrix; shape (3, 3).

@@ -88,7 +88,7 @@ def declare_output(path: Path) -> None:
 
 
 def is_declared_output(path: Path) -> bool:
-    """Tell whether a file is known to be written by this run.
+    """Check whether a file is known to be written by this run.
 
     Args:
         path: The file.

@@ -14,28 +14,28 @@ from forcetorque.base.errors import FormatError, MissingFileError, ShapeError
 from forcetorque.base.run_files import declare_input
 
 
-class Part(ArrayModel):
+class StoredTable(ArrayModel):
     """A frozen table of a file; unknown keys are errors."""
 
     model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True)
 
 
-_Kind = TypeVar("_Kind", bound=Part)
+_Kind = TypeVar("_Kind", bound=StoredTable)
 
 
-def read_part(path: Path | str, kind: type[_Kind], *, expected: str) -> _Kind:
+def read_stored_table(path: Path | str, kind: type[_Kind], *, expected: str) -> _Kind:
     """Read a file that holds one table.
 
     Args:
         path: JSON file.
         kind: Class of the table.
-        expected: What is expected and what makes it, in words.
+        expected: What is expected and what makes it, as text.
 
     Returns:
         The table.
     """
     file = Path(path)
-    return checked_part(file, kind, read_json(file, expected=expected))
+    return validated_table(file, kind, read_json(file, expected=expected))
 
 
 def read_json(file: Path, *, expected: str) -> Any:
@@ -61,7 +61,7 @@ def read_json(file: Path, *, expected: str) -> Any:
         raise FormatError(f"{file}: expected JSON, got {error}") from error
 
 
-def checked_part(file: Path, kind: type[_Kind], content: Any) -> _Kind:
+def validated_table(file: Path, kind: type[_Kind], content: Any) -> _Kind:
     """Make a table of the content of a file.
 
     Args:

@@ -44,28 +44,28 @@ Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
 _Content = TypeVar("_Content", bound=Table)
 
 OPEN = "?"
-"""Value of a key that is still a question: whoever fills the file in answers it, and no command runs before."""
+"""Value of a key that is still to be filled in by the user; no command runs before."""
 
 _OPEN_KEY = re.compile(r"""(?P<key>[\w.-]+|"[^"]*")\s*=\s*[\[\s]*["']\?["']""")
 _TEXT = re.compile(r""""(?:[^"\\]|\\.)*"|'[^']*'""")
 _MOST_LINES = 12
-"""Lines of further questions in a message."""
+"""Lines of further unanswered keys in a message."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class OpenQuestion:
-    """A key of a file that nobody has answered yet."""
+class UnansweredKey:
+    """A key of a file that is still to be filled in."""
 
     line: int
     """Its line, from 1."""
     key: str
     """The key."""
     words: str
-    """What is asked: the comment behind it."""
+    """What to fill in: the comment behind it."""
 
 
 def word_or_table(value: Any) -> str:
-    """Tell which of two forms a key has that takes a word, such as a path, or a table: the tag of a union of both.
+    """Name the form of a key that takes a text, such as a path, or a table: the tag of a union of both.
 
     Args:
         value: Its value.
@@ -76,22 +76,22 @@ def word_or_table(value: Any) -> str:
     return "word" if isinstance(value, str | Path) else "table"
 
 
-def open_questions(text: str) -> tuple[OpenQuestion, ...]:
-    """Find the questions in the text of a TOML file.
+def unanswered_keys(text: str) -> tuple[UnansweredKey, ...]:
+    """Find the keys in the text of a TOML file that are still to be filled in.
 
     Args:
         text: Content of the file.
 
     Returns:
-        Its questions, one a line, in the order of the file.
+        The keys, one a line, in the order of the file.
     """
-    questions = []
+    keys = []
     for number, line in enumerate(text.splitlines(), start=1):
         match = _OPEN_KEY.search(line)
         if match and "#" not in _TEXT.sub("", line[: match.start()]):
             words = line[match.end() :].partition("#")[2].strip()
-            questions.append(OpenQuestion(line=number, key=match["key"].strip('"'), words=words))
-    return tuple(questions)
+            keys.append(UnansweredKey(line=number, key=match["key"].strip('"'), words=words))
+    return tuple(keys)
 
 
 def toml_content(file: Path) -> tuple[str, dict[str, Any]]:
@@ -121,7 +121,8 @@ def read_toml(path: Path | str, form: type[_Content], *, what: str) -> _Content:
 
     Raises:
         MissingFileError: If there is no such file.
-        FormatError: If it is not TOML, a question in it is open, or a key is unknown, missing or has a wrong value.
+        FormatError: If it is not TOML, a key in it is still to be filled in, or is unknown, missing or has a wrong
+            value.
     """
     file = Path(path)
     if not file.is_file():
@@ -130,33 +131,33 @@ def read_toml(path: Path | str, form: type[_Content], *, what: str) -> _Content:
         text, content = toml_content(file)
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, or numbers and lists beyond all bounds
         raise FormatError(f"{file}: expected TOML, got {error}") from error
-    _require_answers(file, text)
+    _require_no_unanswered_key(file, text)
     try:
         return form.model_validate(content)
     except ValidationError as error:
-        raise FormatError(_one_line(file, content, error)) from error
+        raise FormatError(_validation_message(file, content, error)) from error
 
 
-def _require_answers(file: Path, text: str) -> None:
-    questions = open_questions(text)
-    if not questions:
+def _require_no_unanswered_key(file: Path, text: str) -> None:
+    keys = unanswered_keys(text)
+    if not keys:
         return
-    first, *more = questions
-    others = ", ".join(str(question.line) for question in more[:_MOST_LINES])
+    first, *more = keys
+    others = ", ".join(str(key.line) for key in more[:_MOST_LINES])
     beyond = ", ..." if len(more) > _MOST_LINES else ""
     rest = f" ({len(more)} more: line {others}{beyond})" if more else ""
     words = f": {first.words}" if first.words else ""
-    raise FormatError(f"{file}:{first.line}: {first.key} is a question that is still open{rest}{words}")
+    raise FormatError(f"{file}:{first.line}: {first.key} is still to be filled in{rest}{words}")
 
 
-def _one_line(file: Path, content: dict[str, Any], error: ValidationError) -> str:
+def _validation_message(file: Path, content: dict[str, Any], error: ValidationError) -> str:
     errors = _short_lists_once(error.errors())
     # a list that is too short because its only element is wrong is no second error
     places = [e["loc"] for e in errors]
     first, *more = [
         e for e in errors if e["type"] != "too_short" or not any(p[: len(e["loc"])] == e["loc"] != p for p in places)
     ]
-    where = _place(content, first["loc"], missing=first["type"] == "missing") or "top level"
+    where = _key_path(content, first["loc"], missing=first["type"] == "missing") or "top level"
     message = first["msg"]
     if first["type"] == "tuple_type":
         message = f"expected a list{f', written [[{where}]]' if isinstance(first['input'], dict) else ''}"
@@ -179,7 +180,7 @@ def _short_lists_once(errors: list[ErrorDetails]) -> list[ErrorDetails]:
     return kept
 
 
-def _place(content: Any, location: tuple[int | str, ...], *, missing: bool) -> str:
+def _key_path(content: Any, location: tuple[int | str, ...], *, missing: bool) -> str:
     """Name a key as the file has it, such as `sensor[0].serial`; the names of alternatives are no keys."""
     place = ""
     for depth, part in enumerate(location, start=1):

@@ -13,7 +13,7 @@ from forcetorque.base.pose import skew, split_pose
 
 
 class MeasureDirection(StrEnum):
-    """Who acts on whom in the reading of a sensor, in the words of URDF and SDF."""
+    """Who acts on whom in the reading of a sensor, in the terms of URDF and SDF."""
 
     CHILD_TO_PARENT = "child_to_parent"
     """The reading is the wrench that the child link applies on the parent link."""

@@ -19,11 +19,11 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.paired_comparison import (
     ALIKE,
+    BLOCKS,
     CONFIDENCE,
-    PIECES,
     ErrorRatio,
     Judgement,
-    independent_stretches,
+    independent_segments,
     ratio_over,
 )
 from forcetorque.contests.phases import Trial
@@ -144,7 +144,7 @@ def _over(contributions: FloatArray, pooled: float, confidence: float) -> ErrorR
     """Ratio of what phases contribute; shape (loads, q)."""
     stretches, errors = [], []
     for row in contributions:
-        count, error = independent_stretches(_averaged(row, PIECES))
+        count, error = independent_segments(_averaged(row, BLOCKS))
         stretches.append(_averaged(row, count))
         errors.append(error)
     return ratio_over(stretches, errors, pooled=pooled, confidence=confidence)

@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.noise.means import one_after_another
+from forcetorque.base.noise.means import joined_times
 from forcetorque.evaluation.load_cases.validation_evidence import (
     PriorComparison,
     fewest_independent,
@@ -294,7 +294,7 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
     several = len(wrenches) > 1
     first = next(iter(wrenches.values()))
     reference = np.concatenate([judged.reference for judged in wrenches.values()]) if several else first.reference
-    time_s = one_after_another([judged.time_s for judged in wrenches.values()]) if several else first.time_s
+    time_s = joined_times([judged.time_s for judged in wrenches.values()]) if several else first.time_s
     for measured in zip(*(judged.with_either_offset() for judged in wrenches.values()), strict=True):
         candidate, offset, wrench = measured[0]
         if several:

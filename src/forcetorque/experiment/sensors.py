@@ -17,7 +17,7 @@ from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
 from forcetorque.experiment.input_files import Inputs, stated_in
 from forcetorque.experiment.sections import PriorTable, Sensor, Variable
 from forcetorque.formats.icub_matrix import serial_number_in_name
-from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
+from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 from forcetorque.formats.prior.registry import read_prior_file
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.recording import Recording
@@ -59,9 +59,8 @@ def read_prior(where: str, entry: Sensor, inputs: Inputs) -> StatedPrior | None:
         return StatedPrior(matrix=np.eye(6), source=IDENTITY)
     stated = entry.prior if isinstance(entry.prior, PriorTable) else PriorTable(path=Path(entry.prior))
     with stated_in(where):
-        units = StatedUnits(force=stated.force_unit, moment=stated.moment_unit)
         _require_serial(serial_number_in_name(stated.path), entry, stated.path)
-        file = read_prior_file(inputs.file(stated.path), units)
+        file = read_prior_file(inputs.file(stated.path), force_unit=stated.force_unit, moment_unit=stated.moment_unit)
         _require_serial(file.serial, entry, stated.path)
         scale = _volts_per_count(file, stated)
     maker = file.raw_unit is RawUnit.VOLTS

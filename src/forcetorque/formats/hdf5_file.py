@@ -33,8 +33,8 @@ _MOST_BLOCKS = 1000
 _LARGEST_BLOCK = 1 << 24
 
 
-def elsewhere(group: Any, name: str) -> str | None:
-    """Tell why the numbers of a dataset are not in its file, without opening it.
+def not_in_file(group: Any, name: str) -> str | None:
+    """Give the reason why the numbers of a dataset are not in its file, without opening it.
 
     Args:
         group: An open group.
@@ -119,7 +119,7 @@ def _in_block(content: bytes, ordered: int | None) -> Iterator[tuple[int, int, b
 
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
-"""What the file begins with, or what stands at byte 512, 1024, 2048, ... behind a header of somebody else's."""
+"""What the file begins with, or what stands at byte 512, 1024, 2048, ... behind a header of another program."""
 LARGEST_RATIO = 1100
 """Bytes of a dataset for each byte of its file: what gzip packs at most. A file that claims more is damaged."""
 MOST_OBJECTS = 10_000
@@ -129,11 +129,11 @@ DEEPEST = 32
 
 _LONGEST_HEADER = 1 << 16
 _CHECKSUM_SIZE = 4
-_STUMBLES = (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError, MemoryError)
+_READ_ERRORS = (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError, MemoryError)
 
 
 def is_hdf5_file(path: Path) -> bool:
-    """Tell whether a file is one of HDF5, by its signature.
+    """Check whether a file is one of HDF5, by its signature.
 
     Args:
         path: File or folder; it exists.
@@ -144,15 +144,15 @@ def is_hdf5_file(path: Path) -> bool:
     if not path.is_file():
         return False
     with path.open("rb") as file:
-        place = 0
-        while place <= _LONGEST_HEADER:
-            file.seek(place)
+        offset = 0
+        while offset <= _LONGEST_HEADER:
+            file.seek(offset)
             start = file.read(len(SIGNATURE))
             if start == SIGNATURE:
                 return True
             if not start:
                 return False
-            place = max(512, 2 * place)
+            offset = max(512, 2 * offset)
     return False
 
 
@@ -184,7 +184,7 @@ def opened_hdf5(path: Path) -> Iterator[h5py.File]:
             yield file
     except ForceTorqueError:
         raise
-    except _STUMBLES as error:
+    except _READ_ERRORS as error:
         reason = " ".join(str(error).split())[:200]
         raise FormatError(f"{path}: expected a whole HDF5 file, got one that cannot be read: {reason}") from error
 
@@ -197,7 +197,7 @@ class Member:
     """Its path in the file."""
     dataset: Any
     """The dataset; None where its numbers are elsewhere."""
-    elsewhere: str | None
+    not_in_file: str | None
     """Why its numbers are not in the file; None where they are."""
 
 
@@ -227,15 +227,15 @@ def members(group: h5py.Group) -> Iterator[Member]:
             if name.startswith("#"):
                 continue
             if not is_member(here, name):
-                yield Member(path=f"{here.name.rstrip('/')}/{name}", dataset=None, elsewhere="link")
+                yield Member(path=f"{here.name.rstrip('/')}/{name}", dataset=None, not_in_file="link")
                 continue
-            place = elsewhere(here, name)
-            if place is not None:
-                yield Member(path=f"{here.name.rstrip('/')}/{name}", dataset=None, elsewhere=place)
+            reason = not_in_file(here, name)
+            if reason is not None:
+                yield Member(path=f"{here.name.rstrip('/')}/{name}", dataset=None, not_in_file=reason)
                 continue
             entry = here[name]
             if isinstance(entry, h5py.Dataset):
-                yield Member(path=entry.name, dataset=entry, elsewhere=None)
+                yield Member(path=entry.name, dataset=entry, not_in_file=None)
             elif isinstance(entry, h5py.Group):
                 pending.append((entry, depth + 1))
 
@@ -252,11 +252,11 @@ def datasets(group: h5py.Group) -> Iterator[h5py.Dataset]:
     Raises:
         FormatError: If it holds more than a log can.
     """
-    yield from (entry.dataset for entry in members(group) if entry.elsewhere is None)
+    yield from (entry.dataset for entry in members(group) if entry.not_in_file is None)
 
 
 def is_member(group: Any, name: str) -> bool:
-    """Tell whether a group has a member of its own, not a link to one.
+    """Check whether a group has a member of its own, not a link to one.
 
     Args:
         group: A group of an open file.
@@ -292,10 +292,10 @@ def member(group: h5py.Group, name: str) -> Any:
                 f"{group.file.filename}: {group.name}: expected {name} in the file itself, got none or a link; copy it "
                 "there"
             )
-        place = elsewhere(here, part)
-        if place is not None:
+        reason = not_in_file(here, part)
+        if reason is not None:
             raise FormatError(
-                f"{group.file.filename}: {group.name}: {name}: expected numbers in the file itself, got a {place}; "
+                f"{group.file.filename}: {group.name}: {name}: expected numbers in the file itself, got a {reason}; "
                 "save them in one file"
             )
         here = here[part]
@@ -303,7 +303,7 @@ def member(group: h5py.Group, name: str) -> Any:
 
 
 def is_numeric(dataset: Any) -> bool:
-    """Tell whether a dataset holds real numbers; texts and objects of MATLAB are numbers too, but no samples.
+    """Check whether a dataset holds real numbers; texts and objects of MATLAB are numbers too, but no samples.
 
     Args:
         dataset: A dataset whose numbers are in the file.

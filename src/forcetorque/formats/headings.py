@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Headings of tables that state a unit, such as `fx [N]`, `time_s` or `elbow (rad)`; none is guessed for others."""
+"""Headings of tables that state a unit, such as `fx [N]`, `time_s` or `elbow (rad)`; none is inferred for others."""
 
 from __future__ import annotations
 
@@ -125,8 +125,8 @@ def named_columns(headings: Sequence[str]) -> tuple[str, ...]:
     return tuple(heading or str(k) for k, heading in enumerate(headings, start=1))
 
 
-def repeated_words(file: Path, line: int, headings: Sequence[str]) -> str:
-    """Say that a heading comes twice.
+def repeated_heading_message(file: Path, line: int, headings: Sequence[str]) -> str:
+    """Report that a heading comes twice.
 
     Args:
         file: The table.
@@ -140,12 +140,12 @@ def repeated_words(file: Path, line: int, headings: Sequence[str]) -> str:
     places = " and ".join(str(k) for k, heading in enumerate(headings, start=1) if heading == name)
     return (
         f"{file}:{line}: expected every heading once, got {name!r} in columns {places}; give each its own name there, "
-        f"or state skip_rows = {line} and column_names"
+        f"or specify skip_rows = {line} and column_names"
     )
 
 
 def is_time_name(name: str) -> bool:
-    """Tell whether a column is called like a time.
+    """Check whether a column is called like a time.
 
     Args:
         name: Its name, without the unit.

@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol, TypeVar, runtime_checkable
+from typing import NamedTuple, Protocol, Self, TypeVar, runtime_checkable
 
 import numpy as np
 
@@ -28,21 +28,55 @@ class LogTable(Table):
     """Files or folders of the same form in which it goes on, in the order of time."""
 
 
+class StreamReading(NamedTuple):
+    """One stream of a log, and what was found while reading it."""
+
+    stream: Stream
+    """The stream."""
+    findings: tuple[Finding, ...] = ()
+    """What is wrong with it; empty if nothing is."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LogReading:
     """What every format gives: streams, each with the name of its clock, and what is wrong with them."""
 
     streams: tuple[Stream, ...]
-    """Streams, in the order in which they were asked for."""
+    """Streams, in the order in which they were specified."""
     findings: tuple[Finding, ...] = ()
     """What was found while reading them."""
     origin: Mapping[str, str] | None = None
-    """What the log itself says of where it comes from; None if nothing."""
+    """What the log itself states about its origin; None if nothing."""
+
+    @classmethod
+    def of(
+        cls,
+        readings: Iterable[StreamReading],
+        *,
+        unread: Iterable[Finding] = (),
+        origin: Mapping[str, str] | None = None,
+    ) -> Self:
+        """Collect the streams of a log.
+
+        Args:
+            readings: The streams, each with its findings.
+            unread: Findings on what was not read; they come first.
+            origin: As of the class.
+
+        Returns:
+            All of them.
+        """
+        streams = tuple(readings)
+        return cls(
+            streams=tuple(reading.stream for reading in streams),
+            findings=(*unread, *(finding for reading in streams for finding in reading.findings)),
+            origin=origin,
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LogDescription:
-    """A log that nobody has said anything about, under names that are made up from its files."""
+    """A log without an experiment file, under names that are made up from its files."""
 
     table: LogTable
     """What the `[recording]` table of an experiment file would state of it."""
@@ -93,7 +127,7 @@ class LogFormat(Protocol[StatedLog]):
         """What it is recognised by, for the message where nothing is; None if it never is."""
 
     def recognises(self, path: Path) -> bool:
-        """Tell whether a file or a folder is such a log, by as little of its content as that takes.
+        """Check whether a file or a folder is such a log, by as little of its content as that takes.
 
         Args:
             path: File or folder; it exists.
@@ -103,7 +137,7 @@ class LogFormat(Protocol[StatedLog]):
         """
 
     def describe(self, path: Path) -> LogDescription:
-        """Read a log without anyone saying what is in it.
+        """Read a log without an experiment file.
 
         Args:
             path: File or folder that is recognised.
@@ -120,13 +154,13 @@ class LogFormat(Protocol[StatedLog]):
 
         Args:
             stated: The `[recording]` table.
-            context: What else the experiment says; resolves the files.
+            context: What else the experiment file specifies; resolves the files.
 
         Returns:
-            The streams that are stated.
+            The streams that are specified.
 
         Raises:
-            ForceTorqueError: If a file is not there or holds something else than what is stated.
+            ForceTorqueError: If a file is not there or holds something else than what is specified.
         """
 
 
@@ -159,7 +193,7 @@ class SketchedColumns:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LogSketch:
-    """A log that does not say what it holds."""
+    """A log that does not state what it holds."""
 
     path: Path
     """The file."""
@@ -187,13 +221,13 @@ class LogSketch:
     """Why they are not of all."""
 
     @property
-    def range_words(self) -> str:
-        """Words about the rows that ranges are of, where these are not all; else empty."""
+    def range_text(self) -> str:
+        """Text about the rows that ranges are of, where these are not all; else empty."""
         return "" if self.ranged_rows is None else f" in the first {self.ranged_rows} rows"
 
 
 def median_step(values: FloatArray | IntArray) -> float | None:
-    """Say how far numbers are apart that rise as times do.
+    """Give the step of numbers that rise as times do.
 
     Args:
         values: Numbers in the order of the file; shape (n,).
@@ -207,7 +241,33 @@ def median_step(values: FloatArray | IntArray) -> float | None:
     return median if median > 0.0 else None
 
 
-def skipped_words(skipped: Mapping[str, str]) -> str:
+def sketched_numbers(name: str, values: FloatArray, *, rows: int, unit: str | None = None) -> SketchedColumns:
+    """Describe the numbers of a single column.
+
+    Args:
+        name: Its name.
+        values: Its first numbers; shape (n,); numbers that are not finite count for no extreme and no mean.
+        rows: How many rows it has.
+        unit: Unit that its name states.
+
+    Returns:
+        The column with its range, and its step where it may be times.
+    """
+    finite = values[np.isfinite(values)]
+    if not len(finite):
+        return SketchedColumns(name=name, rows=rows, unit=unit)
+    return SketchedColumns(
+        name=name,
+        rows=rows,
+        unit=unit,
+        smallest=float(finite.min()),
+        largest=float(finite.max()),
+        mean=float(finite.mean()),
+        step=median_step(values),
+    )
+
+
+def skipped_text(skipped: Mapping[str, str]) -> str:
     """List what of a file of arrays cannot be read.
 
     Args:
@@ -220,21 +280,21 @@ def skipped_words(skipped: Mapping[str, str]) -> str:
     return ", ".join(shown) + (f" and {len(skipped) - len(shown)} more" if len(skipped) > len(shown) else "")
 
 
-def not_read_sentence(skipped: Mapping[str, str]) -> str:
-    """Say what of a file of arrays is not read.
+def not_read_message(skipped: Mapping[str, str]) -> str:
+    """Report what of a file of arrays is not read.
 
     Args:
         skipped: As of a sketch; at least one.
 
     Returns:
-        The sentence that every command says of it.
+        The message of every command.
     """
-    return f"not read, for only arrays of real numbers within the file are: {skipped_words(skipped)}"
+    return f"not read, for only arrays of real numbers within the file are: {skipped_text(skipped)}"
 
 
 @runtime_checkable
 class SketchingFormat(Protocol):
-    """A format whose logs say nothing of units."""
+    """A format whose logs state no units."""
 
     def sketch(self, path: Path) -> LogSketch:
         """Look at a log that is recognised.
@@ -243,5 +303,5 @@ class SketchingFormat(Protocol):
             path: The file.
 
         Returns:
-            What can be told.
+            What names and numbers show.
         """

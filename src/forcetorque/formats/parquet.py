@@ -30,7 +30,7 @@ class ParquetFormat:
         return (path / INDEX_FILE).is_file()
 
     def describe(self, path: Path) -> LogDescription:
-        """Read all of it: its index says what is in it."""
+        """Read all of it: its index lists what is in it."""
         return LogDescription(table=ParquetLog(format="parquet", path=path), reading=_read(path))
 
     def read(self, stated: ParquetLog, context: LogContext) -> LogReading:

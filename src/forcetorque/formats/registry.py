@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The formats of logs that are known: to add one, write its file and add its line to `LOG_FORMATS`.
 
-The experiment file's schema, its loading, `inspect` and their messages all ask this list.
+The experiment file's schema, its loading, `inspect` and their messages all use this list.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.input_file import accept_input
 from forcetorque.formats.array_file.log_format import Hdf5Format, MatlabFormat, NpzFormat
 from forcetorque.formats.log_format import LogContext, LogFormat, LogReading, LogTable
-from forcetorque.formats.other_file import other_file
+from forcetorque.formats.not_a_log import not_a_log_reason
 from forcetorque.formats.parquet import ParquetFormat
 from forcetorque.formats.robometry.log_format import RobometryFormat
 from forcetorque.formats.ros.log_format import RosFormat
-from forcetorque.formats.tabular.dialect import hindrance
+from forcetorque.formats.tabular.dialect import rejection_reason
 from forcetorque.formats.tabular.log_format import TabularFormat
 from forcetorque.formats.yarp.log_format import YarpFormat
 from forcetorque.recording.alignment import joined_stream
@@ -75,7 +75,7 @@ def read_log(stated: LogTable, context: LogContext) -> LogReading:
 
     Args:
         stated: The `[recording]` table.
-        context: What else the experiment says; resolves the files.
+        context: What else the experiment file specifies; resolves the files.
 
     Returns:
         Streams and findings.
@@ -127,7 +127,7 @@ def recognised_format(path: Path) -> LogFormat[Any] | None:
     if len(formats) > 1:
         raise FormatError(
             f"{path}: expected a log of one format, got signs of {' and '.join(map(format_name, formats))} "
-            f"({', '.join(str(known.sign) for known in formats)}); inspect one of them, or state --log-format"
+            f"({', '.join(str(known.sign) for known in formats)}); inspect one of them, or specify --log-format"
         )
     return formats[0] if formats else None
 
@@ -141,7 +141,7 @@ def _is_log_file(entry: Path) -> bool:
 
 
 def _loose_ports(path: Path) -> str:
-    """Words about messages of ports that lie beside each other, as `left_data.log`: each needs a folder of its own."""
+    """Text about messages of ports that lie beside each other, as `left_data.log`: each needs a folder of its own."""
     entries = sorted(path.iterdir()) if path.is_dir() else [path]
     loose = [entry.name for entry in entries if entry.name.endswith(_LOOSE_PORT) and entry.name != _LOOSE_PORT]
     if not loose:
@@ -150,7 +150,7 @@ def _loose_ports(path: Path) -> str:
 
 
 def not_recognised(path: Path) -> FormatError:
-    """Say what would have made a path a log.
+    """Report what would have made a path a log.
 
     Args:
         path: What no format knows.
@@ -164,7 +164,7 @@ def not_recognised(path: Path) -> FormatError:
         return FormatError(
             f"{path}: expected a log, got a folder of several: {shown}; name one, or those of one recording"
         )
-    reason = other_file(path) or (hindrance(path) if path.is_file() else None)
+    reason = not_a_log_reason(path) or (rejection_reason(path) if path.is_file() else None)
     if reason is not None:
         return FormatError(reason)
     signs = [known.sign for known in LOG_FORMATS if known.sign is not None]

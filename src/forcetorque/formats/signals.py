@@ -20,7 +20,7 @@ from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Labels, Quantity
 
 STATE_SENSE = 'orientation = { sense = "sensor_to_world" } or "world_to_sensor"'
-"""What to state of orientations of which a log does not say what they turn into what."""
+"""What to specify of orientations whose sense a log does not state."""
 
 
 class WorldTable(Table):
@@ -43,7 +43,7 @@ class WorldTable(Table):
         return ROLL_PITCH_YAW  # of the forms that a format may fix one is as good as another to check the rest
 
     def applied_to(self, written: OrientationLayout) -> OrientationLayout:
-        """Put what is stated into what the format of a log fixes.
+        """Put what is specified into what the format of a log fixes.
 
         Args:
             written: How the log writes orientations.
@@ -59,13 +59,13 @@ class SenseTable(WorldTable):
     """What a log whose format fixes the form of its orientations leaves open."""
 
     sense: OrientationSense
-    """`sensor_to_world` where it turns vectors along the frame's axes to the world's, else `world_to_sensor`."""
+    """`sensor_to_world` where it rotates vectors along the frame's axes to the world's, else `world_to_sensor`."""
 
     def applied_to(self, written: OrientationLayout) -> OrientationLayout:
-        """Put what is stated into what the format of a log fixes.
+        """Put what is specified into what the format of a log fixes.
 
         Args:
-            written: How the log writes orientations, in whatever sense.
+            written: How the log writes orientations, in either sense.
 
         Returns:
             What its numbers mean.
@@ -74,7 +74,7 @@ class SenseTable(WorldTable):
 
 
 class OrientationTable(SenseTable):
-    """How a log writes the orientation of a frame; nothing of it is guessed."""
+    """How a log writes the orientation of a frame; nothing of it is inferred."""
 
     form: OrientationForm
     """quat_xyzw, quat_wxyz, matrix_rows, matrix_columns or euler."""
@@ -145,7 +145,7 @@ class StatedRate(Table):
         return self.start_s if isinstance(self.start_s, tuple) else (self.start_s,)
 
     def rate_findings(self, stream: str, count: int) -> tuple[Finding, ...]:
-        """Say that times of rows were not logged.
+        """Report that times of rows were not logged.
 
         Args:
             stream: Name of the stream.
@@ -157,7 +157,7 @@ class StatedRate(Table):
         if self.rate_hz is None:
             return ()
         starts = ", ".join(f"{start:g} s" for start in self.starts_s)
-        text = f"no time is logged: rows are taken at {self.rate_hz:g} Hz from {starts} on, as stated"
+        text = f"no time is logged: rows are taken at {self.rate_hz:g} Hz from {starts} on, as specified"
         return (Finding(stream=stream, kind="stated_rate", message=text, count=count, size=self.rate_hz, unit="Hz"),)
 
 
@@ -184,11 +184,11 @@ def even_stamps(count: int, *, rate_hz: float, start_s: float) -> IntArray:
 
 
 def stated_quantity(name: str, *, where: str, columns: int) -> Quantity:
-    """Find a quantity that has as many columns as are stated.
+    """Find a quantity that has as many columns as are specified.
 
     Args:
         name: What the file calls it.
-        where: Where it is stated, for messages.
+        where: Where it is specified, for messages.
         columns: Number of columns.
 
     Returns:
@@ -214,12 +214,12 @@ def units_in_si(
 
     Args:
         quantity: What the columns are of; a scalar of any unit is taken as it stands.
-        units: Unit of every column, as stated.
-        where: Where they are stated, for messages.
+        units: Unit of every column, as specified.
+        where: Where they are specified, for messages.
         columns: What every column is called there.
 
     Returns:
-        SI unit of every column, and the factor from what is stated.
+        SI unit of every column, and the factor from what is specified.
 
     Raises:
         UnitError: If a unit is not known, or none of the quantity.

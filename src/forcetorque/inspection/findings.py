@@ -22,7 +22,7 @@ from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.recording.quality import frozen_finding, saturation_findings, spans, stream_findings
+from forcetorque.recording.quality import frozen_finding, saturation_findings, stream_findings, true_runs
 from forcetorque.recording.recording import Finding, Interval, Recording, Use
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.taxels.health import Ailment
@@ -145,7 +145,7 @@ def _carried(residual: _Residual, expected: FloatArray) -> FloatArray:
 def _merged(residual: _Residual, mask: BoolArray) -> list[tuple[int, int]]:
     """Runs of true values, joined across short pauses, without short ones."""
     joined: list[tuple[int, int]] = []
-    for first, last in spans(mask):
+    for first, last in true_runs(mask):
         if joined and residual.stamp_ns[first] - residual.stamp_ns[joined[-1][1]] < _MERGE_S * 1e9:
             joined[-1] = (joined[-1][0], last)
         else:
@@ -231,7 +231,7 @@ def _outliers(residual: _Residual, free: BoolArray) -> list[Finding]:
     findings: list[Finding] = []
     for axis, name in enumerate(WRENCH_COMPONENTS):
         limit = max(OUTLIER_SCATTERS * scatter[axis], residual.limit[axis])
-        runs = [run for run in spans((np.abs(quick[:, axis]) > limit) & free) if run[1] - run[0] < _LONGEST_OUTLIER]
+        runs = [run for run in true_runs((np.abs(quick[:, axis]) > limit) & free) if run[1] - run[0] < _LONGEST_OUTLIER]
         if runs:
             largest = max(runs, key=lambda run: float(np.abs(quick[run[0], axis])))
             size = float(quick[largest[0], axis])
@@ -310,7 +310,9 @@ def doubtful_spans(experiment: Experiment, use: Use, *, by_model: bool = True) -
 def _with_all_frozen(experiment: Experiment, sensor: ExperimentSensor, findings: Sequence[Finding]) -> list[Finding]:
     """Name the stretches that fits leave out, also those that only the model finds frozen."""
     stream = experiment.recording.stream(sensor.stream)
-    named = [frozen_finding(stream, sensor.quantity, run) for run in spans(sample_quality(experiment, sensor).frozen)]
+    named = [
+        frozen_finding(stream, sensor.quantity, run) for run in true_runs(sample_quality(experiment, sensor).frozen)
+    ]
     frozen = [replace(one, message=f"{one.message}; left out of every fit and evaluation") for one in named]
 
     def is_named(finding: Finding) -> bool:

@@ -17,8 +17,8 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.tried_clocks import load_tried_clocks
-from forcetorque.formats.log_format import SketchingFormat, not_read_sentence
-from forcetorque.formats.prior.prior_file import PriorFile, StatedUnits
+from forcetorque.formats.log_format import SketchingFormat, not_read_message
+from forcetorque.formats.prior.prior_file import PriorFile
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.formats.registry import format_named, not_recognised, recognised_format
 from forcetorque.inspection.draft.log import looks
@@ -113,7 +113,7 @@ class Inspection(Result):
             if self.ranges_of is not None:
                 yield f"smallest, largest and mean are {self.ranges_of}"
             if self.skipped_arrays:
-                yield not_read_sentence(self.skipped_arrays)
+                yield not_read_message(self.skipped_arrays)
             yield sketch_words(self.unread, self.source)
             return
         yield stream_table(self.streams, f"{self.source}: streams")
@@ -204,7 +204,7 @@ def _without_experiment(source: Path, name: str | None) -> Inspection | None:
         findings=(),
         unread=unread,
         skipped_arrays=dict(sketch.skipped_arrays),
-        ranges_of=f"of those{sketch.range_words} alone: {sketch.stopped}" if sketch.range_words else None,
+        ranges_of=f"of those{sketch.range_text} alone: {sketch.stopped}" if sketch.range_text else None,
     )
 
 
@@ -213,7 +213,7 @@ def _prior(source: Path) -> PriorFile:
     try:
         return read_prior_file(source)
     except FormatError:
-        file = read_prior_file(source, StatedUnits(force="N", moment="N m"))
+        file = read_prior_file(source, force_unit="N", moment_unit="N m")
     words = "as if its units were N and N m per count, which it does not state"
     return replace(file, notes=(words,))
 

@@ -36,7 +36,7 @@ def usable_samples(stamp_ns: IntArray) -> IntArray:
 
 
 def gap_limit_ns(stamp_ns: IntArray) -> int:
-    """Tell from which length on a pause in a stream is a gap.
+    """Give the length from which on a pause in a stream is a gap.
 
     Args:
         stamp_ns: Increasing stamps; shape (n,); ns.
@@ -123,26 +123,26 @@ def require_overlap(first: Stream, second: Stream) -> None:
         )
 
 
-def joined_stream(pieces: Sequence[Stream], names: Sequence[str]) -> Stream:
-    """Put pieces of one stream behind each other, in the order in which they are stated.
+def joined_stream(segments: Sequence[Stream], names: Sequence[str]) -> Stream:
+    """Put segments of one stream behind each other, in the order in which they are specified.
 
-    Nothing is sorted and nothing is left out: pieces that overlap are two recordings, or one that is stated twice.
+    Nothing is sorted and nothing is left out: segments that overlap are two recordings, or one that is specified twice.
 
     Args:
-        pieces: Streams of the same clock and signals, at least one.
+        segments: Streams of the same clock and signals, at least one.
         names: What each is called in messages, such as its file.
 
     Returns:
-        The stream, named as the first piece.
+        The stream, named as the first segment.
 
     Raises:
-        RecordingError: If a piece begins before the one in front of it ends, or holds something else.
+        RecordingError: If a segment begins before the one in front of it ends, or holds something else.
     """
-    first = pieces[0]
-    if len(pieces) == 1:
+    first = segments[0]
+    if len(segments) == 1:
         return first
     for (before, name), (after, other) in zip(
-        zip(pieces, names, strict=True), zip(pieces[1:], names[1:], strict=True), strict=False
+        zip(segments, names, strict=True), zip(segments[1:], names[1:], strict=True), strict=False
     ):
         if _form(after) != _form(first):
             raise RecordingError(f"{other}: expected {_form(first)} as in {names[0]}, got {_form(after)}")
@@ -152,14 +152,14 @@ def joined_stream(pieces: Sequence[Stream], names: Sequence[str]) -> Stream:
         if overlap >= 0:
             raise RecordingError(
                 f"{other}: expected samples after the last of {name}, got the first one {overlap * 1e-9:.6g} s before "
-                "it; state the files in the order of time, each once"
+                "it; specify the files in the order of time, each once"
             )
-    counted = all(piece.sequence is not None for piece in pieces)
+    counted = all(segment.sequence is not None for segment in segments)
     return replace(
         first,
-        stamp_ns=np.concatenate([piece.stamp_ns for piece in pieces]),
-        signals={quantity: _joined(quantity, pieces) for quantity in first.signals},
-        sequence=np.concatenate([piece.sequence for piece in pieces if piece.sequence is not None])
+        stamp_ns=np.concatenate([segment.stamp_ns for segment in segments]),
+        signals={quantity: _joined(quantity, segments) for quantity in first.signals},
+        sequence=np.concatenate([segment.sequence for segment in segments if segment.sequence is not None])
         if counted
         else None,
     )
@@ -173,14 +173,14 @@ def _form(stream: Stream) -> str:
     return f"{signals}, clock {stream.clock}"
 
 
-def _joined(quantity: str, pieces: Sequence[Stream]) -> Signal:
-    values = np.concatenate([piece.signals[quantity].values for piece in pieces])
-    return replace(pieces[0].signals[quantity], values=values)
+def _joined(quantity: str, segments: Sequence[Stream]) -> Signal:
+    values = np.concatenate([segment.signals[quantity].values for segment in segments])
+    return replace(segments[0].signals[quantity], values=values)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClockShift:
-    """How the stamps of a stream differ from those of another clock, stated or estimated."""
+    """How the stamps of a stream differ from those of another clock, specified or estimated."""
 
     stream: str
     """Stream that is brought to the other's clock."""
@@ -191,17 +191,17 @@ class ClockShift:
     drift: float = 0.0
     """Seconds by which that grows in a second."""
     delay_half_width_s: float | None = None
-    """Half of the 95 % interval of the delay; s; None where it was stated."""
+    """Half of the 95 % interval of the delay; s; None where it was specified."""
     drift_half_width: float | None = None
-    """Half of the 95 % interval of the drift; None where it was stated."""
+    """Half of the 95 % interval of the drift; None where it was specified."""
     shown_by: str | None = None
-    """What both show, by which it was estimated; None where it was stated."""
+    """What both show, by which it was estimated; None where it was specified."""
     explained: float | None = None
-    """Share of its movement that the one explains of the other; None where it was stated."""
+    """Share of its movement that the one explains of the other; None where it was specified."""
     unasked_drift: float | None = None
-    """Drift of an estimated delay that nobody asked for; None where it was asked for, or the interval holds none."""
+    """Drift of an estimated delay that was not requested; None where it was requested, or the interval holds none."""
     untold: str | None = None
-    """Why the recording does not tell the delay that was to be estimated; None where it does, or it was stated."""
+    """Why the delay that was to be estimated is not identifiable; None where it is, or it was specified."""
 
     @property
     def words(self) -> str:
@@ -212,15 +212,15 @@ class ClockShift:
         brought = "its stamps are brought to that clock"
         growing = f", growing by {1e6 * self.drift:.4g} us a second" if self.drift else ""
         if self.shown_by is None or self.delay_half_width_s is None or self.explained is None:
-            return f"stamped {later}{growing}, as stated: {brought}"
+            return f"stamped {later}{growing}, as specified: {brought}"
         within = f"± {1e3 * self.delay_half_width_s:.2g} ms"
         if self.drift_half_width is not None:
             within = f"{within}, growing by {1e6 * self.drift:.4g} ± {1e6 * self.drift_half_width:.2g} us a second"
         unasked = ""
         if self.unasked_drift is not None:
             unasked = (
-                f"; the delay seems to grow by {1e6 * self.unasked_drift:.4g} us a second, which the interval leaves "
-                'out: state drift = "estimate"'
+                f"; the delay grows by {1e6 * self.unasked_drift:.4g} us a second, which the interval leaves "
+                'out: specify drift = "estimate"'
             )
         return (
             f"stamped {later} ({within}, 95 %), estimated by {self.shown_by}, one of which explains "
@@ -235,7 +235,7 @@ def on_clock_of(stream: Stream, other: Stream, shift: ClockShift, *, of: Stream 
         stream: The stream.
         other: The other one, whose stamps are taken as they are.
         shift: How its stamps differ.
-        of: Stream of the same clock in whose middle the delay is stated; the stream itself if left out.
+        of: Stream of the same clock in whose middle the delay is specified; the stream itself if left out.
 
     Returns:
         The stream with the stamps that the other clock would have given it.

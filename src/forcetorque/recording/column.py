@@ -26,7 +26,7 @@ class ScalarSource:
     """Name of the column."""
 
     def unit(self, recording: Recording) -> str:
-        """Tell its unit.
+        """Give its unit.
 
         Args:
             recording: The recording.
@@ -108,7 +108,7 @@ def known_columns(wanted: str, units: Mapping[str, str]) -> str:
     Returns:
         Text to append to a message.
     """
-    # somebody who wrote com_z for robot.com_y meant the last part
+    # com_z for robot.com_y is close by its last component
     spelled = {part.lower(): name for name in units for part in (name.rpartition(".")[2], name)}
     close = get_close_matches(wanted.lower(), spelled, n=1)
     hint = f'did you mean "{spelled[close[0]]}"? ' if close else ""
@@ -136,7 +136,7 @@ def column_units(recording: Recording) -> dict[str, str]:
 
 
 def _alone(recording: Recording, source: ScalarSource, name: str) -> bool:
-    """Whether a name without a column says enough: the stream, or its quantity, has one column only."""
+    """Whether a name without a column is enough: the stream, or its quantity, has one column only."""
     signals = recording.streams[source.stream].signals
     here = [signals[source.quantity]] if name != source.stream else list(signals.values())
     return sum(len(signal.columns) for signal in here) == 1

@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.recording.alignment import GAP_PERIODS
-from forcetorque.recording.delay_equation import DelayEquation, Stretch, even_means, smoothed
+from forcetorque.recording.delay_equation import DelayEquation, even_means, smoothed
 
 EVEN = 0.01
 """Deviation from even steps, in steps, that is no reason to interpolate."""
@@ -23,7 +23,7 @@ _ROUNDING = 1e-14
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class EvenPair:
+class ResampledPair:
     """Reading and reference at n even steps of time, the reference without its ends."""
 
     reading: FloatArray
@@ -42,7 +42,7 @@ class EvenPair:
             reading: Reading; shape (n, k).
             reference: Reference; shape (n, p).
             step_s: Length of a step; s.
-            most: Largest lag that will be asked for; steps.
+            most: Largest lag that will be requested; steps.
 
         Returns:
             The pair.
@@ -57,16 +57,16 @@ class EvenPair:
             reading=np.ascontiguousarray(both[:, :split].T), reference=both[most : len(at) - most, split:], most=most
         )
 
-    def later(self, lag: int) -> FloatArray:
+    def at_lag(self, lag: int) -> FloatArray:
         """Give the reading some steps after those of the reference; shape (k, n - 2 most)."""
         return self.reading[:, self.most + lag : self.reading.shape[1] - self.most + lag]
 
 
-def residual_at_lags(pairs: Sequence[EvenPair]) -> Callable[[int], FloatArray]:
+def residual_at_lags(pairs: Sequence[ResampledPair]) -> Callable[[int], FloatArray]:
     """Prepare what the reference leaves of the reading, the mean of each pair apart.
 
     Args:
-        pairs: Stretches of the same columns.
+        pairs: Segments of the same columns.
 
     Returns:
         Gives the sum of squares that is left of every column of the reading at a lag; shape (k,).
@@ -77,17 +77,17 @@ def residual_at_lags(pairs: Sequence[EvenPair]) -> Callable[[int], FloatArray]:
     # in these columns the explained square is that of the products
     units = [reference @ (vectors[:, moving] / np.sqrt(eigenvalues[moving])) for reference in centred]
 
-    def left(lag: int) -> FloatArray:
-        readings = [pair.later(lag) for pair in pairs]
+    def residual(lag: int) -> FloatArray:
+        readings = [pair.at_lag(lag) for pair in pairs]
         total = sum(np.einsum("ij,ij->i", r, r) - r.shape[1] * r.mean(axis=1) ** 2 for r in readings)
         products = sum(r @ unit for r, unit in zip(readings, units, strict=True))
         return np.asarray(total) - (np.asarray(products) ** 2).sum(axis=1)
 
-    return left
+    return residual
 
 
 BLOCKS = 20
-"""Stretches of equal information that count as independent where two delays are compared."""
+"""Segments of equal information that count as independent where two delays are compared."""
 
 _SURE = 4.0
 """Standard errors by which the best delay must beat every other, and none at all."""
@@ -96,9 +96,9 @@ _NEAR_STEPS = 2.0
 _MOST_STEPS = 20_000
 """Steps of time that are compared; of longer or denser logs means are taken."""
 _SHORTEST = 10.0
-"""Length of a stretch that both saw, in largest delays, below which it is left out."""
+"""Length of a segment that both saw, in largest delays, below which it is left out."""
 _WIDEST = 0.2
-"""Half-width of the interval, in largest delays, beyond which a delay says nothing."""
+"""Half-width of the interval, in largest delays, beyond which a delay is undetermined."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,13 +106,13 @@ class Delay:
     """By how much stamps come later than those of another clock, with half-widths of 95 % intervals."""
 
     delay_s: float
-    """At the instant that was asked for; s; positive where its stamps are later."""
+    """At the requested instant; s; positive where its stamps are later."""
     delay_half_width_s: float
     """Half of its interval; s."""
     drift: float
-    """Seconds by which it grows in a second; 0 where it was not asked for."""
+    """Seconds by which it grows in a second; 0 where it was not requested."""
     unasked_drift: float
-    """Drift that there is if it is asked for."""
+    """Drift of the solution with drift."""
     drift_half_width: float
     """Half of the interval of that."""
     explained: float
@@ -122,7 +122,7 @@ class Delay:
 
     @property
     def drifts(self) -> bool:
-        """Whether the recording says that the delay changes."""
+        """Whether the recording shows that the delay changes."""
         return abs(self.unasked_drift) > self.drift_half_width
 
 
@@ -153,7 +153,7 @@ def estimate_delay(
         The delay and its interval.
 
     Raises:
-        RecordingError: If both saw too short a time together, or what they saw does not tell the delay: too little
+        RecordingError: If both saw too short a time together, or the delay is not identifiable: too little
             motion, or motion that repeats itself.
     """
     middle = 0.5 * float(time_s[0] + time_s[-1]) if middle_s is None else middle_s
@@ -169,34 +169,35 @@ def estimate_delay(
         (at, smoothed(even_means(time_s, reading, at, step)), smoothed(even_means(shifted, reference, at, step)))
         for at in grids
     ]
-    pairs = [EvenPair.of(at, values, other, step_s=step, most=most) for at, values, other in sampled]
-    left = residual_at_lags(pairs)
+    pairs = [ResampledPair.of(at, values, other, step_s=step, most=most) for at, values, other in sampled]
+    residual = residual_at_lags(pairs)
     lags = np.arange(-most, most + 1)
-    surprise = np.array([np.log(np.maximum(left(lag), np.finfo(float).tiny)).sum() for lag in lags.tolist()])
-    best = int(lags[np.argmin(surprise)])
+    cost = np.array([np.log(np.maximum(residual(lag), np.finfo(float).tiny)).sum() for lag in lags.tolist()])
+    best = int(lags[np.argmin(cost)])
     if abs(best) == most:
         raise RecordingError(
             f"the delay that explains most lies at the end of what was looked through, {around_s + best * step:.3g} s; "
             "state around_s, where it is to be looked for, or a larger within_s"
         )
     equation = DelayEquation(
-        [Stretch(time_s=at[most:-most], reading=values[most:-most]) for at, values, _ in sampled],
+        [at[most:-most] for at in grids],
+        [values[most:-most] for _, values, _ in sampled],
         reference_time_s=np.concatenate(grids),
         reference=np.concatenate([other for _, _, other in sampled]),
         step_s=step,
         middle_s=middle,
     )
-    drifting, steady = (equation.solved(best * step, with_drift=drift) for drift in (True, False))
+    drifting, steady = (equation.solve(best * step, with_drift=drift) for drift in (True, False))
     root = drifting if with_drift else steady
     delay, half = root.values[0], half_width(root.standard_error, root.degrees_of_freedom)
     most_s = _WIDEST * within_s
     if not half[0] <= most_s or abs(delay - best * step) > max(_NEAR_STEPS * step, 2.0 * half[0]):
         raise RecordingError(
-            f"what both saw does not tell the delay: its 95 % interval is ± {half[0]:.3g} s, where ± {most_s:.3g} s is "
-            "the most that says anything; record faster motion, or state delay_s"
+            f"the delay is not identifiable from the common motion: its 95 % interval is ± {half[0]:.3g} s, "
+            f"where ± {most_s:.3g} s is the limit; record faster motion, or specify delay_s"
         )
-    rivals = [lag for lag in _minima(surprise, lags) if abs(lag * step - delay) > max(2.0 * half[0], step)]
-    _require_one_answer(equation, float(steady.values[0]), [lag * step for lag in rivals], around_s)
+    rivals = [lag for lag in _minima(cost, lags) if abs(lag * step - delay) > max(2.0 * half[0], step)]
+    _require_unique_delay(equation, float(steady.values[0]), [lag * step for lag in rivals], around_s)
     own = half_width(drifting.standard_error, drifting.degrees_of_freedom)
     return Delay(
         delay_s=around_s + float(delay),
@@ -236,16 +237,16 @@ def _gaps(times: FloatArray) -> Iterator[tuple[float, float]]:
         yield float(times[place]), float(times[place + 1])
 
 
-def _minima(surprise: FloatArray, lags: IntArray) -> list[int]:
+def _minima(cost: FloatArray, lags: IntArray) -> list[int]:
     """Lags at which less is left than at both neighbours."""
-    padded = np.concatenate([[np.inf], surprise, [np.inf]])
+    padded = np.concatenate([[np.inf], cost, [np.inf]])
     least = (padded[1:-1] < padded[:-2]) & (padded[1:-1] <= padded[2:])
     return [int(lag) for lag in lags[least]]
 
 
-def _own_best(equation: DelayEquation, rival: float, best: float) -> float:
+def _refined_rival(equation: DelayEquation, rival: float, best: float) -> float:
     """A rival at its own best: on the grid alone, the one that happens to lie nearer to a step would win."""
-    refined = float(equation.solved(rival, with_drift=False).values[0])
+    refined = float(equation.solve(rival, with_drift=False).values[0])
     if abs(refined - rival) <= _NEAR_STEPS * equation.step:
         return refined
     # steps that run away from it may end at the best of all, which is no rival of itself
@@ -253,12 +254,13 @@ def _own_best(equation: DelayEquation, rival: float, best: float) -> float:
     return float(min(near, key=lambda at: equation.advantage(best, at, blocks=BLOCKS)))
 
 
-def _require_one_answer(equation: DelayEquation, best: float, rivals: list[float], around_s: float) -> None:
+def _require_unique_delay(equation: DelayEquation, best: float, rivals: list[float], around_s: float) -> None:
     """Refuse a delay that others explain as well, or nothing does."""
-    for rival in (None, *(_own_best(equation, rival, best) for rival in rivals)):
+    for rival in (None, *(_refined_rival(equation, rival, best) for rival in rivals)):
         if equation.advantage(best, rival, blocks=BLOCKS) < _SURE:
             other = "none at all" if rival is None else f"one of {around_s + rival:.3g} s"
             raise RecordingError(
-                f"what both saw does not tell the delay: one of {around_s + best:.3g} s explains it no more surely "
-                f"than {other}; record motion of all directions that does not repeat itself, or state delay_s"
+                f"the delay is not identifiable from the common motion: one of {around_s + best:.3g} s explains it no "
+                f"more surely than {other}; record motion of all directions that does not repeat itself, or specify "
+                "delay_s"
             )

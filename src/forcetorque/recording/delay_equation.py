@@ -20,28 +20,18 @@ _SMOOTH_STEPS = 2.0
 _ROUNDING = 1e-9
 """Part of the largest singular value below which a direction of the reference does not move."""
 _WAVES = 6
-"""Half waves along the recording that tell the error of its sum. Fewer make intervals wide, more too narrow where what
-is left lasts long: of a reading that the reference leaves part of, as long as the slowest motion."""
+"""Half waves along the recording that estimate the error of its sum. Fewer make intervals wide, more too narrow where
+what is left lasts long: of a reading that the reference leaves part of, as long as the slowest motion."""
 _FEWEST_STEPS = 10
 """Steps of time in a block, at least."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Stretch:
-    """A reading at n even steps of time."""
-
-    time_s: FloatArray
-    """Instants; shape (n,); s."""
-    reading: FloatArray
-    """Reading; shape (n, k)."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Root:
+class DelaySolution:
     """Delay and drift that solve the equation, with standard errors."""
 
     values: FloatArray
-    """Delay in s, then drift where it was asked for; shape (q,)."""
+    """Delay in s, then drift where it was requested; shape (q,)."""
     standard_error: FloatArray
     """Standard errors; shape (q,)."""
     degrees_of_freedom: FloatArray
@@ -51,7 +41,7 @@ class Root:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Left:
+class _Residual:
     """What is left at a delay."""
 
     error: FloatArray  # (n, k)
@@ -61,21 +51,23 @@ class _Left:
 
 
 class DelayEquation:
-    """Reading and reference of several stretches of time."""
+    """Reading and reference of several intervals."""
 
     def __init__(
         self,
-        stretches: Sequence[Stretch],
+        times_s: Sequence[FloatArray],
+        measured: Sequence[FloatArray],
         *,
         reference_time_s: FloatArray,
         reference: FloatArray,
         step_s: float,
         middle_s: float,
     ) -> None:
-        """Take stretches that lie inside the reference, by as much as delays will be.
+        """Take intervals that lie inside the reference, by as much as delays will be.
 
         Args:
-            stretches: The reading.
+            times_s: Even steps of time of every interval; shapes (n,); s.
+            measured: Reading at these steps; shapes (n, k).
             reference_time_s: Stamps of the reference, rising; shape (m,); s.
             reference: Reference; shape (m, p).
             step_s: Step of time of the reading; s.
@@ -83,17 +75,17 @@ class DelayEquation:
         """
         from scipy.interpolate import CubicSpline  # here because importing it takes longer than most commands
 
-        self.time = np.concatenate([stretch.time_s for stretch in stretches])
-        self.reading = np.concatenate([stretch.reading for stretch in stretches])
+        self.time = np.concatenate(times_s)
+        self.reading = np.concatenate(measured)
         self.step, self.since = step_s, self.time - middle_s
         self._curve = CubicSpline(reference_time_s, reference)
-        lengths = [len(stretch.time_s) for stretch in stretches]
-        number = np.repeat(np.arange(len(stretches)), lengths)
+        lengths = list(map(len, times_s))
+        number = np.repeat(np.arange(len(lengths)), lengths)
         along = np.concatenate([np.linspace(-1.0, 1.0, length) for length in lengths])
-        own = number[:, None] == np.arange(len(stretches))
+        own = number[:, None] == np.arange(len(lengths))
         self._constant = np.hstack([own, own * along[:, None]]).astype(np.float64)
 
-    def solved(self, start: float, *, with_drift: bool) -> Root:
+    def solve(self, start: float, *, with_drift: bool) -> DelaySolution:
         """Solve it.
 
         Args:
@@ -106,14 +98,14 @@ class DelayEquation:
         theta = np.array([start, 0.0]) if with_drift else np.array([start])
         near = _NEAR * self.step / np.array([1.0, max(float(np.abs(self.since).max()), self.step)])[: len(theta)]
         for _ in range(_ITERATIONS):
-            left = self._left(theta)
+            left = self._residual(theta)
             change = np.linalg.pinv(left.curvature) @ left.score.sum(axis=0)
             theta = theta + np.clip(change, -4.0 * near, 4.0 * near)
             if (np.abs(change) < _CLOSE * near).all():
                 break
-        left = self._left(theta)
+        left = self._residual(theta)
         q = len(theta)
-        # of a reference with noise only the derivative of the equation itself tells how sharp the solution is
+        # of a reference with noise only the derivative of the equation itself gives how sharp the solution is
         slope = np.column_stack(
             [(self._score(theta - d) - self._score(theta + d)) / (2.0 * d[k]) for k, d in enumerate(np.diag(near))]
         )
@@ -122,7 +114,7 @@ class DelayEquation:
         covariance = inverse @ (waves.T @ waves / len(waves)) @ inverse.T
         sharp = bool((np.linalg.eigvals(slope).real > 0.0).all())
         error = np.sqrt(np.diag(covariance)) if sharp else np.full(q, np.inf)
-        return Root(
+        return DelaySolution(
             values=theta,
             standard_error=error,
             degrees_of_freedom=np.full(q, float(len(waves))),
@@ -130,26 +122,26 @@ class DelayEquation:
         )
 
     def advantage(self, delay: float, rival: float | None, *, blocks: int) -> float:
-        """Say how surely a delay leaves less than another.
+        """Give how surely a delay leaves less than another.
 
         Args:
             delay: The delay; s.
             rival: The other; s; None for a reading that follows nothing.
-            blocks: Stretches of equal information that count as independent.
+            blocks: Segments of equal information that count as independent.
 
         Returns:
             Logarithm of what the other leaves more, block by block, in standard errors of its mean.
         """
-        left = self._left(np.array([delay]))
-        other = self._unexplained() if rival is None else self._left(np.array([rival])).error
+        left = self._residual(np.array([delay]))
+        other = self._unexplained() if rival is None else self._residual(np.array([rival])).error
         weight = 1.0 / np.maximum((left.error**2).mean(axis=0), np.finfo(float).tiny)
         squares = np.column_stack([other**2 @ weight, left.error**2 @ weight])
         sums = np.maximum(_block_sums(squares, left.information, blocks), np.finfo(float).tiny)
         more = np.log(sums[:, 0] / sums[:, 1])
-        spread = float(more.std(ddof=1))
-        return float(more.mean() / spread * np.sqrt(len(more))) if spread > 0.0 else 0.0
+        deviation = float(more.std(ddof=1))
+        return float(more.mean() / deviation * np.sqrt(len(more))) if deviation > 0.0 else 0.0
 
-    def _left(self, theta: FloatArray) -> _Left:
+    def _residual(self, theta: FloatArray) -> _Residual:
         at = self.time - theta[0] - (theta[1] * self.since if len(theta) > 1 else 0.0)
         design = np.hstack([self._constant, self._curve(at)])
         basis, coefficients = _projection(design, self.reading)
@@ -159,7 +151,7 @@ class DelayEquation:
         directions = [scale[:, None] * speed for scale in scales]
         directions = [one - basis @ (basis.T @ one) for one in directions]
         weight = 1.0 / np.maximum((error**2).mean(axis=0), np.finfo(float).tiny)
-        return _Left(
+        return _Residual(
             error,
             (directions[0] ** 2) @ weight,
             np.column_stack([(one * error) @ weight for one in directions]),
@@ -167,7 +159,7 @@ class DelayEquation:
         )
 
     def _score(self, theta: FloatArray) -> FloatArray:
-        return self._left(theta).score.sum(axis=0)
+        return self._residual(theta).score.sum(axis=0)
 
     def _unexplained(self) -> FloatArray:
         basis, _ = _projection(self._constant, self.reading)

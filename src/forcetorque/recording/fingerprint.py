@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""By what samples are known again: hashes of windows of them, whatever their stamps and wherever the log was cut.
+"""By what samples are known again: hashes of windows of them, for any stamps and any cut of the log.
 
 Every window of `WINDOW` samples has a hash of its values, rounded to so many digits as every way of writing a log
-keeps. Of these the smallest are kept: they are spread over all of the samples, and the same of every log that holds
-them. Of samples whose share p another log holds, none of `KEPT` is found again with the probability (1 - p)^KEPT.
+keeps. Of these the smallest are kept: they are distributed over all of the samples, and the same of every log that
+holds them. Of samples whose share p another log holds, none of `KEPT` is found again with the probability (1 - p)^KEPT.
 """
 
 from __future__ import annotations

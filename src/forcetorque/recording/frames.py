@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, require_shape
 from forcetorque.base.errors import FormatError, RecordingError, UnitError
 from forcetorque.base.pose import make_pose
 from forcetorque.base.units import STANDARD_GRAVITY, si_factor
@@ -39,7 +39,7 @@ class OrientationForm(StrEnum):
     MATRIX_COLUMNS = "matrix_columns"
     """Rotation matrix, column after column."""
     EULER = "euler"
-    """Three angles, about axes that are stated."""
+    """Three angles, about axes that are specified."""
 
 
 class OrientationSense(StrEnum):
@@ -55,9 +55,9 @@ class EulerAxes(StrEnum):
     """About which axes three rotations follow each other."""
 
     MOVING = "moving"
-    """Each about an axis that the ones before have turned (intrinsic)."""
+    """Each about an axis that the ones before have rotated (intrinsic)."""
     FIXED = "fixed"
-    """All about axes that stand still (extrinsic)."""
+    """All about axes that do not move (extrinsic)."""
 
 
 _COUNTS = {
@@ -74,8 +74,8 @@ def _turns_about(axes: str) -> bool:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class OrientationLayout:
-    """What the numbers of a log say of the orientation of a frame."""
+class OrientationLayout(ArrayRecord):
+    """What the numbers of a log mean for the orientation of a frame."""
 
     form: OrientationForm
     """How an orientation is written."""
@@ -85,14 +85,14 @@ class OrientationLayout:
     """Of Euler angles the axes in the order of the angles, such as `zyx`."""
     about: EulerAxes | None = None
     """Of Euler angles whether the axes move."""
-    gravity_direction: FloatArray = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
+    gravity_direction: FloatArray = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]), metadata=array(3))
     """Direction in which things fall, along the world's axes; shape (3,)."""
     gravity: float = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
 
     def __post_init__(self) -> None:
-        direction = read_only(self.gravity_direction, name="gravity_direction", shape=(3,))
-        object.__setattr__(self, "gravity_direction", direction)
+        check_arrays(self)
+        direction = self.gravity_direction
         length = float(np.linalg.norm(direction))
         if not (np.isfinite(length) and length > 0.0 and np.isfinite(self.gravity) and self.gravity > 0.0):
             raise FormatError(
@@ -149,10 +149,10 @@ def orientation_signals(
         unit: Unit of the numbers: rad or deg for angles, else 1.
         frame: Name of the frame whose orientation it is.
         stream: Name of the stream, for findings.
-        place: Says where in the file a row is, for messages; `row 1` for the first one if left out.
+        place: Gives where in the file a row is, for messages; `row 1` for the first one if left out.
 
     Returns:
-        The two signals by their quantities, and what is doubtful.
+        The two signals by their quantities, and findings.
 
     Raises:
         UnitError: If the unit is none of such numbers.
@@ -179,7 +179,7 @@ def orientation_signals(
     world_R_sensor = np.full((len(values), 3, 3), np.nan)
     if len(known):
         world_R_sensor[known] = _rotations(values[known], layout, lambda row: where(int(known[row])))
-    return _signals(world_R_sensor, layout.world_gravity, frame), tuple(_doubts(values[known], unit, stream))
+    return _signals(world_R_sensor, layout.world_gravity, frame), tuple(_angle_findings(values[known], unit, stream))
 
 
 def _rotations(values: FloatArray, layout: OrientationLayout, where: Callable[[int], str]) -> FloatArray:
@@ -238,15 +238,15 @@ def _signals(world_R_sensor: FloatArray, world_gravity: FloatArray, frame: str) 
     return {quantity: Signal.of_fixed(quantity, samples, frame=frame) for quantity, samples in values.items()}
 
 
-def _doubts(values: FloatArray, unit: str, stream: str) -> list[Finding]:
+def _angle_findings(values: FloatArray, unit: str, stream: str) -> list[Finding]:
     """Angles in rad that turn more than once round: unwrapped, or degrees by another name."""
     turns = np.abs(values).max(axis=1, initial=0.0) > ONE_TURN
     if unit != "rad" or not turns.any():
         return []
     largest = float(np.abs(values).max())
     text = (
-        f"Euler angles that are stated to be in rad reach {largest:.4g}, more than one turn; "
-        'where they are degrees, state units = ["deg", "deg", "deg"]'
+        f"Euler angles that are specified in rad reach {largest:.4g}, more than one turn; "
+        'where they are degrees, specify units = ["deg", "deg", "deg"]'
     )
     count = int(np.count_nonzero(turns))
     return [Finding(stream=stream, kind="euler_units", message=text, count=count, size=largest, unit="rad")]
@@ -255,7 +255,7 @@ def _doubts(values: FloatArray, unit: str, stream: str) -> list[Finding]:
 def wrench_in_frame(stream: Stream, to: str, to_H_own: Any) -> Stream:
     """Move the wrench of a stream into a frame.
 
-    Force and moment are turned; the moment is moved to the origin of the frame by what the pose says of the origins.
+    Force and moment are rotated; the moment is moved to the origin of the frame by the translation of the pose.
 
     Args:
         stream: Stream with a wrench.
@@ -272,15 +272,15 @@ def wrench_in_frame(stream: Stream, to: str, to_H_own: Any) -> Stream:
     signal = stream.signal("wrench")
     if signal.frame == to:
         raise RecordingError(
-            f"stream {stream.name!r}: expected a wrench in another frame than {to!r}; state in its frame the one along "
-            "whose axes the log has it, or leave [[transform]] out"
+            f"stream {stream.name!r}: expected a wrench in another frame than {to!r}; specify in its frame the one "
+            "along whose axes the log has it, or leave [[transform]] out"
         )
     moved = replace(signal, values=transform_wrench(to_H_own, signal.values), frame=to)
     return replace(stream, signals={**stream.signals, "wrench": moved})
 
 
 def orientation_at(stream: Stream, orientation: Stream, to: str) -> FloatArray:
-    """Give the pose of the world in a frame at the samples of a stream, as far as it is turned.
+    """Give the pose of the world in a frame at the samples of a stream, its rotation only.
 
     Args:
         stream: The stream.
@@ -319,7 +319,7 @@ def pose_at(stream: Stream, pose: Stream, to: str) -> FloatArray:
     if "translation" not in pose.signals:
         raise RecordingError(
             f"stream {pose.name!r}: expected a translation beside the orientation: the moment is about the origin of "
-            f"its world; state where {to!r} is as x, y, z of the quantity translation, in m, or, where the moment is "
+            f"its world; specify where {to!r} is as x, y, z of the quantity translation, in m, or, where the moment is "
             'about a point that moves with the sensor, moment_about = "point" with point_m'
         )
     to_H_world = orientation_at(stream, pose, to)

@@ -17,7 +17,7 @@ STUCK_SECONDS = 1.0
 _NOISY = ("wrench", "raw", "proper_acceleration", "angular_velocity")
 """Quantities whose noise changes them at every sample; encoders and thermometers may rest."""
 _SPARSE = ("skin_event",)
-"""Quantities that have nothing to say at most times."""
+"""Quantities that are empty at most times."""
 _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
 """Sizes of counters that start again at zero."""
 
@@ -49,14 +49,14 @@ def saturation_findings(
 
     Args:
         stream: Stream that the counts belong to.
-        counts: Raw readings; shape (n, c); counts.
+        counts: Raw samples; shape (n, c); counts.
         limit_counts: Largest magnitude that the converter gives.
         recovered: Whether the counts came through an inverse matrix; they are then not whole, and an
             offset that the electronics added moves them away from the limit.
 
     Returns:
-        One finding per stretch of time and channel; none where the board reports saturation itself, which is exact;
-        one alone where raw readings go beyond the limit, which is then not that of their converter.
+        One finding per segment of time and channel; none where the board reports saturation itself, which is exact;
+        one alone where raw samples go beyond the limit, which is then not that of their converter.
     """
     if "saturated" in stream.signals:
         return ()
@@ -64,13 +64,13 @@ def saturation_findings(
         largest = float(np.nanmax(np.abs(counts)))
         message = (
             f"readings reach {largest:.0f} counts, so {limit_counts:g} counts is not the limit of their converter: no "
-            "sample is taken for saturated; state limit_counts of [[sensor]]"
+            "sample is taken for saturated; specify limit_counts of [[sensor]]"
         )
         return (Finding(stream=stream.name, kind="saturation", message=message, count=0, size=largest, unit="counts"),)
     findings = []
     reached = at_limit(counts, limit_counts, recovered=recovered)
     for channel in range(counts.shape[1]):
-        for first, last in spans(reached[:, channel]):
+        for first, last in true_runs(reached[:, channel]):
             largest = float(np.abs(counts[first : last + 1, channel]).max())
             note = " (recovered counts)" if recovered else ""
             findings.append(
@@ -89,14 +89,14 @@ def saturation_findings(
 
 
 def _reported_saturation(stream: Stream) -> list[Finding]:
-    """Stretches in which the board says that it holds its last valid sample."""
+    """Segments in which the board flags that it holds its last valid sample."""
     text = "the board reports saturation and holds its last valid sample"
     return [
-        _finding(stream, "saturation", text, first, last, channel="saturated") for first, last in spans(stream.held)
+        _finding(stream, "saturation", text, first, last, channel="saturated") for first, last in true_runs(stream.held)
     ]
 
 
-def spans(mask: BoolArray) -> list[tuple[int, int]]:
+def true_runs(mask: BoolArray) -> list[tuple[int, int]]:
     """Find the runs of true values.
 
     Args:
@@ -188,7 +188,9 @@ def _lost_messages(stream: Stream) -> list[Finding]:
 def _missing_values(stream: Stream, signal: Signal) -> list[Finding]:
     missing = np.logical_not(np.isfinite(signal.values).all(axis=1))
     text = f"no {signal.quantity}"
-    return [_finding(stream, "missing", text, first, last, channel=signal.quantity) for first, last in spans(missing)]
+    return [
+        _finding(stream, "missing", text, first, last, channel=signal.quantity) for first, last in true_runs(missing)
+    ]
 
 
 def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
@@ -223,7 +225,7 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
 
 
 def frozen_finding(stream: Stream, quantity: str, run: Run) -> Finding:
-    """Name a stretch in which a sensor repeats one reading in all channels.
+    """Name a segment in which a sensor repeats one reading in all channels.
 
     Args:
         stream: Its stream.
@@ -244,6 +246,6 @@ def _seconds(stream: Stream, run: Run) -> float:
 
 def _long_runs(stream: Stream, same_as_before: BoolArray) -> list[tuple[int, int, float]]:
     """First and last index, and seconds, of runs of equal values that are too long for noise."""
-    runs = ((first, last + 1) for first, last in spans(same_as_before))
+    runs = ((first, last + 1) for first, last in true_runs(same_as_before))
     timed = ((first, last, float(stream.stamp_ns[last] - stream.stamp_ns[first]) * 1e-9) for first, last in runs)
     return [run for run in timed if run[2] > STUCK_SECONDS]

@@ -10,7 +10,17 @@ from operator import index
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_mapping
+from forcetorque.base.arrays import (
+    ArrayRecord,
+    BoolArray,
+    FloatArray,
+    IntArray,
+    array,
+    check_arrays,
+    mapping,
+    names,
+    read_only,
+)
 from forcetorque.base.errors import RecordingError, known_names
 from forcetorque.recording.alignment import ClockShift
 from forcetorque.recording.stream import Signal, Stream
@@ -25,43 +35,44 @@ class Use(StrEnum):
     CALIBRATION = "calibration"
     """Its samples are fitted."""
     VALIDATION = "validation"
-    """Its samples judge a calibration and are never fitted."""
+    """Its samples validate a calibration and are never fitted."""
     IGNORE = "ignore"
-    """Its samples are neither fitted nor judged, also where another interval covers them."""
+    """Its samples are neither fitted nor used for validation, also where another interval covers them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Support:
-    """A frame that stands still in the world while it is the only unknown contact."""
+class Support(ArrayRecord):
+    """A frame that is static in the world while it is the only unknown contact."""
 
     frame: str
     """Link of the robot model."""
-    gravity_direction: FloatArray
+    gravity_direction: FloatArray = field(metadata=array(3))
     """Unit vector along which things fall, in the axes of the frame; shape (3,)."""
 
     def __post_init__(self) -> None:
-        direction = read_only(self.gravity_direction, name="gravity_direction", shape=(3,))
+        check_arrays(self)
+        direction = self.gravity_direction
         norm = float(np.linalg.norm(direction))
         if not np.isfinite(norm) or norm == 0.0:
             raise RecordingError(
                 f"support frame {self.frame!r}: expected a gravity_direction other than zero, got {direction.tolist()}"
             )
         if abs(norm - 1.0) > _UNIT:
-            direction = read_only(direction / norm, name="gravity_direction", shape=(3,))
-        object.__setattr__(self, "gravity_direction", direction)
+            unit = read_only(direction / norm, name="gravity_direction", shape=(3,))
+            object.__setattr__(self, "gravity_direction", unit)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MovingSupport:
-    """A frame that is the only unknown contact while an IMU tells how the robot moves."""
+class MovingSupport(ArrayRecord):
+    """A frame that is the only unknown contact while an IMU measures how the robot moves."""
 
     frame: str
-    """Link of the robot model; it need not stand still."""
-    motion_streams: tuple[str, ...]
+    """Link of the robot model; it need not do not move."""
+    motion_streams: tuple[str, ...] = field(metadata=names())
     """Streams with the IMU's signals: proper acceleration or gravity, and angular velocity."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "motion_streams", tuple(self.motion_streams))
+        check_arrays(self)
         if not self.motion_streams:
             raise RecordingError(f"support frame {self.frame!r}: expected the streams of an IMU, got none")
 
@@ -104,7 +115,7 @@ class Interval:
             raise RecordingError(f"interval {self.label!r}: its use is {self.use}, which needs a support frame")
 
     def holds(self, stamp_ns: IntArray) -> BoolArray:
-        """Tell which instants lie in the interval.
+        """Find which instants lie in the interval.
 
         Args:
             stamp_ns: Instants; shape (n,); ns on the recording's clock.
@@ -140,26 +151,22 @@ class Finding:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Recording:
+class Recording(ArrayRecord):
     """Everything that was measured in one session, and which part of it is for what."""
 
-    streams: Mapping[str, Stream]
+    streams: Mapping[str, Stream] = field(metadata=mapping())
     """Streams by name."""
-    intervals: tuple[Interval, ...] = ()
+    intervals: tuple[Interval, ...] = field(default=(), metadata=names())
     """Intervals with their support frame and use."""
-    findings: tuple[Finding, ...] = ()
+    findings: tuple[Finding, ...] = field(default=(), metadata=names())
     """What is known to be wrong with it."""
-    origin: Mapping[str, str] = field(default_factory=dict)
+    origin: Mapping[str, str] = field(default_factory=dict, metadata=mapping())
     """Where it comes from, as free text by key: format, path, robot."""
-    clocks: tuple[ClockShift, ...] = ()
+    clocks: tuple[ClockShift, ...] = field(default=(), metadata=names())
     """How stamps were brought to one clock when it was read; not stored, for what is stored has that clock."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "streams", read_only_mapping(self.streams))
-        object.__setattr__(self, "intervals", tuple(self.intervals))
-        object.__setattr__(self, "findings", tuple(self.findings))
-        object.__setattr__(self, "clocks", tuple(self.clocks))
-        object.__setattr__(self, "origin", read_only_mapping(self.origin))
+        check_arrays(self)
         for key, stream in self.streams.items():
             if key != stream.name:
                 raise RecordingError(f"the key {key!r} holds the stream {stream.name!r}")

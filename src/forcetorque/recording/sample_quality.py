@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which samples of a sensor's stream say nothing of its load: frozen, saturated, or stamped again."""
+"""Which samples of a sensor's stream carry no information on its load: frozen, saturated, or stamped again."""
 
 from __future__ import annotations
 
@@ -46,12 +46,12 @@ Run = tuple[int, int]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnusableCounts:
-    """How many samples of a set say nothing of the load, each counted once."""
+    """How many samples of a set carry no information on the load, each counted once."""
 
     frozen: int = 0
     """Samples in which all channels repeat one reading although the log is noisy, or the load moves."""
     saturated: int = 0
-    """Samples at the limit of the converter, or held by a board that says so."""
+    """Samples at the limit of the converter, or held by a board that flags it."""
     repeated: int = 0
     """Messages whose stamp does not step forward."""
 
@@ -87,7 +87,7 @@ class SampleQuality:
     frozen: BoolArray
     """Samples in which all channels repeat one reading although the log is noisy, or the load moves; shape (n,)."""
     saturated: BoolArray
-    """Samples at the limit of the converter, or held by a board that says so; shape (n,)."""
+    """Samples at the limit of the converter, or held by a board that flags it; shape (n,)."""
     repeated: BoolArray
     """Messages whose stamp does not step forward; shape (n,)."""
 
@@ -131,12 +131,12 @@ def at_limit(counts: FloatArray, limit_counts: float, *, recovered: bool) -> Boo
     """Find readings at the limit of the converter.
 
     Args:
-        counts: Raw readings; shape (n, c); counts.
+        counts: Raw samples; shape (n, c); counts.
         limit_counts: Largest magnitude that the converter gives.
         recovered: Whether the counts came through an inverse matrix; they may then lie beyond the limit.
 
     Returns:
-        Which they are; shape (n, c). None where raw readings go beyond the limit: it is not that of their converter.
+        Which they are; shape (n, c). None where raw samples go beyond the limit: it is not that of their converter.
     """
     if not recovered and exceeds_limit(counts, limit_counts):
         return np.zeros(np.shape(counts), dtype=bool)
@@ -146,10 +146,10 @@ def at_limit(counts: FloatArray, limit_counts: float, *, recovered: bool) -> Boo
 
 
 def exceeds_limit(counts: FloatArray, limit_counts: float) -> bool:
-    """Tell whether raw readings go beyond the largest that their converter is said to give.
+    """Check whether raw samples go beyond the specified limit of their converter.
 
     Args:
-        counts: Raw readings; shape (n, c); counts.
+        counts: Raw samples; shape (n, c); counts.
         limit_counts: Largest magnitude that the converter gives, by the file.
 
     Returns:

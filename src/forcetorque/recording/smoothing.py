@@ -47,7 +47,7 @@ def polynomials_through_windows(
     return result
 
 
-_HIT = 1e-6
+_COINCIDENCE = 1e-6
 """A sample this close to an instant of the grid, in steps, is at it: places are rounded."""
 
 
@@ -77,9 +77,9 @@ class EvenGrid:
     gap_ns: int
     """A longer pause is a gap; ns."""
     start_ns: IntArray
-    """First sample of every stretch between gaps; shape (k,); ns."""
+    """First sample of every segment between gaps; shape (k,); ns."""
     end_ns: IntArray
-    """Last sample of every stretch; shape (k,); ns."""
+    """Last sample of every segment; shape (k,); ns."""
 
     @classmethod
     def of(cls, stamp_ns: IntArray) -> EvenGrid:
@@ -94,7 +94,7 @@ class EvenGrid:
         steps, limit = np.diff(stamp_ns), gap_limit_ns(stamp_ns)
         last = np.flatnonzero(steps > limit)
         return cls(
-            # of the whole stream: a short stretch has too few samples to tell it
+            # of the whole stream: a short segment has too few samples for it
             period_s=float(np.median(steps)) * 1e-9,
             gap_ns=limit,
             start_ns=stamp_ns[np.concatenate([[0], last + 1])],
@@ -102,7 +102,7 @@ class EvenGrid:
         )
 
     def length_of(self, window: SavitzkyGolay) -> int:
-        """Tell how many instants a window holds.
+        """Count how many instants a window holds.
 
         Args:
             window: A filter.
@@ -117,23 +117,23 @@ class EvenGrid:
         if length <= window.order:
             raise RecordingError(
                 f"Savitzky-Golay: a window of {window.window_s:g} s holds {length} sample(s) of {self.period_s:.4g} s, "
-                f"which cannot carry order {window.order}; lengthen the window, or state the stamps in their unit"
+                f"which cannot carry order {window.order}; lengthen the window, or specify the stamps in their unit"
             )
         return length
 
-    def places(self, stamp_ns: IntArray) -> tuple[FloatArray, float]:
-        """Tell where samples of one stretch lie.
+    def positions(self, stamp_ns: IntArray) -> tuple[FloatArray, float]:
+        """Give the positions of samples of one segment.
 
         Args:
-            stamp_ns: Stamps of samples of one stretch; shape (n,); ns.
+            stamp_ns: Stamps of samples of one segment; shape (n,); ns.
 
         Returns:
-            Their places, in steps from the first instant of the stretch, shape (n,); length of a step, s.
+            Their places, in steps from the first instant of the segment, shape (n,); length of a step, s.
         """
-        stretch = int(np.searchsorted(self.start_ns, stamp_ns[0], side="right")) - 1
-        start, end = int(self.start_ns[stretch]), int(self.end_ns[stretch])
+        segment = int(np.searchsorted(self.start_ns, stamp_ns[0], side="right")) - 1
+        start, end = int(self.start_ns[segment]), int(self.end_ns[segment])
         length = (end - start) * 1e-9
-        # both ends of a stretch are instants of the grid
+        # both ends of a segment are instants of the grid
         step = length / max(round(length / self.period_s), 1) if end > start else self.period_s
         return seconds_since(stamp_ns, start) / step, step
 
@@ -148,9 +148,9 @@ def smooth(
 ) -> FloatArray:
     """Smooth or differentiate samples in time.
 
-    Stamps jitter, so every stretch between gaps is brought to an even grid of the stream's median
-    period, filtered there, and read off at its own stamps. Ends of a stretch use the polynomial of
-    the last full window. A stretch shorter than the window gives NaN. A sample with a NaN in any
+    Stamps jitter, so every segment between gaps is brought to an even grid of the stream's median
+    period, filtered there, and read off at its own stamps. Ends of a segment use the polynomial of
+    the last full window. A segment shorter than the window gives NaN. A sample with a NaN in any
     column gives NaN and counts as missing: too many in a row are a gap, fewer are bridged.
 
     Args:
@@ -180,12 +180,14 @@ def smooth(
         grid = EvenGrid.of(stamp_ns[usable])
     length = grid.length_of(window)
     pauses = np.flatnonzero(np.diff(stamp_ns[usable]) > grid.gap_ns)
-    for stretch in np.split(usable, pauses + 1):
-        places, step = grid.places(stamp_ns[stretch])
-        first, last = math.ceil(places[0] - _HIT), math.floor(places[-1] + _HIT)
+    for segment in np.split(usable, pauses + 1):
+        positions, step = grid.positions(stamp_ns[segment])
+        first, last = math.ceil(positions[0] - _COINCIDENCE), math.floor(positions[-1] + _COINCIDENCE)
         if last - first + 1 >= max(length, 2):
             even = np.arange(first, last + 1, dtype=np.float64)
-            result[stretch] = _smooth_on_grid(even, places, values[stretch], (length, window.order, derivative), step)
+            result[segment] = _smooth_on_grid(
+                even, positions, values[segment], (length, window.order, derivative), step
+            )
     return result
 
 
@@ -215,13 +217,13 @@ def smooth_columns(stamp_ns: IntArray, values: FloatArray, window: SavitzkyGolay
 
 
 def _smooth_on_grid(
-    grid: FloatArray, places: FloatArray, values: FloatArray, filtering: tuple[int, int, int], step: float
+    grid: FloatArray, positions: FloatArray, values: FloatArray, filtering: tuple[int, int, int], step: float
 ) -> FloatArray:
     length, order, derivative = filtering
-    even = np.column_stack([np.interp(grid, places, column) for column in values.T])
+    even = np.column_stack([np.interp(grid, positions, column) for column in values.T])
     filtered = polynomials_through_windows(even, length, order, derivative=derivative, step=step)
-    # a part of a stretch may begin and end between instants of the grid
-    before, after = np.minimum(places - grid[0], 0.0), np.maximum(places - grid[-1], 0.0)
-    inner = np.column_stack([np.interp(places, grid, column) for column in filtered.T])
+    # a part of a segment may begin and end between instants of the grid
+    before, after = np.minimum(positions - grid[0], 0.0), np.maximum(positions - grid[-1], 0.0)
+    inner = np.column_stack([np.interp(positions, grid, column) for column in filtered.T])
     outer = np.outer(before, filtered[1] - filtered[0]) + np.outer(after, filtered[-1] - filtered[-2])
     return inner + outer

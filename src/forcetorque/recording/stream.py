@@ -34,7 +34,7 @@ class Quantity:
 
     name: str
     """Name of the signal in a stream."""
-    labels: Labels
+    labels: Labels = Labels.FIXED
     """What names its columns."""
     columns: tuple[str, ...] = ()
     """Column names where they are fixed."""
@@ -53,15 +53,13 @@ QUANTITIES = {
     for quantity in (
         Quantity(
             name="wrench",
-            labels=Labels.FIXED,
             columns=WRENCH_COMPONENTS,
             units=WRENCH_UNITS,
             has_frame=True,
-            description="Reading of a force-torque sensor that was already turned into force, then moment.",
+            description="Measurement of a force-torque sensor, already converted to force, then moment.",
         ),
         Quantity(
             name="applied_wrench",
-            labels=Labels.FIXED,
             columns=WRENCH_COMPONENTS,
             units=WRENCH_UNITS,
             has_frame=True,
@@ -69,7 +67,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="vertical_force",
-            labels=Labels.FIXED,
             columns=("vertical_force",),
             units=("N",),
             description="Force of the ground on a foot along the normal of its sole, positive where it presses.",
@@ -78,7 +75,7 @@ QUANTITIES = {
             name="raw",
             labels=Labels.CHANNELS,
             units=("counts",),
-            description="Reading of a force-torque sensor as its electronics deliver it.",
+            description="Raw samples of a force-torque sensor as its electronics deliver it.",
         ),
         Quantity(
             name="position",
@@ -115,30 +112,26 @@ QUANTITIES = {
         ),
         Quantity(
             name="temperature",
-            labels=Labels.FIXED,
             columns=("temperature",),
             units=("degC",),
             description="Temperature of a sensor.",
         ),
         Quantity(
             name="proper_acceleration",
-            labels=Labels.FIXED,
             columns=_XYZ,
             units=("m/s2",) * 3,
             has_frame=True,
-            description="Reading of an accelerometer: +9.8 m/s2 upwards at rest.",
+            description="Measurement of an accelerometer: +9.8 m/s2 upwards at rest.",
         ),
         Quantity(
             name="orientation",
-            labels=Labels.FIXED,
             columns=tuple(f"r{row}{column}" for row in "123" for column in "123"),
             units=("1",) * 9,
             has_frame=True,
-            description="Rotation matrix of a frame, row by row: it turns vectors along its axes to the world's.",
+            description="Rotation matrix of a frame, row by row: it rotates vectors along its axes to the world's.",
         ),
         Quantity(
             name="translation",
-            labels=Labels.FIXED,
             columns=_XYZ,
             units=("m",) * 3,
             has_frame=True,
@@ -146,7 +139,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="gravity",
-            labels=Labels.FIXED,
             columns=_XYZ,
             units=("m/s2",) * 3,
             has_frame=True,
@@ -154,15 +146,13 @@ QUANTITIES = {
         ),
         Quantity(
             name="angular_velocity",
-            labels=Labels.FIXED,
             columns=_XYZ,
             units=("rad/s",) * 3,
             has_frame=True,
-            description="Reading of a gyroscope.",
+            description="Measurement of a gyroscope.",
         ),
         Quantity(
             name="angular_acceleration",
-            labels=Labels.FIXED,
             columns=_XYZ,
             units=("rad/s2",) * 3,
             has_frame=True,
@@ -170,7 +160,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="saturated",
-            labels=Labels.FIXED,
             columns=("saturated",),
             units=("0 or 1",),
             description="Status of a board: 1 while a channel is at its limit and the last valid sample is held.",
@@ -179,7 +168,7 @@ QUANTITIES = {
             name="taxel_counts",
             labels=Labels.TAXELS,
             units=("counts",),
-            description="Reading of every taxel of a patch of skin as its electronics deliver it; pressure lowers it.",
+            description="Counts of every taxel of a patch of skin as its electronics deliver it; pressure lowers them.",
         ),
         Quantity(
             name="skin_event",
@@ -190,7 +179,6 @@ QUANTITIES = {
         ),
         Quantity(
             name="pressure",
-            labels=Labels.FIXED,
             columns=("pressure",),
             units=("Pa",),
             description="Pressure of a chamber or bag above that of the air around, which skin is calibrated with.",
@@ -198,11 +186,10 @@ QUANTITIES = {
         Quantity(
             name="scalar",
             labels=Labels.CHANNELS,
-            description="Anything else that may move a reading, such as a supply voltage; names and units of the log.",
+            description="Any other variable that may change a measurement, such as a supply voltage, as logged.",
         ),
         Quantity(
             name="device_stamp",
-            labels=Labels.FIXED,
             columns=("device_stamp",),
             units=("tick",),
             description="The device's own clock, in its own unit: shows transport delay and jitter.",

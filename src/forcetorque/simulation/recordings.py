@@ -20,7 +20,7 @@ from forcetorque.base.run_files import declare_input
 from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, write_matrix_file
 from forcetorque.formats.yarp.discover import PortKind
 from forcetorque.formats.yarp.writing import StreamPort, write_ports
-from forcetorque.recording.quality import spans
+from forcetorque.recording.quality import true_runs
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.storage import write_recording
 from forcetorque.results.result import Result
@@ -392,7 +392,7 @@ def _recording_truth(simulated: SimulatedRecording, matrices: Mapping[str, Float
         sensors[name] = {
             "offset": sensor.offset.tolist(),
             "bias": sensor.bias(matrices[name]).tolist(),
-            "saturated_samples": [[first, last] for first, last in spans(held)],
+            "saturated_samples": [[first, last] for first, last in true_runs(held)],
         }
     standing = simulated.movement.carriage is None
     return {

@@ -86,7 +86,7 @@ def test_they_are_recognised_by_content(tmp_path: Path, name: str, kind: type) -
     path = _write(tmp_path, name).rename(tmp_path / "log.bin")
     known = recognised_format(path)
     assert isinstance(known, kind)
-    with pytest.raises(FormatError, match=rf"got the variables .*q \({ROWS} x 2\).*; state their columns") as error:
+    with pytest.raises(FormatError, match=rf"got the variables .*q \({ROWS} x 2\).*; specify their columns") as error:
         known.describe(path)
     assert "note" not in str(error.value)
 

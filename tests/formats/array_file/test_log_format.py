@@ -178,7 +178,7 @@ def test_it_is_recognised_and_says_what_to_state(file: Path) -> None:
     """Its variables with their shapes stand in the message; nothing of it is guessed."""
     known = recognised_format(file)
     assert isinstance(known, MatlabFormat)
-    with pytest.raises(FormatError, match=r"log\.C \(3000 x 5\), log\.P \(2960 x 1\), other \(2 x 2\); state their"):
+    with pytest.raises(FormatError, match=r"log\.C \(3000 x 5\), log\.P \(2960 x 1\), other \(2 x 2\); specify their"):
         known.describe(file)
     assert recognised_format(file.parent) is None
 

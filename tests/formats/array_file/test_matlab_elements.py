@@ -58,9 +58,9 @@ def test_numbers_are_those_that_scipy_reads(
 def test_what_is_no_array_of_numbers_is_named(tmp_path: Path) -> None:
     """Arrays of structs, cells, texts and others, by their size."""
     savemat(tmp_path / "log.mat", MIXED)
-    contents = matlab_contents(tmp_path / "log.mat")
-    assert contents.shapes == {"t": (3, 1), "log.ft": (3, 6), "log.arm.q": (3, 3)}
-    assert contents.skipped == {
+    shapes, skipped = matlab_contents(tmp_path / "log.mat")
+    assert shapes == {"t": (3, 1), "log.ft": (3, 6), "log.arm.q": (3, 3)}
+    assert skipped == {
         "log.note": "1 x 6 text",
         "runs": "1 x 2 struct array",
         "cells": "1 x 2 cell array",
@@ -111,8 +111,8 @@ DAMAGED = {
     "negative size": (SOUND.replace(struct.pack("<2i", 3, 3), struct.pack("<2i", -3, -3)), "dimensions"),
     "numbers of no type": (SOUND.replace(struct.pack("<2I", 9, 72), struct.pack("<2I", 8, 72)), "numbers of type 8"),
     "packed, cut": (_packed(SOUND)[:-9], "beyond its end"),
-    "packed, longer than it says": (_packed(SOUND + SOUND), "not as many as its tag says"),
-    "packed, shorter than it says": (_packed(SOUND[:-16]), "not as many as its tag says"),
+    "packed, longer than it says": (_packed(SOUND + SOUND), "not as many as its tag states"),
+    "packed, shorter than it says": (_packed(SOUND[:-16]), "not as many as its tag states"),
     "packed twice": (_packed(_packed(SOUND)), "a packed element of type 15"),
 }
 
@@ -133,7 +133,7 @@ def test_structs_in_structs_end_somewhere(tmp_path: Path) -> None:
     for _ in range(DEEPEST - 1):
         inner = {"s": inner}
     savemat(tmp_path / "log.mat", {"s": inner})
-    assert list(matlab_contents(tmp_path / "log.mat").shapes) == [f"{'s.' * DEEPEST}q"]
+    assert list(matlab_contents(tmp_path / "log.mat")[0]) == [f"{'s.' * DEEPEST}q"]
     savemat(tmp_path / "log.mat", {"s": {"s": inner}})
     with pytest.raises(FormatError, match=f"expected structs at most {DEEPEST} deep"):
         matlab_contents(tmp_path / "log.mat")

@@ -15,7 +15,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.formats.prior.prior_file import StatedUnits
 from forcetorque.formats.prior.registry import read_prior_file
 from tests.formats.fuzzed import damaged
 from tests.formats.prior.test_prior_files import write_priors
@@ -43,7 +42,7 @@ def test_damaged_calibrations_are_refused_or_read(tmp_path: Path, name: str) -> 
     """What is read is finite, with six rows; both outcomes must have been met."""
     path = write_priors(tmp_path / "priors")[name]
     original = path.read_bytes()
-    units = StatedUnits(force="N", moment="N m") if name == "plain.txt" else None
+    units = {"force_unit": "N", "moment_unit": "N m"} if name == "plain.txt" else {}
     outcomes: Counter[str] = Counter()
     drawn = sampled(3000)
 
@@ -53,7 +52,7 @@ def test_damaged_calibrations_are_refused_or_read(tmp_path: Path, name: str) -> 
         path.write_bytes(changed(original, seed))
         start = time.perf_counter()
         try:
-            matrix = read_prior_file(path, units).matrix
+            matrix = read_prior_file(path, **units).matrix
         except ForceTorqueError as error:
             assert "\n" not in str(error)  # noqa: PT017 - both outcomes are allowed
             outcomes["refused"] += 1
@@ -67,4 +66,4 @@ def test_damaged_calibrations_are_refused_or_read(tmp_path: Path, name: str) -> 
     assert sum(outcomes.values()) >= min(drawn, 5)
     assert outcomes["refused"] > 0
     path.write_bytes(original)
-    read_prior_file(path, units)
+    read_prior_file(path, **units)

@@ -13,13 +13,13 @@ from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileEr
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.formats.prior.firmware_updater import FirmwareFile, read_firmware_file, write_firmware_file
 from forcetorque.formats.prior.polynomial_model import PolynomialModel, read_polynomial_model, write_polynomial_model
-from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
+from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 from forcetorque.formats.prior.registry import PRIOR_FORMATS, holds_prior, read_prior_file
 
 RNG = np.random.default_rng(5)
 MATRIX = RNG.normal(0.0, 1.0, (6, 6)) * np.repeat([1e-2, 3e-4], 3)[:, None]
 REGISTERS = ("0x00 0x80 0x02 0x64 0x29 0x62",) * 6
-SI = StatedUnits(force="N", moment="N m")
+SI = {"force_unit": "N", "moment_unit": "N m"}
 
 
 def ati_text(
@@ -87,10 +87,10 @@ def write_priors(folder: Path) -> dict[str, Path]:
     return files
 
 
-def _read(folder: Path, text: str, units: StatedUnits | None = None) -> PriorFile:
+def _read(folder: Path, text: str, **units: str) -> PriorFile:
     path = folder / "file"
     path.write_text(text, encoding="utf-8")
-    return read_prior_file(path, units)
+    return read_prior_file(path, **units)
 
 
 def test_each_form_is_known_by_its_content(tmp_path: Path) -> None:
@@ -104,7 +104,7 @@ def test_each_form_is_known_by_its_content(tmp_path: Path) -> None:
         assert sum(form.recognises(other, text) for form in PRIOR_FORMATS) == 1, name
         expected = about(0.012) if name.endswith("cal") else MATRIX
         rounding = 1e-3 if name in ("v3.dat", "v2.dat", "sn.txt", "b.cal") else 1e-10
-        read = read_prior_file(other, SI if name == "plain.txt" else None)
+        read = read_prior_file(other, **(SI if name == "plain.txt" else {}))
         np.testing.assert_allclose(read.matrix, expected, atol=rounding * np.abs(expected).max(), rtol=rounding)
         known += 1
     assert known == 7
@@ -245,12 +245,12 @@ def test_a_plain_table_needs_its_units(tmp_path: Path) -> None:
     text = "\n".join("\t".join(map(repr, row)) for row in np.hstack([MATRIX, MATRIX]).tolist())
     with pytest.raises(FormatError, match="expected its units, which plain numbers do not state"):
         _read(tmp_path, text)
-    read = _read(tmp_path, text, StatedUnits(force="kN", moment="N mm"))
+    read = _read(tmp_path, text, force_unit="kN", moment_unit="N mm")
     np.testing.assert_allclose(read.matrix, np.hstack([MATRIX, MATRIX]) * np.repeat([1e3, 1e-3], 3)[:, None])
     with pytest.raises(UnitError, match="converts to N, got 'N m'"):
-        _read(tmp_path, text, StatedUnits(force="N m", moment="N m"))
+        _read(tmp_path, text, force_unit="N m", moment_unit="N m")
     with pytest.raises(FormatError, match="expected no force_unit"):
-        _read(tmp_path, ati_text(), SI)
+        _read(tmp_path, ati_text(), **SI)
 
 
 @pytest.mark.parametrize(

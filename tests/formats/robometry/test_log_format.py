@@ -88,7 +88,7 @@ def test_without_a_label_nothing_is_guessed(tmp_path: Path) -> None:
 
 def test_a_statement_against_the_label_is_refused(file: Path) -> None:
     """The file says deg; who says rad must say why by deleting one of them."""
-    with pytest.raises(UnitError, match="the file labels it deg, units states rad"):
+    with pytest.raises(UnitError, match="the file labels it deg, units has rad"):
         _read(file, JOINT_ENTRY, units={"joints_state/positions": "rad"})
     _read(file, JOINT_ENTRY, units={"joints_state/positions": "deg"})
 

@@ -182,7 +182,7 @@ def test_two_frames_on_one_topic_are_refused(tmp_path: Path, form: str) -> None:
     types = Types(form)
     messages = [types.wrench(k, row, "left" if k % 2 else "right_tool") for k, row in enumerate(WRENCHES)]
     path = write_bag(tmp_path, form, {"/ft": (KINDS["WrenchStamped"], messages)})
-    with pytest.raises(FormatError, match="expected messages of one frame, got 'left', 'right_tool'; state it"):
+    with pytest.raises(FormatError, match="expected messages of one frame, got 'left', 'right_tool'; specify it"):
         _read(path, {"name": "other", "topic": "/ft"})
     (stream,) = _read(path, {"name": "wrist", "topic": "/ft"}).streams
     np.testing.assert_array_equal(stream.signal("wrench").values, WRENCHES)

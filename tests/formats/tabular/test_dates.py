@@ -105,10 +105,10 @@ def test_what_is_no_date_is_refused_by_its_line(tmp_path: Path, bad: str, messag
 
 def test_dates_and_seconds_are_not_taken_for_each_other(tmp_path: Path) -> None:
     """The error says what to state."""
-    with pytest.raises(FormatError, match=r"log\.csv:2: column 't': expected a time in s .*; state unit = \"iso8601\""):
+    with pytest.raises(FormatError, match=r"log\.csv:2: column 't': expected a time in s .*; specify unit = .iso8601"):
         _stamps(tmp_path, _text(DATES), _layout(unit="s"))
     pq.write_table(pa.table({"t": [1.0, 2.0], "u": [1.0, 1.0], "i": [1.0, 1.0]}), tmp_path / "log.parquet")
-    with pytest.raises(FormatError, match=r"row 1: column 't': expected dates, as stated, got double; state s, ms"):
+    with pytest.raises(FormatError, match=r"row 1: column 't': expected dates, as specified, got double; specify s"):
         read_table(tmp_path / "log.parquet", _layout(), stream="supply", clock="pc")
 
 

@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.yarp.plain_ports import PortReading, read_analog
+from forcetorque.formats.log_format import StreamReading
+from forcetorque.formats.yarp.plain_ports import read_analog
 from tests.formats.yarp.port_logs import INFO, write_port
 
 _GOOD = "7 1457614036.921366 1.5 -2 3e-3 4.0 5.25 -6.125"
 
 
-def _read(folder: Path, text: str | bytes, info: str | None = INFO) -> PortReading:
+def _read(folder: Path, text: str | bytes, info: str | None = INFO) -> StreamReading:
     return read_analog(write_port(folder, text, info=info), stream="leg_ft", frame="leg_sensor")
 
 

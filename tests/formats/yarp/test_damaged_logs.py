@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.formats.yarp.discover import PortKind, discover_ports, read_port
+from forcetorque.formats.yarp.discover import PortKind, discover_ports, read_found_port
 from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor, read_measures
 from forcetorque.formats.yarp.plain_ports import read_analog, read_inertial, read_state
 from forcetorque.formats.yarp.state_ext import read_state_ext
@@ -223,7 +223,7 @@ def test_damaged_logs_are_discovered(tmp_path: Path, case: str) -> None:
         write_port(tmp_path / "state", content, info=info)
         (port,) = discover_ports(tmp_path)
         try:
-            readings = read_port(port)
+            readings = read_found_port(port)
         except ForceTorqueError as error:
             assert "expected" in str(error)  # noqa: PT017 - both outcomes are allowed
             outcomes["unknown" if port.kind is PortKind.UNKNOWN else "refused"] += 1

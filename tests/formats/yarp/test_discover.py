@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError
-from forcetorque.formats.yarp.discover import FoundPort, PortKind, discover_ports, read_port
+from forcetorque.formats.yarp.discover import FoundPort, PortKind, discover_ports, read_found_port
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
 from tests.formats.yarp.test_measures import ONE_SENSOR, TWO_SENSORS
 
@@ -47,8 +47,8 @@ def _only(folder: Path) -> FoundPort:
 def test_the_kind_of_a_port(tmp_path: Path, name: str, text: str, kind: PortKind, joints: int, packed: bool) -> None:
     """Lists tell it; of plain numbers the name decides whether they are positions. Every known kind can be read."""
     port = _only(write_port(tmp_path / name, text * 3, packed=packed).parent)
-    assert (port.path, port.kind, port.n_joints, port.reason) == (name, kind, joints, None)
-    readings = read_port(port)
+    assert (port.path, port.kind, len(getattr(port.table, "joints", ())), port.reason) == (name, kind, joints, None)
+    readings = read_found_port(port)
     assert readings
     for reading in readings:
         assert len(reading.stream) == 3
@@ -91,7 +91,7 @@ def test_what_is_not_known_has_a_reason(tmp_path: Path, name: str, text: str | b
     assert re.search(reason, port.reason)
     assert "\n" not in port.reason
     with pytest.raises(FormatError, match="expected a port whose messages are known") as caught:
-        read_port(port)
+        read_found_port(port)
     assert str(caught.value).endswith(port.reason)
 
 
@@ -143,7 +143,7 @@ def test_links_to_folders_are_not_followed(tmp_path: Path) -> None:
     (folder / "data.log").rename(store)
     (folder / "data.log").symlink_to(store)
     assert [port.path for port in discover_ports(tmp_path / "logs")] == ["analog:o"]
-    assert len(read_port(_only(tmp_path / "logs"))) == 1
+    assert len(read_found_port(_only(tmp_path / "logs"))) == 1
 
 
 def test_pipes_are_not_opened(tmp_path: Path) -> None:
@@ -170,10 +170,10 @@ def test_only_the_first_line_is_looked_at(tmp_path: Path) -> None:
     port = _only(write_port(tmp_path, _SIX + "rubbish\n"))
     assert port.kind is PortKind.ANALOG
     with pytest.raises(FormatError, match=r"data\.log:2: .*'rubbish'"):
-        read_port(port)
+        read_found_port(port)
     (tmp_path / "data.log").unlink()
     with pytest.raises(MissingFileError, match="got neither"):
-        read_port(port)
+        read_found_port(port)
 
 
 @pytest.mark.parametrize(
@@ -190,8 +190,8 @@ def test_only_the_first_line_is_looked_at(tmp_path: Path) -> None:
 def test_stamps_are_no_part_of_the_message(tmp_path: Path, text: str, kind: PortKind, joints: int) -> None:
     """Messages without an envelope may have one more; the lists that follow are not taken for it."""
     port = _only(write_port(tmp_path / "port", text))
-    assert (port.kind, port.n_joints, port.reason) == (kind, joints, None)
-    (stream, *_) = (reading.stream for reading in read_port(port))
+    assert (port.kind, len(getattr(port.table, "joints", ())), port.reason) == (kind, joints, None)
+    (stream, *_) = (reading.stream for reading in read_found_port(port))
     assert len(stream) == 1
 
 
@@ -207,7 +207,7 @@ def test_names_are_made_up(tmp_path: Path) -> None:
     for name, text in (("analog:o", _SIX), ("state:o", _SIX), ("imu", _TWELVE), ("x/ext", _BOARD), ("y", TWO_SENSORS)):
         write_port(tmp_path / "robot" / name, text)
     ports = {port.path: port for port in discover_ports(tmp_path)}
-    streams = {path: [reading.stream for reading in read_port(port)] for path, port in ports.items()}
+    streams = {path: [reading.stream for reading in read_found_port(port)] for path, port in ports.items()}
     assert {path: [stream.name for stream in found] for path, found in streams.items()} == {
         "robot/analog:o": ["robot/analog:o"],
         "robot/imu": ["robot/imu"],
@@ -241,9 +241,9 @@ def test_the_ports_of_real_logs(data_dir: Path) -> None:
     expected = {"dumperLeftLegNoIMU": analog | boards, "dumperRightLeg": analog}
     for folder, ports in expected.items():
         found = discover_ports(data_dir / "icub_genova02_yoga" / folder)
-        assert {port.path: (port.kind, port.n_joints) for port in found} == ports
+        assert {port.path: (port.kind, len(getattr(port.table, "joints", ()))) for port in found} == ports
         assert [port.path for port in found] == sorted(ports)
         for port in found:
-            (reading,) = read_port(port)
+            (reading,) = read_found_port(port)
             assert len(reading.stream) > 7000
             assert reading.stream.name == port.path

@@ -16,8 +16,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import FormatError, RecordingError
+from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.measures import READ_LISTS, MeasuresList, MeasuresSensor, read_measures
-from forcetorque.formats.yarp.plain_ports import PortReading
 from forcetorque.recording.stream import QUANTITIES
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, parse_nested, write_port
 from tests.fuzzing import examples
@@ -68,13 +68,13 @@ def _line(k: int, lists: Mapping[int, Sequence[tuple[Sequence[float], float]]], 
 
 def _read(
     folder: Path, text: str, sensors: Sequence[MeasuresSensor], info: str | None = INFO
-) -> dict[str, PortReading]:
+) -> dict[str, StreamReading]:
     readings = read_measures(write_port(folder, text, info=info), sensors=sensors)
     assert [reading.stream.name for reading in readings] == [sensor.stream for sensor in sensors]
     return {reading.stream.name: reading for reading in readings}
 
 
-def _values(reading: PortReading, quantity: str) -> list[list[float]]:
+def _values(reading: StreamReading, quantity: str) -> list[list[float]]:
     return reading.stream.signal(quantity).values.tolist()  # type: ignore[no-any-return]
 
 

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
-from forcetorque.formats.yarp.plain_ports import PortReading, read_inertial, read_state
+from forcetorque.formats.log_format import StreamReading
+from forcetorque.formats.yarp.plain_ports import read_inertial, read_state
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, parse_slowly, write_port
 
 _JOINTS = ("hip", "knee", "slide")
@@ -19,16 +20,16 @@ _INERTIAL = "7 10.25 1.5 -2 170 0.5 -0.25 9.75 90 -180 4.5 0.1 0.2 0.3"
 _STATE = "8 11.5 90 -45.5 0.25"
 
 
-def _inertial(folder: Path, text: str, info: str | None = INFO) -> PortReading:
+def _inertial(folder: Path, text: str, info: str | None = INFO) -> StreamReading:
     return read_inertial(write_port(folder, text, info=info), stream="imu", frame="chest")
 
 
-def _state(folder: Path, text: str, info: str | None = INFO) -> PortReading:
+def _state(folder: Path, text: str, info: str | None = INFO) -> StreamReading:
     return read_state(write_port(folder, text, info=info), stream="leg", joints=_JOINTS)
 
 
 _READERS = {"inertial": (_inertial, _INERTIAL, 12), "state": (_state, _STATE, 3)}
-Reader = Callable[[Path, str], PortReading]
+Reader = Callable[[Path, str], StreamReading]
 
 
 def test_an_inertial_message_by_hand(tmp_path: Path) -> None:

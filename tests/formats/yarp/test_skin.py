@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.registry import recognised_format
-from forcetorque.formats.yarp.discover import PortKind, discover_ports, read_port
+from forcetorque.formats.yarp.discover import PortKind, discover_ports, read_found_port
 from forcetorque.formats.yarp.skin_ports import read_skin
 from tests.formats.yarp.port_logs import write_port
 
@@ -31,7 +31,7 @@ def test_counts_are_read(tmp_path: Path) -> None:
 def test_another_number_of_taxels_is_refused(tmp_path: Path) -> None:
     """Too few for the messages, and a number that no triangles have."""
     folder = write_port(tmp_path, TEXT)
-    with pytest.raises(FormatError, match="expected 12 numbers .* got 24; state how many numbers"):
+    with pytest.raises(FormatError, match="expected 12 numbers .* got 24; specify how many numbers"):
         read_skin(folder, stream="patch", taxels=12)
     with pytest.raises(FormatError, match="expected 12 numbers for each triangle, 10000 at most, got 25"):
         read_skin(folder, stream="patch", taxels=25)
@@ -52,7 +52,7 @@ def test_it_is_discovered_by_its_folder(tmp_path: Path) -> None:
         "skin/arm_comp:o": PortKind.UNKNOWN,
     }
     assert "rises with pressure where counts fall" in str(ports["skin/arm_comp:o"].reason)
-    (reading,) = read_port(ports["skin/arm:o"])
+    (reading,) = read_found_port(ports["skin/arm:o"])
     np.testing.assert_array_equal(reading.stream.signal("taxel_counts").values, COUNTS)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
-from forcetorque.formats.yarp.discover import PortKind, discover_ports, read_port
+from forcetorque.formats.yarp.discover import PortKind, discover_ports, read_found_port
 from forcetorque.formats.yarp.skin_ports import SkinPart, read_skin_events
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream
@@ -20,7 +20,7 @@ _CONTACT = "((7 4 4 5) (0.1 0.2 0.3) (-0.5 0.25 -0.125) (0.0 0.0 0.0) (0.11 0.21
 _NAMED = _CONTACT[:-1] + ' ("r_forearm" "r_forearm_dh_frame") 3)'
 _OTHER = _CONTACT.replace("(7 4 4 5)", "(8 3 4 2)")
 _STAMP = "1457614036.921366"
-_PART = SkinPart(number=5, stream="forearm", frame="r_forearm_dh_frame")
+_PART = SkinPart(number=5, name="forearm", frame="r_forearm_dh_frame")
 _HEURISTIC_GAIN = 0.05
 """Of the skinManager, by the description of its messages."""
 _GAIN_SHARE = 0.1
@@ -118,8 +118,8 @@ def test_a_patch_on_two_links_is_refused(tmp_path: Path) -> None:
 def test_patches_are_named_once(tmp_path: Path) -> None:
     """Two of one number or one name, or none, are refused."""
     folder = write_port(tmp_path, f"1 {_STAMP} {_CONTACT}\n")
-    twice = SkinPart(number=5, stream="again", frame="f")
-    namesake = SkinPart(number=6, stream="forearm", frame="f")
+    twice = SkinPart(number=5, name="again", frame="f")
+    namesake = SkinPart(number=6, name="forearm", frame="f")
     for parts, match in (((_PART, twice), "each number once"), ((_PART, namesake), "each stream once"), ((), "none")):
         with pytest.raises(RecordingError, match=match):
             read_skin_events(folder, parts=parts)
@@ -178,7 +178,7 @@ def test_the_port_is_recognised_by_its_first_contact(tmp_path: Path) -> None:
     }
     assert ports["skin_events"].reason is not None
     assert "without any" in ports["skin_events"].reason
-    assert [reading.stream.name for reading in read_port(ports["a"])] == ["a#skin_part[2]", "a#skin_part[5]"]
+    assert [reading.stream.name for reading in read_found_port(ports["a"])] == ["a#skin_part[2]", "a#skin_part[5]"]
 
 
 @pytest.mark.real_data
@@ -199,7 +199,7 @@ def test_logs_of_a_real_robot(
     folder.mkdir()
     for kind in ("data", "info"):
         (folder / f"{kind}.log").symlink_to(data_dir / "icub_skin_events_pps" / f"{name}_{kind}.log")
-    parts = [SkinPart(number=number, stream=str(number), frame=f"frame_{number}") for number in contacts]
+    parts = [SkinPart(number=number, name=str(number), frame=f"frame_{number}") for number in contacts]
     readings = read_skin_events(folder, parts=parts)
     text = (folder / "data.log").read_text()
     assert len(readings) == len(contacts)

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.yarp.plain_ports import PortReading, read_analog
+from forcetorque.formats.log_format import StreamReading
+from forcetorque.formats.yarp.plain_ports import read_analog
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
 
 _INFO_WITHOUT = INFO.replace("Stamp: tx;\n", "")
@@ -16,7 +17,7 @@ _INFO_RECEIVER = INFO.replace("tx;", "rx;")
 _INFO_REVERSED = INFO.replace("tx;", "rx+tx;")
 
 
-def _read(folder: Path, text: str, info: str | None) -> PortReading:
+def _read(folder: Path, text: str, info: str | None) -> StreamReading:
     return read_analog(write_port(folder, text, info=info), stream="ft", frame="sensor")
 
 

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
+from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp import message as skeleton
 from forcetorque.formats.yarp import port_log as port_folder
-from forcetorque.formats.yarp.plain_ports import PortReading
 from forcetorque.formats.yarp.state_ext import read_state_ext
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
 
@@ -38,7 +38,7 @@ def _line(
     return f"{k} {stamps or f'{10 + k}.250000'} {body}\n"
 
 
-def _read(folder: Path, text: str, info: str = INFO, units: Mapping[str, str] | None = None) -> PortReading:
+def _read(folder: Path, text: str, info: str = INFO, units: Mapping[str, str] | None = None) -> StreamReading:
     return read_state_ext(write_port(folder, text, info=info), stream="leg", joints=_JOINTS, joint_units=units)
 
 

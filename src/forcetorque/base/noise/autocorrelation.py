@@ -8,12 +8,12 @@ is averaged over n of them is known as well as from n / (1 + 2 sum rho) independ
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, require_shape
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.units import NORMAL_95
 from forcetorque.recording.alignment import GAP_PERIODS
@@ -26,32 +26,23 @@ CLEAR_DEVIATIONS = 2.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Autocorrelation:
+class Autocorrelation(ArrayRecord):
     """Autocorrelation of one signal, its segments pooled."""
 
     count: int
     """Number of samples n; those that are no finite numbers are not counted."""
     segments: int
-    """Number of stretches without a pause."""
-    lag_s: FloatArray
+    """Number of segments without a pause."""
+    lag_s: FloatArray = field(metadata=array("l"))
     """Lags from 0 on, evenly spaced; shape (l,); s."""
-    rho: FloatArray
+    rho: FloatArray = field(metadata=array("l"))
     """Mean product of pairs of samples that lag apart, over the variance; shape (l,). NaN where nothing changes."""
-    pairs: IntArray
+    pairs: IntArray = field(metadata=array("l", dtype="int"))
     """Number of pairs of samples that lag apart in one segment; shape (l,)."""
     window: int
     """Number of lags, lag 0 among them, of which the integrated time is the sum."""
     integrated_time: float
     """`1 + 2 sum rho` over the window; samples. NaN where nothing changes, or no two samples are neighbours."""
-
-    def __post_init__(self) -> None:
-        lags = len(np.asarray(self.lag_s))
-        for field in ("lag_s", "rho"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(lags,)))
-        pairs = np.array(self.pairs, dtype=np.int64)
-        require_shape(pairs, name="pairs", shape=(lags,))
-        pairs.setflags(write=False)
-        object.__setattr__(self, "pairs", pairs)
 
     @property
     def effective_count(self) -> float:
@@ -74,9 +65,10 @@ def autocorrelation(values: Any, time_s: Any) -> Autocorrelation:
 
     That was derived for reversible chains. A vibration that lies over a slow error makes the sum negative early, while
     the slow error goes on: lags from some k to 2 k that together are positive by `CLEAR_DEVIATIONS` of the noise are
-    therefore counted, with all before them, if that makes the time longer (a heuristic). A signal that only swings is
-    taken for worth less than it is. No correlation that takes longer than a segment is counted; and a signal worth only
-    some ten independent samples is too short to tell how few, and is easily taken for worth half as much again.
+    therefore counted, with all before them, if that makes the time longer (a heuristic). A signal that only oscillates
+    is taken for worth less than it is. No correlation that takes longer than a segment is counted; and a signal worth
+    only some ten independent samples is too short to estimate how few, and is easily taken for worth half as much
+    again.
 
     Args:
         values: The signal; shape (n,). What is not a finite number makes no pair.
@@ -132,7 +124,7 @@ def _segments(time: FloatArray) -> tuple[float, IntArray]:
     return period, np.flatnonzero(steps > GAP_PERIODS * period) + 1
 
 
-def _scaled(signal: FloatArray, known: np.ndarray[Any, np.dtype[np.bool_]]) -> FloatArray:
+def _scaled(signal: FloatArray, known: BoolArray) -> FloatArray:
     """The signal without its mean, of size 1, and 0 where it is not known or never changes."""
     finite = signal[known]
     if np.ptp(finite) == 0.0:  # the mean of equal numbers may differ from them in the last bit

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import product
 from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, require_shape
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import Timeline, half_width, regress
 
@@ -59,7 +59,7 @@ def means_over(time_s: Any, columns: Any, window_s: float = WINDOW_S) -> tuple[F
     return middle, np.add.reduceat(signals, starts, axis=0) / counts[:, None], counts
 
 
-def one_after_another(instants: Sequence[FloatArray]) -> FloatArray:
+def joined_times(instants: Sequence[FloatArray]) -> FloatArray:
     """Put the instants of several recordings on one axis, so far apart that no slow noise goes on between them.
 
     Args:
@@ -82,22 +82,17 @@ _WINDOWS = 120.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MeanError:
+class MeanError(ArrayRecord):
     """What is known of the plain means of k signals over the samples of a recording."""
 
-    standard_error: FloatArray
+    standard_error: FloatArray = field(metadata=array("k"))
     """Standard errors; shape (k,); NaN for a single value."""
-    degrees_of_freedom: FloatArray
-    """Degrees of freedom of Student's t; shape (k,); 0 where an error cannot be told."""
-
-    def __post_init__(self) -> None:
-        k = len(self.standard_error)
-        for field in ("standard_error", "degrees_of_freedom"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(k,)))
+    degrees_of_freedom: FloatArray = field(metadata=array("k"))
+    """Degrees of freedom of Student's t; shape (k,); 0 where an error is undetermined."""
 
     @property
     def half_width(self) -> FloatArray:
-        """Half-widths of the 95 % intervals; shape (k,); infinite where an error cannot be told."""
+        """Half-widths of the 95 % intervals; shape (k,); infinite where an error is undetermined."""
         return half_width(self.standard_error, self.degrees_of_freedom)
 
 
@@ -106,7 +101,7 @@ def mean_error(values: Any, time_s: Any) -> MeanError:
 
     Noise is white plus a slow offset. By simulation of recordings of 60 to 300 s, the 95 % intervals hold the mean in
     96 % to 99 % under white noise, and in 91 % and more under slow noise that shows and forgets itself within the
-    recording; in 83 % if it takes three times as long. No recording tells of an offset that wanders as slowly as the
+    recording; in 83 % if it takes three times as long. No recording shows an offset that drifts as slowly as the
     recording is long and hides in the white part: with a tenth of its deviation, 61 %.
 
     Args:
@@ -189,25 +184,21 @@ _KOLMOGOROV: Final = 1.949
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SampleStatistics:
+class SampleStatistics(ArrayRecord):
     """Statistics of the samples of k signals, and the intervals of their means where these have one."""
 
-    mean: FloatArray
+    mean: FloatArray = field(metadata=array("k"))
     """Means; shape (k,)."""
-    deviation: FloatArray
+    deviation: FloatArray = field(metadata=array("k"))
     """Standard deviations of a sample; shape (k,); NaN for a single sample."""
-    smallest: FloatArray
+    smallest: FloatArray = field(metadata=array("k"))
     """Smallest samples; shape (k,)."""
-    largest: FloatArray
+    largest: FloatArray = field(metadata=array("k"))
     """Largest samples; shape (k,)."""
-    standard_error: FloatArray
+    standard_error: FloatArray = field(metadata=array("k"))
     """Standard errors of the means; shape (k,); NaN where the signal is no stationary noise."""
-    half_width: FloatArray
+    half_width: FloatArray = field(metadata=array("k"))
     """Half-widths of the 95 % intervals of the means; shape (k,); NaN where the signal is no stationary noise."""
-
-    def __post_init__(self) -> None:
-        for name in ("mean", "deviation", "smallest", "largest", "standard_error", "half_width"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(len(self.mean),)))
 
 
 def sample_statistics(values: Any, time_s: Any) -> SampleStatistics:
@@ -253,7 +244,7 @@ def is_stationary(values: Any, time_s: Any) -> BoolArray:
 
     - noise that is worth less than `FEWEST_INDEPENDENT` independent values is likelier: trends, steps, drifts;
     - one frequency has more power than noise: oscillations, gaits;
-    - power is spread over frequencies otherwise than in the fit (Bartlett's test of the cumulative periodogram);
+    - power is distributed over frequencies otherwise than in the fit (Bartlett's test of the cumulative periodogram);
     - it never changes: logs without noise.
 
     Args:

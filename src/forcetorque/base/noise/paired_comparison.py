@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether one candidate errs less than another, by the ratio of their errors over independent stretches of time.
+"""Whether one calibration under test errs less than another, by the ratio of their errors over independent segments.
 
-A ratio has the power that a difference lacks: errors grow and shrink with the load for both, and a candidate that errs
-a third in every stretch is better however unlike the stretches are. Neighbouring samples repeat each other where a
-limb moves slowly, so that stretches are no more than the ratio is worth independent ones.
+A ratio has the power that a difference lacks: errors grow and shrink with the load for both, and a calibration under
+test that errs a third in every segment is better however unlike the segments are. Neighbouring samples repeat each
+other where a limb moves slowly, so that segments are no more than the ratio is worth independent ones.
 """
 
 from __future__ import annotations
@@ -22,20 +22,20 @@ from forcetorque.base.wrench import FORCE, MOMENT
 
 CONFIDENCE = 0.95
 """Probability with which the interval holds the ratio: one side of it is passed by chance half as often as 1 in 20,
-which leaves room for what neighbouring stretches still have in common."""
+which leaves room for what neighbouring segments still have in common."""
 
 ALIKE = (0.8, 1.25)
-"""Ratios between which two candidates are no different for any use."""
+"""Ratios between which two calibrations under test are no different for any use."""
 
-MOST_STRETCHES = 10
-"""Stretches of one recording; more would add little to Student's t, and be short against slow errors."""
+MOST_SEGMENTS = 10
+"""Segments of one recording; more would add little to Student's t, and be short against slow errors."""
 
-FEWEST_STRETCHES = 3
-"""Stretches, of all recordings together, below which there is no interval."""
+FEWEST_SEGMENTS = 3
+"""Segments, of all recordings together, below which there is no interval."""
 
-PIECES = 40
-"""Pieces of a recording whose ratios tell how long it repeats itself: four per stretch, so that what lasts as long as a
-stretch is seen, and each long enough that fast noise, which hides slow errors, is averaged away."""
+BLOCKS = 40
+"""Blocks of a recording whose ratios show how long it repeats itself: four per segment, so that what lasts as long as a
+segment is seen, and each long enough that fast noise, which hides slow errors, is averaged away."""
 
 _OVERRATED = 7.0
 """The effective number k of a short signal is overrated, by some 4 where it is 5 to 30: `k^2 / (k + 7)` makes up for
@@ -53,23 +53,23 @@ Judgement = Literal["better", "worse", "no difference", "not told apart"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ErrorRatio:
-    """Error of the first candidate over that of the second, and what is known of it."""
+    """Error of the first calibration under test over that of the second, and what is known of it."""
 
     ratio: float
-    """Geometric mean over the stretches; below 1 where the first errs less."""
+    """Geometric mean over the segments; below 1 where the first errs less."""
     low: float
-    """Lower end of the 95 % interval; 0 where it cannot be told."""
+    """Lower end of the 95 % interval; 0 where it is undetermined."""
     high: float
-    """Upper end; infinity where it cannot be told."""
+    """Upper end; infinity where it is undetermined."""
     stretches: int
-    """Number of independent stretches, of all recordings."""
+    """Number of independent segments, of all recordings."""
     judgement: Judgement
-    """Of the first candidate: better or worse, no different, or not enough data to tell."""
+    """Of the first calibration under test: better or worse, no different, or not enough data."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PairedErrors:
-    """Errors of two candidates at the same n instants of one recording, in the order of time."""
+    """Errors of two calibrations under test at the same n instants of one recording, in the order of time."""
 
     first: FloatArray
     """Errors of the first; shape (n, 6); N, N m."""
@@ -78,10 +78,10 @@ class PairedErrors:
 
     @classmethod
     def of(cls, first: Any, second: Any, reference: Any) -> Self:
-        """Take the errors of two candidates; samples in which either is not finite are left out.
+        """Take the errors of two calibrations under test; samples in which either is not finite are left out.
 
         Args:
-            first: Wrenches by one candidate, in the order of time; shape (n, 6); N, N m.
+            first: Wrenches by one calibration under test, in the order of time; shape (n, 6); N, N m.
             second: Wrenches by the other at the same instants; shape (n, 6); N, N m.
             reference: Wrenches that mechanics demands; shape (n, 6); N, N m.
 
@@ -104,7 +104,7 @@ class PairedErrors:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PairedComparison:
-    """Errors of one candidate against those of another in the same samples."""
+    """Errors of one calibration under test against those of another in the same samples."""
 
     count: int
     """Number of samples."""
@@ -115,24 +115,24 @@ class PairedComparison:
 
 
 def compare_errors(recordings: Sequence[PairedErrors]) -> PairedComparison:
-    """Judge whether one candidate errs less than another.
+    """Test whether one calibration under test errs less than another.
 
-    A recording is cut into contiguous stretches of equally many samples, as many as the log ratio of the errors is
-    worth independent ones, at most ten; one that is too short, or never changes, is one stretch. The root mean square
-    errors of a stretch have a log ratio, and these, of all recordings together, a mean and Student's interval. Its
-    standard error is that of the stretches, of the recordings as wholes, or by the autocorrelation of the ratio,
+    A recording is cut into contiguous segments of equally many samples, as many as the log ratio of the errors is
+    worth independent ones, at most ten; one that is too short, or never changes, is one segment. The root mean square
+    errors of a segment have a log ratio, and these, of all recordings together, a mean and Student's interval. Its
+    standard error is that of the segments, of the recordings as wholes, or by the autocorrelation of the ratio,
     whichever is the largest. `better` and `worse` need an interval beyond 1, and root mean square errors over all
     samples that agree with it; `no difference` needs an interval between .8 and 1.25.
 
-    Error rates, by simulation of 2000 campaigns each with two candidates of equal errors: `better` (and as often
-    `worse`) is said of less than 5 % of them, whether errors are white or AR(1) processes with correlation times of a
-    hundredth to a fifth of the recording, alone, over white noise of a third to three times their deviation, over
-    a process or a constant that both have in common, and pooled over two and five recordings. A level that each
-    recording draws for itself is no different from an improvement in that recording: if the log ratio of recordings
-    scatters by .4 and far less within, `better` is said wrongly in some 15 % of campaigns of two recordings, 9 % of
-    three, 6 % of five, 4 % of ten. Nor can any recording tell of what lasts longer than it.
+    Error rates, by simulation of 2000 campaigns each with two calibrations under test of equal errors: `better` (and
+    as often `worse`) is concluded in less than 5 % of them, whether errors are white or AR(1) processes with
+    correlation times of a hundredth to a fifth of the recording, alone, over white noise of a third to three times
+    their deviation, over a process or a constant that both have in common, and pooled over two and five recordings. A
+    level that each recording draws for itself is no different from an improvement in that recording: if the log ratio
+    of recordings scatters by .4 and far less within, `better` is concluded wrongly in some 15 % of campaigns of two
+    recordings, 9 % of three, 6 % of five, 4 % of ten. Nor does any recording show what lasts longer than it.
 
-    Of improvements by a third, over ten independent stretches whose log ratio scatters by .4, 81 % are called `better`,
+    Of improvements by a third, over ten independent segments whose log ratio scatters by .4, 81 % are called `better`,
     and 88 % if these are ten recordings. Within one recording it has first to be found out that they are independent:
     97 % if errors forget themselves within a fiftieth of it, 87 % within three hundredths, but 47 % if the ratio keeps
     one value for each tenth of it. Of improvements by two thirds, 91 % where errors last for a tenth and 70 % where
@@ -142,7 +142,7 @@ def compare_errors(recordings: Sequence[PairedErrors]) -> PairedComparison:
         recordings: Errors of every recording.
 
     Returns:
-        Ratios of force and moment errors, with their intervals, and what they say.
+        Ratios of force and moment errors, with their intervals, and the conclusions.
 
     Raises:
         ShapeError: If no recording has a sample in which everything is finite.
@@ -165,37 +165,37 @@ def _ratio(recordings: Sequence[PairedErrors], axes: slice) -> ErrorRatio:
     totals = np.sum([pair.sum(axis=1) for pair in squares], axis=0)
     least = _LEAST**2 * float(totals.max()) / sum(pair.shape[1] for pair in squares)
     if least == 0.0 or all(np.array_equal(*pair) for pair in squares):
-        count = sum(independent_stretches(np.zeros(min(PIECES, pair.shape[1])))[0] for pair in squares)
+        count = sum(independent_segments(np.zeros(min(BLOCKS, pair.shape[1])))[0] for pair in squares)
         return ErrorRatio(ratio=1.0, low=1.0, high=1.0, stretches=count, judgement="no difference")
-    stretches, errors = [], []
+    segments, errors = [], []
     for pair in squares:
-        count, error = independent_stretches(_log_ratios(pair, PIECES, least))
-        stretches.append(_log_ratios(pair, count, least))
+        count, error = independent_segments(_log_ratios(pair, BLOCKS, least))
+        segments.append(_log_ratios(pair, count, least))
         errors.append(error)
-    return ratio_over(stretches, errors, pooled=0.5 * math.log(max(totals[0], least) / max(totals[1], least)))
+    return ratio_over(segments, errors, pooled=0.5 * math.log(max(totals[0], least) / max(totals[1], least)))
 
 
 def ratio_over(
-    stretches: Sequence[FloatArray], errors: Sequence[float], *, pooled: float, confidence: float = CONFIDENCE
+    segments: Sequence[FloatArray], errors: Sequence[float], *, pooled: float, confidence: float = CONFIDENCE
 ) -> ErrorRatio:
-    """Judge log ratios over independent stretches.
+    """Test log ratios over independent segments.
 
     Args:
-        stretches: Log ratio of the errors in every stretch, recording by recording; shapes (k,).
+        segments: Log ratio of the errors in every segment, recording by recording; shapes (k,).
         errors: Standard errors of their means by the autocorrelation within each recording; 0 where not known.
         pooled: Log ratio of the root mean square errors over all samples.
-        confidence: Probability with which the interval is to hold the ratio; more than usual where several are judged.
+        confidence: Probability with which the interval is to hold the ratio; more than usual where several are tested.
 
     Returns:
-        The ratio, its interval, and what it says.
+        The ratio, its interval, and the conclusion.
     """
-    logs = np.concatenate(stretches)
+    logs = np.concatenate(segments)
     count, mean = len(logs), float(logs.mean())
     half = math.inf
-    if count >= FEWEST_STRETCHES:
+    if count >= FEWEST_SEGMENTS:
         from scipy.special import stdtrit  # here because importing it takes longer than most commands
 
-        half = float(stdtrit(count - 1, 0.5 + 0.5 * confidence)) * _standard_error(stretches, errors, mean)
+        half = float(stdtrit(count - 1, 0.5 + 0.5 * confidence)) * _standard_error(segments, errors, mean)
     low, high = mean - half, mean + half
     return ErrorRatio(
         ratio=math.exp(mean),
@@ -215,40 +215,40 @@ def _judgement(low: float, high: float, pooled: float) -> Judgement:
     return "no difference" if alike else "not told apart"
 
 
-def _standard_error(stretches: Sequence[FloatArray], errors: Sequence[float], mean: float) -> float:
-    """Largest of three: by the scatter of all stretches, of the recordings, and by the autocorrelation within these."""
-    logs = np.concatenate(stretches)
-    count, recordings = len(logs), len(stretches)
+def _standard_error(segments: Sequence[FloatArray], errors: Sequence[float], mean: float) -> float:
+    """Largest of three: by the scatter of all segments, of the recordings, and by the autocorrelation within these."""
+    logs = np.concatenate(segments)
+    count, recordings = len(logs), len(segments)
     scatter = float(logs.std(ddof=1)) / math.sqrt(count)
-    within = math.hypot(*(len(log) * error for log, error in zip(stretches, errors, strict=True))) / count
+    within = math.hypot(*(len(log) * error for log, error in zip(segments, errors, strict=True))) / count
     between = 0.0
     if recordings > 1:
-        apart = math.hypot(*(float((log - mean).sum()) for log in stretches))
+        apart = math.hypot(*(float((log - mean).sum()) for log in segments))
         between = math.sqrt(recordings / (recordings - 1)) * apart / count
     return max(scatter, within, between)
 
 
-def independent_stretches(pieces: FloatArray) -> tuple[int, float]:
-    """Say how many independent stretches a recording is worth, and the standard error of its mean log ratio.
+def independent_segments(blocks: FloatArray) -> tuple[int, float]:
+    """Give how many independent segments a recording is worth, and the standard error of its mean log ratio.
 
     Args:
-        pieces: Log ratios over contiguous pieces of it, in the order of time; shape (k,).
+        blocks: Log ratios over contiguous blocks of it, in the order of time; shape (k,).
 
     Returns:
         The number, at most `MOST_STRETCHES`, and the standard error; 0 where nothing changes.
     """
-    if np.ptp(pieces) < _LEAST:  # what never changes has been seen once
+    if np.ptp(blocks) < _LEAST:  # what never changes has been seen once
         return 1, 0.0
-    effective = autocorrelation(pieces, np.arange(len(pieces), dtype=np.float64)).effective_count
+    effective = autocorrelation(blocks, np.arange(len(blocks), dtype=np.float64)).effective_count
     fewer = effective**2 / (effective + _OVERRATED)
-    return min(max(round(fewer), 1), MOST_STRETCHES), float(pieces.std(ddof=1)) / math.sqrt(fewer)
+    return min(max(round(fewer), 1), MOST_SEGMENTS), float(blocks.std(ddof=1)) / math.sqrt(fewer)
 
 
 def _log_ratios(squares: FloatArray, count: int, least: float) -> FloatArray:
     """Log ratios of root mean squares in contiguous parts of equally many samples, at most one each.
 
     Args:
-        squares: Squared norms of the errors of both candidates; shape (2, n).
+        squares: Squared norms of the errors of both calibrations under test; shape (2, n).
         count: Number of parts.
         least: Mean square below which an error counts as this.
 

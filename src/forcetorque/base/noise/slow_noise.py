@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""White noise plus a slowly wandering offset, and least squares under it with standard errors."""
+"""White noise plus a slowly drifting offset, and least squares under it with standard errors."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, require_shape
 from forcetorque.base.errors import FitError
 
 
@@ -52,18 +52,18 @@ an offset to recordings of minutes."""
 _LEAST_STEP = 1e-6
 """Instants count as at least this part of a time constant apart: at the same instant the process has no inverse."""
 
-_TOO_CLOSE = "slow noise: the instants are too close to each other to tell it from white noise"
+_TOO_CLOSE = "slow noise: the instants are too close to each other to distinguish it from white noise"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Timeline:
+class Timeline(ArrayRecord):
     """When n means were taken; slow noise goes on within a recording and starts anew with the next."""
 
-    time_s: FloatArray
+    time_s: FloatArray = field(metadata=array("n"))
     """Instants, not falling within a recording; shape (n,); s."""
-    recording: IntArray
+    recording: IntArray = field(metadata=array("n", dtype="int"))
     """Number of the recording of each; those of one recording stand together; shape (n,)."""
-    share: FloatArray
+    share: FloatArray = field(metadata=array("n"))
     """Samples in each mean over the usual number: its white noise has the variance s^2 / share; shape (n,)."""
     _precisions: dict[float, tuple[FloatArray, FloatArray, float]] = field(default_factory=dict, init=False, repr=False)
 
@@ -83,17 +83,16 @@ class Timeline:
             ShapeError: If the shapes differ.
             FitError: If time falls within a recording, or a share is not above 0.
         """
-        time = read_only(time_s, name="time_s", shape=(None,))
-        n = len(time)
-        number = np.zeros(n, dtype=np.int64) if recording is None else np.array(recording, dtype=np.int64)
-        require_shape(number, name="recording", shape=(n,))
-        number.setflags(write=False)
-        part = read_only(np.ones(n) if share is None else share, name="share", shape=(n,))
-        if (np.diff(time)[np.diff(number) == 0] < 0.0).any():
+        line = cls(
+            time_s=time_s,
+            recording=np.zeros(np.shape(time_s), dtype=np.int64) if recording is None else recording,
+            share=np.ones(np.shape(time_s)) if share is None else share,
+        )
+        if (np.diff(line.time_s)[np.diff(line.recording) == 0] < 0.0).any():
             raise FitError("time_s: expected instants that do not fall within a recording; sort the samples")
-        if not (part > 0.0).all():
+        if not (line.share > 0.0).all():
             raise FitError("share: expected numbers above 0; leave out means of no sample")
-        return cls(time_s=time, recording=number, share=part)
+        return line
 
     def __len__(self) -> int:
         return len(self.time_s)
@@ -131,17 +130,17 @@ class Timeline:
         """
         from scipy.linalg.lapack import dpttrs  # here because importing it takes longer than most commands
 
-        weighed, log_white = columns * self.share[:, None], -float(np.log(self.share).sum())
+        weighted, log_white = columns * self.share[:, None], -float(np.log(self.share).sum())
         if noise.is_white or not len(self):
-            return weighed, log_white
+            return weighted, log_white
         if len(self) == 1:  # LAPACK wants a side diagonal
             total = 1.0 + noise.ratio * float(self.share[0])
-            return weighed / total, log_white + float(np.log(total))
+            return weighted / total, log_white + float(np.log(total))
         pivots, multipliers, log_inverse = self._factors(noise)
-        inner, wrong = dpttrs(pivots, multipliers, weighed)
+        inner, wrong = dpttrs(pivots, multipliers, weighted)
         if wrong:
             raise FitError(_TOO_CLOSE)
-        solved = weighed - noise.ratio * self.share[:, None] * inner
+        solved = weighted - noise.ratio * self.share[:, None] * inner
         return solved, log_white + float(np.log(pivots).sum()) - log_inverse
 
     def precision_diagonal(self, noise: SlowNoise) -> FloatArray:
@@ -161,8 +160,8 @@ class Timeline:
         if len(self) == 1:
             return self.share / (1.0 + noise.ratio * self.share)
         forward = self._factors(noise)[0]
-        turned = Timeline(time_s=-self.time_s[::-1], recording=self.recording[::-1], share=self.share[::-1])
-        backward = turned._factors(noise)[0][::-1]
+        reverse = Timeline(time_s=-self.time_s[::-1], recording=self.recording[::-1], share=self.share[::-1])
+        backward = reverse._factors(noise)[0][::-1]
         diagonal = self._precisions[noise.time_constant_s][0] + noise.ratio * self.share
         inner = 1.0 / (forward + backward - diagonal)  # diagonal of the inverse of a tridiagonal matrix
         return self.share - noise.ratio * self.share**2 * inner
@@ -216,23 +215,17 @@ _ROUNDING = 1e-13
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Regression:
+class Regression(ArrayRecord):
     """Coefficients of k columns of values on one design of p columns."""
 
-    coefficients: FloatArray
+    coefficients: FloatArray = field(metadata=array("k", "p"))
     """Mean of the mixture; shape (k, p)."""
-    covariance: FloatArray
-    """Their covariance, spread of the mixture included; shape (k, p, p); infinite without a degree of freedom."""
-    degrees_of_freedom: FloatArray
-    """Of Student's t of every coefficient; shape (k, p); 0 where nothing is left to tell the noise."""
-    noise: FloatArray
+    covariance: FloatArray = field(metadata=array("k", "p", "p"))
+    """Their covariance, scatter of the mixture included; shape (k, p, p); infinite without a degree of freedom."""
+    degrees_of_freedom: FloatArray = field(metadata=array("k", "p"))
+    """Of Student's t of every coefficient; shape (k, p); 0 where nothing is left to estimate the noise."""
+    noise: FloatArray = field(metadata=array("k"))
     """Standard deviation of the white part of a full mean; shape (k,)."""
-
-    def __post_init__(self) -> None:
-        k, p = np.shape(self.coefficients)
-        shapes = {"coefficients": (k, p), "covariance": (k, p, p), "degrees_of_freedom": (k, p), "noise": (k,)}
-        for component, shape in shapes.items():
-            object.__setattr__(self, component, read_only(getattr(self, component), name=component, shape=shape))
 
     @property
     def standard_error(self) -> FloatArray:
@@ -279,7 +272,7 @@ def regress(
         line: When the values were taken; n of them.
         design: Design of full rank p; shape (n, p).
         values: Values; shape (n, k).
-        about: Coefficients that are stated whatever comes out, such as plain means; shape (k, p). The covariance is
+        about: Coefficients that are given in advance, such as plain means; shape (k, p). The covariance is
             then about them.
         shapes: Shapes of noise that are tried.
 
@@ -339,7 +332,7 @@ class _Fits:
         coefficients = shared @ inverse
         squares = np.diagonal(moments, axis1=1, axis2=2)[:, p:] - np.einsum("skp,skp->sk", coefficients, shared)
         squares = np.maximum(squares, 0.0)
-        changing = np.where(squares > 0.0, squares, 1.0)  # of what never changes every shape says the same
+        changing = np.where(squares > 0.0, squares, 1.0)  # of what never changes every shape has the same likelihood
         constant = log_determinant - np.linalg.slogdet(inverse)[1]
         return cls(
             coefficients=coefficients,
@@ -350,7 +343,7 @@ class _Fits:
 
 
 def log_prior(noise: SlowNoise) -> float:
-    """Say how usual a shape of noise is before the record is seen.
+    """Give how usual a shape of noise is before the record is seen.
 
     Args:
         noise: The shape.

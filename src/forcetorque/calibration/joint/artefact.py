@@ -14,7 +14,7 @@ from pydantic import ConfigDict, Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
-from forcetorque.base.stored_model import Part, read_part
+from forcetorque.base.stored_model import StoredTable, read_stored_table
 from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.interval import JointInterval, required_prior
 from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual
@@ -31,7 +31,7 @@ from forcetorque.experiment.sensor_samples import logged_content
 from forcetorque.recording.sample_quality import UnusableCounts
 
 
-class JointSensor(Part):
+class JointSensor(StoredTable):
     """A sensor of a joint fit: 36 unknowns D row by row, with `wrench = (1 + D) prior raw + offset`."""
 
     name: str
@@ -40,7 +40,7 @@ class JointSensor(Part):
     """Serial number."""
 
 
-class JointOffset(Part):
+class JointOffset(StoredTable):
     """An offset of a joint fit: six unknowns."""
 
     sensor: str
@@ -49,7 +49,7 @@ class JointOffset(Part):
     """Session."""
 
 
-class JointTerm(Part):
+class JointTerm(StoredTable):
     """An error of the robot model or of the IMU: one unknown."""
 
     name: str
@@ -60,7 +60,7 @@ class JointTerm(Part):
     """Standard deviation before any data."""
 
 
-class JointPosterior(Part):
+class JointPosterior(StoredTable):
     """Mean and covariance of all that was unknown: changes of the sensors, then offsets, then errors of the model."""
 
     model_config = ConfigDict(
@@ -128,7 +128,7 @@ def read_joint_posterior(path: Path | str) -> JointPosterior:
     Returns:
         The same.
     """
-    return read_part(path, JointPosterior, expected="a file of `calibrate --jointly`, there is none")
+    return read_stored_table(path, JointPosterior, expected="a file of `calibrate --jointly`, there is none")
 
 
 def sensor_posterior(

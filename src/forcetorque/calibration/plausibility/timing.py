@@ -12,7 +12,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.plausibility.compared_wrenches import Doubt, Movement
 from forcetorque.experiment.calibration.moments import DataSet, Moments, symmetric_pseudo_inverse
-from forcetorque.recording.delay import EVEN, EvenPair, residual_at_lags
+from forcetorque.recording.delay import EVEN, ResampledPair, residual_at_lags
 
 _FEWEST = 20
 """Changes of a channel below which it may rise all the while by chance."""
@@ -117,7 +117,7 @@ def delay_doubts(data_sets: Sequence[DataSet], prior: FloatArray | None) -> Iter
     if most < _FEWEST_LAGS:
         return
     even = [
-        EvenPair.of(
+        ResampledPair.of(
             data.time_s,
             data.raw if prior is None else data.raw @ prior[:3].T,
             data.reference,
@@ -137,18 +137,18 @@ def delay_doubts(data_sets: Sequence[DataSet], prior: FloatArray | None) -> Iter
     if left[1] < _BETTER * left[0]:
         yield Doubt(
             kind="delay",
-            message=f"the reading comes {abs(lag) * step * 1e3:.0f} ms {'later' if lag > 0 else 'earlier'} than the "
+            message=f"the reading comes {abs(lag) * step * 1e3:.0f} ms {'at_lag' if lag > 0 else 'earlier'} than the "
             f"reference: moved by it, {1.0 - (left[1] / left[0]) ** 0.5:.0%} less of it is left unexplained; align "
             'their clocks by [[clock]], delay_s = "estimate", or log both by one clock (stamp of '
             "[[recording.stream]]; among arrays shift joint_time_s), and look for a delay between their ports",
         )
 
 
-def _at_lag(pair: EvenPair, lag: int) -> DataSet:
-    return DataSet(label="", raw=pair.later(lag).T, reference=pair.reference)
+def _at_lag(pair: ResampledPair, lag: int) -> DataSet:
+    return DataSet(label="", raw=pair.at_lag(lag).T, reference=pair.reference)
 
 
-def _best_lag(even: Sequence[EvenPair], most: int) -> int:
+def _best_lag(even: Sequence[ResampledPair], most: int) -> int:
     """Lag, in samples, with the smallest residual of the reading regressed on the reference."""
     residual = residual_at_lags(even)
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.noise.autocorrelation import autocorrelation
-from forcetorque.base.noise.means import mean_error, means_over, one_after_another
+from forcetorque.base.noise.means import joined_times, mean_error, means_over
 from forcetorque.base.noise.paired_comparison import ErrorRatio, Judgement, PairedErrors, compare_errors
 from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -81,11 +81,11 @@ def evidence(stretches: Sequence[ValidationSegment]) -> Evidence:
     in_session = sorted(stretches, key=lambda stretch: stretch.session)
     for _, session in groupby(in_session, key=lambda stretch: stretch.session):
         means = [means_over(one.time_s, np.hstack([one.measured - one.reference, one.reference])) for one in session]
-        instants.append(one_after_another([time for time, _, _ in means]))
+        instants.append(joined_times([time for time, _, _ in means]))
         columns = np.concatenate([columns for _, columns, _ in means])
         errors.append(columns[:, :6])
         references.append(columns[:, 6:])
-    line = one_after_another(instants)
+    line = joined_times(instants)
     left, moved = (np.concatenate([own - own.mean(axis=0) for own in parts]) for parts in (errors, references))
     squares = np.column_stack([(left[:, part] ** 2).sum(axis=1) for part in FORCE_AND_MOMENT])
     widths = mean_error(squares, line).half_width

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names, require_shape
 from forcetorque.base.errors import EstimationError, ShapeError, known_names
-from forcetorque.base.noise.means import one_after_another
+from forcetorque.base.noise.means import joined_times
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import WRENCH_COMPONENTS, transform_wrench
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -262,7 +262,7 @@ def pooled_contacts(recordings: Mapping[str, ContactWrenches]) -> ContactWrenche
         sub_model=first.sub_model,
         candidates=first.candidates,
         wrenches={key: np.concatenate(several) for key, several in pieces.items()},
-        time_s={key: one_after_another(several) for key, several in times.items()},
+        time_s={key: joined_times(several) for key, several in times.items()},
         expected=np.concatenate([contacts.expected for contacts in recordings.values()]),
         left_out=tuple(f"{name}: {words}" for name, contacts in recordings.items() for words in contacts.left_out),
     )

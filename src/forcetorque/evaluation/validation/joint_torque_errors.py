@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names, require_shape
 from forcetorque.base.errors import RobotError, ShapeError, known_names
-from forcetorque.base.noise.means import mean_error, one_after_another
+from forcetorque.base.noise.means import joined_times, mean_error
 from forcetorque.base.pose import invert_pose
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import JudgedCandidate
@@ -355,7 +355,7 @@ def pooled_torque_errors(recordings: Mapping[str, TorqueErrorSamples]) -> Torque
             pieces.setdefault(key, []).append(samples)
     return TorqueErrorSamples(
         candidates=first.candidates,
-        samples={key: _joined(samples, instants=one_after_another) for key, samples in pieces.items()},
+        samples={key: _joined(samples, instants=joined_times) for key, samples in pieces.items()},
         left_out=tuple(f"{name}: {words}" for name, torques in recordings.items() for words in torques.left_out),
     )
 

@@ -19,7 +19,7 @@ from pydantic_core import PydanticCustomError
 from forcetorque.base.arrays import ArrayField, BoolArray, FloatArray
 from forcetorque.base.errors import FormatError, RecordingError, SerialNumberError, ShapeError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
-from forcetorque.base.stored_model import Part, checked_part, read_json
+from forcetorque.base.stored_model import StoredTable, read_json, validated_table
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.provenance import Lambda, Provenance, Selection, SensorIdentity, Validity
@@ -44,7 +44,7 @@ JOINT_SCHEMA: Final = "forcetorque/joint/1"
 """Name and version of the form of the file that sensors of a joint calibration share."""
 
 
-class Prior(Part):
+class Prior(StoredTable):
     """The matrix that the fit was pulled towards."""
 
     matrix: Annotated[FloatArray, ArrayField((6, None))]
@@ -55,7 +55,7 @@ class Prior(Part):
     """File that it came from."""
 
 
-class CalibratedVariable(Part):
+class CalibratedVariable(StoredTable):
     """What a linear variable, such as temperature, adds to the wrench."""
 
     name: str
@@ -76,7 +76,7 @@ class CalibratedVariable(Part):
     """Largest fitted value."""
 
 
-class SessionOffset(Part):
+class SessionOffset(StoredTable):
     """Offset of one session: a stretch of time in which the sensor was not switched off."""
 
     name: str
@@ -93,7 +93,7 @@ class SessionOffset(Part):
     """Offset that the same data give with the prior matrix; shape (6,); N, N m."""
 
 
-class Calibration(Part):
+class Calibration(StoredTable):
     """A fitted sensor: `wrench = matrix raw + sum of coefficients (variable - reference value) + offset`.
 
     Where there are quadratic terms, what they add at the load is taken off that.
@@ -344,4 +344,4 @@ def read_calibration(path: Path | str) -> Calibration:
         )
     if schema != SCHEMA:
         raise FormatError(f"{file}: expected the schema {SCHEMA!r}, got {schema!r}; fit again with this version")
-    return checked_part(file, Calibration, content)
+    return validated_table(file, Calibration, content)

@@ -11,11 +11,11 @@ from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray, require_shape
 from forcetorque.base.errors import ShapeError, known_names
-from forcetorque.base.stored_model import Part
+from forcetorque.base.stored_model import StoredTable
 from forcetorque.experiment.calibration.assumptions import LOADS
 
 
-class RowNoise(Part):
+class RowNoise(StoredTable):
     """Noise of one row of the model, of means over a second: white, and a slow offset."""
 
     white: float = Field(ge=0.0)
@@ -26,7 +26,7 @@ class RowNoise(Part):
     """Variance of the slow offset over that of the white part."""
 
 
-class Posterior(Part):
+class Posterior(StoredTable):
     """Mean and covariance of all unknowns."""
 
     space: Literal["wrench", "channel"]
@@ -176,7 +176,7 @@ class Posterior(Part):
         return np.einsum("ai,...i,bi->...ab", self.to_wrench, variance, self.to_wrench)
 
 
-class LoadError(Part):
+class LoadError(StoredTable):
     """Errors of response and offsets that come of the loads.
 
     Loads phi and response E were estimated together, with covariance S of phi and T of E and phi. A fit of E under the

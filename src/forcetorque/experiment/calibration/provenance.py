@@ -11,12 +11,12 @@ import numpy as np
 from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.stored_model import Part
+from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.recording.sample_quality import UnusableCounts
 
 
-class SensorIdentity(Part):
+class SensorIdentity(StoredTable):
     """Which sensor, mounted where, read how."""
 
     name: str
@@ -31,7 +31,7 @@ class SensorIdentity(Part):
     """Who acts on whom in the reading."""
 
 
-class Content(Part):
+class Content(StoredTable):
     """By what the samples of an interval are known again in another log (`recording.fingerprint`)."""
 
     quantity: str
@@ -40,7 +40,7 @@ class Content(Part):
     """Hashes of windows of its samples, hexadecimal numbers of 16 letters one behind the other."""
 
 
-class FittedInterval(Part):
+class FittedInterval(StoredTable):
     """A stretch of time that was fitted."""
 
     label: str
@@ -57,7 +57,7 @@ class FittedInterval(Part):
     """By what its samples are known again; None in files of earlier versions, and where they hardly change."""
 
 
-class Provenance(Part):
+class Provenance(StoredTable):
     """What the fit was made from."""
 
     code_version: str
@@ -94,7 +94,7 @@ Lambda = Annotated[
 """Lambda in counts2; `infinite`, which JSON has no number for, means that the prior was kept."""
 
 
-class Selection(Part):
+class Selection(StoredTable):
     """How lambda came about."""
 
     rule: str
@@ -112,7 +112,7 @@ class Selection(Part):
 _Wrench = Annotated[FloatArray, ArrayField((6,))]
 
 
-class FittedLoads(Part):
+class FittedLoads(StoredTable):
     """Range of the fitted loads, as the calibration reads them: without offset and variables.
 
     Loads of one motion go together, such as a weight and its moment, so that a load can lie within the range of every
@@ -158,7 +158,7 @@ class FittedLoads(Part):
         )
 
 
-class Validity(Part):
+class Validity(StoredTable):
     """Where the fit is supported by data."""
 
     raw_minimum_counts: Annotated[FloatArray, ArrayField((None,))]

@@ -12,7 +12,7 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, BoolArray, FloatArray, require_last_axis
-from forcetorque.base.stored_model import Part
+from forcetorque.base.stored_model import StoredTable
 
 PAIRS: Final = np.triu_indices(6)
 """Pairs of components of the load whose products are the 21 quadratic terms."""
@@ -59,7 +59,7 @@ def steepness(coefficients: FloatArray, directions: FloatArray, minimum: FloatAr
     return float(np.linalg.norm(coefficients @ derivative, ord=2, axis=(1, 2)).max())
 
 
-class QuadraticCorrection(Part):
+class QuadraticCorrection(StoredTable):
     """Quadratic terms of the load that are taken off readings, and where they hold."""
 
     coefficients: Annotated[FloatArray, ArrayField((6, 21))]
@@ -166,7 +166,7 @@ UNITS: Final = ("N", "N m")
 """Their units."""
 
 
-class NonlinearTrial(Part):
+class NonlinearTrial(StoredTable):
     """Errors on each recording in turn of fits to all others, with and without the correction by quadratic terms.
 
     The offset of a session is taken from the judged recording itself.

@@ -14,7 +14,7 @@ from pydantic import ConfigDict, Field
 from forcetorque.base.arrays import ArrayField, FloatArray, IntArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
-from forcetorque.base.stored_model import Part, read_part
+from forcetorque.base.stored_model import StoredTable, read_stored_table
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, Moments, WindowMeans
 from forcetorque.experiment.calibration.posterior import LoadError
@@ -30,7 +30,7 @@ _Table = Annotated[FloatArray, ArrayField((None, None))]
 _Wrench = Annotated[FloatArray, ArrayField((6,))]
 
 
-class IntervalMoments(Part):
+class IntervalMoments(StoredTable):
     """One interval: its means over windows of a second, and moments and ranges of its samples."""
 
     interval: FittedInterval
@@ -172,7 +172,7 @@ def _ends(data: DataSet, moments: Moments) -> IntArray:
     return np.unique([along.argmin(axis=0), along.argmax(axis=0)])
 
 
-class VariableDescription(Part):
+class VariableDescription(StoredTable):
     """A linear variable of the sensor, as its experiment file describes it."""
 
     name: str
@@ -211,7 +211,7 @@ class VariableDescription(Part):
         )
 
 
-class RecordingMoments(Part):
+class RecordingMoments(StoredTable):
     """All that a calibration needs of the calibration intervals of one recording."""
 
     model_config = ConfigDict(
@@ -280,7 +280,7 @@ def read_moments(path: Path | str) -> RecordingMoments:
     Returns:
         The moments.
     """
-    return read_part(
+    return read_stored_table(
         path, RecordingMoments, expected="a file of moments, there is none; `calibrate --moments` makes one"
     )
 

@@ -10,40 +10,26 @@ from typing import Any
 from forcetorque.base.arrays import FloatArray
 from forcetorque.formats.array_file.streams import ArrayContents
 from forcetorque.formats.hdf5_file import dataset_numbers, datasets, is_numeric, members, opened_hdf5, require_readable
-from forcetorque.formats.robometry.channels import log_group
 
 MAGIC_73 = b"MATLAB 7.3 MAT-file"
 """What files of MATLAB 7.3 begin with, before the signature of HDF5."""
 
 
 def is_matlab_73(path: Path) -> bool:
-    """Tell whether a file is one of MATLAB 7.3, by its first bytes.
+    """Check whether a file is one of MATLAB 7.3, by its first bytes.
 
     Args:
         path: A file.
 
     Returns:
-        Whether it says so.
+        Whether the signature is there.
     """
     with path.open("rb") as file:
         return file.read(len(MAGIC_73)) == MAGIC_73
 
 
-def labels_itself(path: Path) -> bool:
-    """Tell whether a file is a log of robometry, which says what it holds.
-
-    Args:
-        path: An HDF5 file.
-
-    Returns:
-        Whether it is.
-    """
-    with opened_hdf5(path) as file:
-        return log_group(file) is not None
-
-
 def hdf5_contents(path: Path, *, matlab: bool) -> ArrayContents:
-    """Tell what a file holds, without reading its numbers.
+    """List what a file holds, without reading its numbers.
 
     Args:
         path: The file.
@@ -57,12 +43,12 @@ def hdf5_contents(path: Path, *, matlab: bool) -> ArrayContents:
     with opened_hdf5(path) as file:
         for entry in members(file):
             name = _name(entry.path, matlab=matlab)
-            reason = entry.elsewhere or _not_read(entry.dataset, matlab=matlab)
+            reason = entry.not_in_file or _not_read(entry.dataset, matlab=matlab)
             if reason is None:
                 shapes[name] = _rows_and_columns(entry.dataset.shape, matlab=matlab)
             else:
                 skipped[name] = reason
-    return ArrayContents(shapes=dict(sorted(shapes.items())), skipped=dict(sorted(skipped.items())))
+    return dict(sorted(shapes.items())), dict(sorted(skipped.items()))
 
 
 def read_hdf5(path: Path, names: Collection[str], *, matlab: bool) -> dict[str, FloatArray]:

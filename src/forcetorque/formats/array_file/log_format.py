@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of named arrays as formats of logs: every array, column and unit that is read is stated."""
+"""Files of named arrays as formats of logs: every array, column and unit that is read is specified."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from typing import ClassVar
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FormatError, MissingExtraError, known_names
+from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.input_file import require_unpacked
-from forcetorque.formats.array_file.hdf5 import MAGIC_73, hdf5_contents, is_matlab_73, labels_itself, read_hdf5
+from forcetorque.formats.array_file.hdf5 import MAGIC_73, hdf5_contents, is_matlab_73, read_hdf5
 from forcetorque.formats.array_file.matlab import MAGIC, is_matlab_file, matlab_contents, read_matlab
 from forcetorque.formats.array_file.npz import is_npz_file, npz_contents, read_npz
 from forcetorque.formats.array_file.streams import (
@@ -32,15 +32,16 @@ from forcetorque.formats.log_format import (
     LogReading,
     LogSketch,
     SketchedColumns,
-    median_step,
-    skipped_words,
+    sketched_numbers,
+    skipped_text,
 )
+from forcetorque.formats.robometry.channels import is_robometry_log
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Stream
 
 
 class _ArrayFormat(ABC):
-    """Single files of arrays, which say nothing of units: they are recognised to say what must be stated."""
+    """Single files of arrays, which state no units: they are recognised to report what must be specified."""
 
     sign: ClassVar[str]
 
@@ -58,58 +59,56 @@ class _ArrayFormat(ABC):
 
     def sketch(self, path: Path) -> LogSketch:
         """Look at names and shapes of all arrays, and at the numbers of those that may be times."""
-        contents = self._contents(path)
-        if not contents.shapes:
+        shapes, skipped = self._contents(path)
+        if not shapes:
             raise FormatError(
-                f"{path}: expected arrays of real numbers, got {skipped_words(contents.skipped) or 'none'}; save each "
-                "as an array of rows and columns"
+                f"{path}: expected arrays of real numbers, got {skipped_text(skipped) or 'none'}; save each as an "
+                "array of rows and columns"
             )
-        single = [name for name, (rows, columns) in contents.shapes.items() if columns == 1 < rows]
-        values = self._read(path, contents, single)
-        return LogSketch(
-            path=path,
-            is_table=False,
-            columns=tuple(
-                _sketched(name, rows, columns, values.get(name)) for name, (rows, columns) in contents.shapes.items()
-            ),
-            skipped_arrays=contents.skipped,
+        values = self._read(path, shapes, [name for name, (rows, columns) in shapes.items() if columns == 1 < rows])
+        columns = tuple(
+            sketched_numbers(name, values[name][:, 0], rows=rows)
+            if name in values and np.isfinite(values[name]).all()
+            else SketchedColumns(name=name, rows=rows, columns=columns)
+            for name, (rows, columns) in shapes.items()
         )
+        return LogSketch(path=path, is_table=False, columns=columns, skipped_arrays=skipped)
 
     def describe(self, path: Path) -> LogDescription:
-        """Refuse: nothing is guessed from names or numbers; say which there are."""
-        names = [f"{name} ({rows} x {columns})" for name, (rows, columns) in self._contents(path).shapes.items()]
+        """Refuse: nothing is inferred from names or numbers; list which there are."""
+        names = [f"{name} ({rows} x {columns})" for name, (rows, columns) in self._contents(path)[0].items()]
         raise FormatError(
-            f"{path}: expected a log that says what it holds, got the variables {', '.join(names) or 'none'}; state "
-            "their columns and units in an experiment file; `forcetorque init` begins one"
+            f"{path}: expected a log that states what it holds, got the variables {', '.join(names) or 'none'}; "
+            "specify their columns and units in an experiment file; `forcetorque init` begins one"
         )
 
     def read(self, stated: ArrayLog, context: LogContext) -> LogReading:
-        """Read every array that is stated."""
+        """Read every array that is specified."""
         path = context.file(stated.path)
-        contents = self._contents(path)
-        arrays = self._read(path, contents, wanted_arrays(stated.stream))
+        shapes, skipped = self._contents(path)
+        arrays = self._read(path, shapes, wanted_arrays(stated.stream))
         streams: dict[str, Stream] = {}
         findings: list[Finding] = []
         for k, entry in enumerate(stated.stream):
             with context.stated_in(f"stream[{k}]"):
                 for name in wanted_arrays((entry,)):
-                    if name in contents.skipped:
-                        raise FormatError(
-                            f"{path}: {name}: expected rows of real numbers, got {contents.skipped[name]}"
-                        )
+                    if name in skipped:
+                        raise FormatError(f"{path}: {name}: expected rows of real numbers, got {skipped[name]}")
                     if name not in arrays:
-                        raise FormatError(f"{path}: no variable {name!r}; {known_names(name, contents.shapes)}")
-                stream, doubts = array_stream(path, entry, arrays, streams)
-            streams[entry.name] = stream
-            findings += doubts
+                        raise FormatError(f"{path}: no variable {name!r}; {known_names(name, shapes)}")
+                reading = array_stream(path, entry, arrays, streams)
+            streams[entry.name] = reading.stream
+            findings += reading.findings
         return LogReading(streams=tuple(streams.values()), findings=tuple(findings))
 
-    def _read(self, path: Path, contents: ArrayContents, names: Collection[str]) -> Mapping[str, FloatArray]:
+    def _read(
+        self, path: Path, shapes: Mapping[str, tuple[int, int]], names: Collection[str]
+    ) -> Mapping[str, FloatArray]:
         """Arrays with these names, unless they are more than the file may unpack to."""
-        shapes = {name: contents.shapes[name] for name in names if name in contents.shapes}
-        size = sum(rows * columns for rows, columns in shapes.values()) * np.dtype(np.float64).itemsize
-        require_unpacked(path, size, where=", ".join(shapes)[:100])
-        return self._arrays(path, list(shapes))
+        wanted = {name: shapes[name] for name in names if name in shapes}
+        size = sum(rows * columns for rows, columns in wanted.values()) * np.dtype(np.float64).itemsize
+        require_unpacked(path, size, where=", ".join(wanted)[:100])
+        return self._arrays(path, list(wanted))
 
 
 class MatlabFormat(_ArrayFormat):
@@ -120,7 +119,7 @@ class MatlabFormat(_ArrayFormat):
 
     def recognises(self, path: Path) -> bool:
         """Look at the first bytes; logs of robometry, which are such files too, label themselves."""
-        return is_matlab_file(path) or (is_hdf5_file(path) and is_matlab_73(path) and not _labels_itself(path))
+        return is_matlab_file(path) or (is_hdf5_file(path) and is_matlab_73(path) and not is_robometry_log(path))
 
     def _contents(self, path: Path) -> ArrayContents:
         return hdf5_contents(path, matlab=True) if is_hdf5_file(path) else matlab_contents(path)
@@ -137,7 +136,7 @@ class Hdf5Format(_ArrayFormat):
 
     def recognises(self, path: Path) -> bool:
         """Look for the signature."""
-        return is_hdf5_file(path) and not is_matlab_73(path) and not _labels_itself(path)
+        return is_hdf5_file(path) and not is_matlab_73(path) and not is_robometry_log(path)
 
     def _contents(self, path: Path) -> ArrayContents:
         return hdf5_contents(path, matlab=False)
@@ -161,25 +160,3 @@ class NpzFormat(_ArrayFormat):
 
     def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
         return read_npz(path, names)
-
-
-def _sketched(name: str, rows: int, columns: int, values: FloatArray | None) -> SketchedColumns:
-    """An array; of a single column with its range, and its step where it may be times."""
-    if values is None or not np.isfinite(values).all():
-        return SketchedColumns(name=name, rows=rows, columns=columns)
-    return SketchedColumns(
-        name=name,
-        rows=rows,
-        columns=columns,
-        smallest=float(values.min()),
-        largest=float(values.max()),
-        mean=float(values.mean()),
-        step=median_step(values[:, 0]),
-    )
-
-
-def _labels_itself(path: Path) -> bool:
-    try:
-        return labels_itself(path)
-    except (FormatError, MissingExtraError):
-        return False  # said when it is described

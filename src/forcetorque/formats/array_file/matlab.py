@@ -128,7 +128,7 @@ class _Buffer:
     def __init__(self, where: str, data: bytes, order: str) -> None:
         self.where, self.data, self.order = where, memoryview(data), order
 
-    def words(self, start: int, stop: int, kind: str = "I") -> tuple[int, ...]:
+    def integers(self, start: int, stop: int, kind: str = "I") -> tuple[int, ...]:
         """Read whole numbers of four bytes."""
         if (stop - start) % 4 or stop > len(self.data) or start > stop:
             raise _damaged(self.where, f"{stop - start} bytes for whole numbers")
@@ -144,7 +144,7 @@ def _element(buffer: _Buffer, at: int, end: int) -> _Element:
     """The element at a place, which must end before `end`."""
     if end - at < 8:
         raise _damaged(buffer.where, f"{end - at} bytes at its byte {at} for an element")
-    first, size = buffer.words(at, at + 8)
+    first, size = buffer.integers(at, at + 8)
     if first >> 16:
         type_, size, start, behind = first & 0xFFFF, first >> 16, at + 4, at + 8
         if size > 4:
@@ -164,7 +164,7 @@ def _unpacked(path: Path, where: str, data: bytes, order: str, before: int) -> b
         buffer = _Buffer(where, unpacker.decompress(data, 8), order)
         if len(buffer.data) != 8:
             raise _damaged(where, "packed bytes that end early")
-        type_, size = buffer.words(0, 8)
+        type_, size = buffer.integers(0, 8)
         if type_ != _MATRIX:
             raise _damaged(where, f"a packed element of type {type_}")
         require_unpacked(path, before + size)
@@ -174,7 +174,7 @@ def _unpacked(path: Path, where: str, data: bytes, order: str, before: int) -> b
     except zlib.error as error:
         raise _damaged(where, str(error)) from error
     if len(content) != size or more or not unpacker.eof:
-        raise _damaged(where, "packed bytes that are not as many as its tag says")
+        raise _damaged(where, "packed bytes that are not as many as its tag states")
     return content
 
 
@@ -188,17 +188,17 @@ def _matrices(
             return
         raise _damaged(buffer.where, "no bytes")
     flags = _typed(buffer, at, end, *_INTEGERS)
-    words = buffer.words(flags.start, flags.stop)
-    if len(words) != 2:
-        raise _damaged(buffer.where, f"{len(words)} words of flags")
-    kind = words[0] & 0xFF
+    integers = buffer.integers(flags.start, flags.stop)
+    if len(integers) != 2:
+        raise _damaged(buffer.where, f"{len(integers)} integers of flags")
+    kind = integers[0] & 0xFF
     if kind == _OPAQUE:
         named = _typed(buffer, flags.next, end, *_NAME)
         name = before + (field or buffer.text(named.start, named.stop))
         yield Matrix(name=name, shape=(1, 1), content="object")
         return
     sized = _typed(buffer, flags.next, end, *_INTEGERS)
-    shape = buffer.words(sized.start, sized.stop, "i")
+    shape = buffer.integers(sized.start, sized.stop, "i")
     if not 2 <= len(shape) <= _MOST_DIMENSIONS or min(shape) < 0:
         raise _damaged(buffer.where, f"dimensions {shape[:4]}")
     named = _typed(buffer, sized.next, end, *_NAME)
@@ -207,7 +207,7 @@ def _matrices(
         return
     name = before + name
     if kind in _NUMERIC:
-        yield _numbers(buffer, named.next, end, name, shape, is_complex=bool(words[0] & _COMPLEX))
+        yield _numbers(buffer, named.next, end, name, shape, is_complex=bool(integers[0] & _COMPLEX))
     elif kind in (_STRUCT, _OBJECT) and math.prod(shape) == 1:
         at = _typed(buffer, named.next, end, *_NAME).next if kind == _OBJECT else named.next
         yield from _fields(buffer, at, end, name, depth)
@@ -241,7 +241,7 @@ def _fields(buffer: _Buffer, at: int, end: int, name: str, depth: int) -> Iterat
     if depth >= DEEPEST:
         raise FormatError(f"{buffer.where}: expected structs at most {DEEPEST} deep, got more")
     length = _typed(buffer, at, end, *_INTEGERS)
-    (longest, *more) = buffer.words(length.start, length.stop, "i") or (0,)
+    (longest, *more) = buffer.integers(length.start, length.stop, "i") or (0,)
     names = _typed(buffer, length.next, end, *_NAME)
     if more or longest < 1 or (names.stop - names.start) % longest:
         raise _damaged(buffer.where, f"names of fields of {longest} bytes in {names.stop - names.start}")
@@ -269,13 +269,13 @@ MAGIC = b"MATLAB 5.0 MAT-file"
 
 
 def is_matlab_file(path: Path) -> bool:
-    """Tell whether a file is one of MATLAB, by its first bytes.
+    """Check whether a file is one of MATLAB, by its first bytes.
 
     Args:
         path: File or folder; it exists.
 
     Returns:
-        Whether it says so.
+        Whether the signature is there.
     """
     if not path.is_file():
         return False
@@ -284,7 +284,7 @@ def is_matlab_file(path: Path) -> bool:
 
 
 def matlab_contents(path: Path) -> ArrayContents:
-    """Tell what a file holds.
+    """List what a file holds.
 
     Args:
         path: File of version 5 to 7.
@@ -304,7 +304,7 @@ def matlab_contents(path: Path) -> ArrayContents:
             shapes[matrix.name] = (matrix.shape[0], matrix.shape[1])
         else:
             skipped[matrix.name] = matrix.content
-    return ArrayContents(shapes=shapes, skipped=skipped)
+    return shapes, skipped
 
 
 def read_matlab(path: Path, names: Collection[str]) -> dict[str, FloatArray]:

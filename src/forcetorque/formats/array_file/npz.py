@@ -29,14 +29,14 @@ _ZIP = b"PK\x03\x04"
 _HEADERS = {(1, 0): npy.read_array_header_1_0, (2, 0): npy.read_array_header_2_0}
 _LONGEST_HEADER = 1 << 14
 """Bytes in front of the numbers of an array; NumPy takes no more than 10000 characters."""
-_STUMBLES = (
+_READ_ERRORS = (
     *(ArithmeticError, AttributeError, LookupError, NotImplementedError, RuntimeError, TypeError, ValueError),
     *(EOFError, MemoryError, OSError, SyntaxError, tokenize.TokenError, zipfile.BadZipFile, zlib.error),
 )
 
 
 def is_npz_file(path: Path) -> bool:
-    """Tell whether a file holds arrays of NumPy, by its table of contents.
+    """Check whether a file holds arrays of NumPy, by its table of contents.
 
     Args:
         path: File or folder; it exists.
@@ -57,7 +57,7 @@ def is_npz_file(path: Path) -> bool:
 
 
 def npz_contents(path: Path) -> ArrayContents:
-    """Tell what a file holds, without reading its numbers.
+    """List what a file holds, without reading its numbers.
 
     Args:
         path: The file.
@@ -79,7 +79,7 @@ def npz_contents(path: Path) -> ArrayContents:
                 shapes[name] = (shape[0], math.prod(shape[1:]))
             else:
                 skipped[name] = f"{' x '.join(map(str, shape))} values of {dtype}"
-    return ArrayContents(shapes=shapes, skipped=skipped)
+    return shapes, skipped
 
 
 def read_npz(path: Path, names: Collection[str]) -> dict[str, FloatArray]:
@@ -108,7 +108,7 @@ def _opened(path: Path) -> Iterator[zipfile.ZipFile]:
             yield archive
     except ForceTorqueError:
         raise
-    except _STUMBLES as error:
+    except _READ_ERRORS as error:
         reason = " ".join(str(error).split())[:200]
         raise FormatError(f"{path}: expected a whole .npz file, got one that cannot be read: {reason}") from error
 
@@ -131,7 +131,7 @@ def _header(
         raise FormatError(f"{path}: {entry.filename}: expected version 1 or 2 of .npy, got {version}; save it again")
     try:
         shape, columns_first, dtype = _HEADERS[version](member)
-    except _STUMBLES as error:
+    except _READ_ERRORS as error:
         reason = " ".join(str(error).split())[:200]
         raise FormatError(
             f"{path}: {entry.filename}: expected a header of .npy, got one that cannot be read: {reason}; copy the "

@@ -60,7 +60,7 @@ def match_pressure(seconds: FloatArray, counts: FloatArray, pressure: FloatArray
     if not (len(rise) and len(fall) and rise.any() and fall.any()):
         raise SkinError(
             f"pressure without a clock: expected steps in {len(pressure)} rows of pressure and {len(seconds)} messages "
-            "of counts, got none in one of them; state shift_rows if their rows belong together"
+            "of counts, got none in one of them; specify shift_rows if their rows belong together"
         )
     times = np.interp(place, np.arange(len(seconds)), seconds)
 
@@ -81,7 +81,7 @@ def match_pressure(seconds: FloatArray, counts: FloatArray, pressure: FloatArray
     if best < LEAST_CORRELATION or max(abs(first), abs(last - length)) >= REACH_S:
         raise SkinError(
             f"pressure without a clock: expected its steps in the counts within {REACH_S:g} s, got a correlation of "
-            f"{best:.2f} at {first:+.1f} s; cut both logs to the same time, or state shift_rows"
+            f"{best:.2f} at {first:+.1f} s; cut both logs to the same time, or specify shift_rows"
         )
     return PressureClock(
         start_s=float(first),

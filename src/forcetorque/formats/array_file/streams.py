@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Literal
@@ -16,21 +16,15 @@ from pydantic_core import PydanticCustomError
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.toml_file import Table, Text
-from forcetorque.formats.log_format import LogTable
+from forcetorque.formats.log_format import LogTable, StreamReading
 from forcetorque.formats.signals import StatedRate, StatedSignal, even_stamps, stated_quantity, units_in_si
 from forcetorque.recording.frames import orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ArrayContents:
-    """Arrays of a file by their names, none of which is read yet."""
-
-    shapes: Mapping[str, tuple[int, int]]
-    """Rows and columns of those of real numbers."""
-    skipped: Mapping[str, str]
-    """What the others are, such as `text` or `1 x 3 struct array`."""
+ArrayContents = tuple[dict[str, tuple[int, int]], dict[str, str]]
+"""Arrays of a file by their names, none of which is read yet: rows and columns of those of real numbers, and what the
+others are, such as `text` or `1 x 3 struct array`."""
 
 
 ColumnNumber = Annotated[int, Field(ge=1, strict=True)]
@@ -148,7 +142,7 @@ def rows_of_another(
     other: Stream,
     *,
     shift_rows: int | Literal["estimated"] | None,
-) -> tuple[Stream, tuple[Finding, ...]]:
+) -> StreamReading:
     """Give samples without times those of another stream's rows.
 
     Args:
@@ -184,7 +178,7 @@ def rows_of_another(
         text = f"{left} of {rows} rows lie before or after {other.name!r}, and are left out"
         findings.append(Finding(stream=name, kind="cropped", message=text, count=left))
     cut = {key: replace(signal, values=signal.values[kept]) for key, signal in signals.items()}
-    return Stream(name=name, clock=other.clock, stamp_ns=stamps[kept], signals=cut), tuple(findings)
+    return StreamReading(Stream(name=name, clock=other.clock, stamp_ns=stamps[kept], signals=cut), tuple(findings))
 
 
 def _estimated(name: str, signals: Mapping[str, Signal], other: Stream) -> tuple[IntArray, Finding]:
@@ -193,7 +187,7 @@ def _estimated(name: str, signals: Mapping[str, Signal], other: Stream) -> tuple
     if set(signals) != {"pressure"} or "taxel_counts" not in other.signals:
         raise FormatError(
             f'shift_rows = "estimated": expected a pressure with the rows of a stream of taxel_counts, got '
-            f"{', '.join(signals)} with those of {', '.join(other.signals)}; state a number of rows"
+            f"{', '.join(signals)} with those of {', '.join(other.signals)}; specify a number of rows"
         )
     start = other.stamp_ns[0]
     seconds = (other.stamp_ns - start) * 1e-9
@@ -219,7 +213,7 @@ def wanted_arrays(streams: tuple[ArrayStream, ...]) -> tuple[str, ...]:
     """Name the arrays that streams are made of.
 
     Args:
-        streams: What is stated.
+        streams: What is specified.
 
     Returns:
         Their names, each once.
@@ -230,20 +224,20 @@ def wanted_arrays(streams: tuple[ArrayStream, ...]) -> tuple[str, ...]:
 
 def array_stream(
     path: Path, entry: ArrayStream, arrays: Mapping[str, FloatArray], earlier: Mapping[str, Stream]
-) -> tuple[Stream, tuple[Finding, ...]]:
+) -> StreamReading:
     """Make one stream.
 
     Args:
         path: The file, for messages.
-        entry: What is stated of the stream.
+        entry: What is specified of the stream.
         arrays: Arrays of the file by name; shape (rows, columns).
-        earlier: Streams that are stated before it.
+        earlier: Streams that are specified before it.
 
     Returns:
-        The stream, in SI units, and what is doubtful in it.
+        The stream, in SI units, and findings.
 
     Raises:
-        FormatError: If the arrays are not what is stated.
+        FormatError: If the arrays are not what is specified.
     """
     if entry.name in earlier:
         raise FormatError(f"{path}: two streams are named {entry.name!r}; give each its own name")
@@ -252,23 +246,22 @@ def array_stream(
         raise FormatError(f"{path}: {entry.name}: expected arrays of the same number of rows, got {rows}")
     values = arrays[entry.variable]
     place = f"{path}: {entry.variable}"
-    signals, doubts = _signals(path, entry, arrays)
+    signals, findings = _signals(path, entry, arrays)
     counter = None if entry.sequence is None else _whole(place, _column(place, values, entry.sequence))
     if entry.rate_hz is not None:
         (start,) = entry.starts_s
         stamps = even_stamps(len(values), rate_hz=entry.rate_hz, start_s=start)
-        stream = Stream(name=entry.name, clock=entry.clock, stamp_ns=stamps, signals=signals, sequence=counter)
-        return stream, (*entry.rate_findings(entry.name, len(stream)), *doubts)
-    if entry.time is not None:
+    elif entry.time is not None:
         times = entry.time.variable or entry.variable
         stamps = _stamps(f"{path}: {times}", arrays[times], entry.time.column, entry.time.unit)
-        stream = Stream(name=entry.name, clock=entry.clock, stamp_ns=stamps, signals=signals, sequence=counter)
-        return stream, doubts
-    other = earlier.get(entry.rows_of or "")
-    if other is None:
-        raise FormatError(f"{place}: rows_of: no earlier stream {entry.rows_of!r}; {known_names('', earlier)}")
-    stream, cropped = rows_of_another(place, entry.name, signals, other, shift_rows=entry.shift_rows)
-    return stream, (*doubts, *cropped)
+    else:
+        other = earlier.get(entry.rows_of or "")
+        if other is None:
+            raise FormatError(f"{place}: rows_of: no earlier stream {entry.rows_of!r}; {known_names('', earlier)}")
+        stream, cropped = rows_of_another(place, entry.name, signals, other, shift_rows=entry.shift_rows)
+        return StreamReading(stream, (*findings, *cropped))
+    stream = Stream(name=entry.name, clock=entry.clock, stamp_ns=stamps, signals=signals, sequence=counter)
+    return StreamReading(stream, (*entry.rate_findings(entry.name, len(stream)), *findings))
 
 
 def _variables(entry: ArrayStream) -> list[str]:
@@ -285,10 +278,10 @@ def _signals(
         raise FormatError(f"{path}: {entry.name}: expected every quantity once, got one of them twice")
     if {"orientation", "gravity"} <= set(stated):
         raise FormatError(
-            f"{path}: {entry.name}: expected orientation or gravity, which follows from it, got both; state one"
+            f"{path}: {entry.name}: expected orientation or gravity, which follows from it, got both; specify one"
         )
     signals: dict[str, Signal] = {}
-    doubts: tuple[Finding, ...] = ()
+    findings: tuple[Finding, ...] = ()
     for signal in entry.signal:
         name = signal.variable or entry.variable
         place, values = f"{path}: {name}", arrays[name]
@@ -296,7 +289,7 @@ def _signals(
             signals[signal.quantity] = _signal(place, signal, values)
             continue
         _column(place, values, signal.columns[1])
-        oriented, doubts = orientation_signals(
+        oriented, findings = orientation_signals(
             values[:, signal.columns[0] - 1 : signal.columns[1]],
             signal.orientation.layout(),
             unit=str(signal.unit),
@@ -305,7 +298,7 @@ def _signals(
             place=partial(_row, place),
         )
         signals |= oriented
-    return signals, doubts
+    return signals, findings
 
 
 def _signal(place: str, stated: ArraySignal, values: FloatArray) -> Signal:

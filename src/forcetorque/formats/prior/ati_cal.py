@@ -19,7 +19,7 @@ from forcetorque.base.input_file import read_xml
 from forcetorque.base.pose import invert_pose, make_pose
 from forcetorque.base.units import si_factor
 from forcetorque.base.wrench import wrench_matrix
-from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
+from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 
 _AXES = ("Fx", "Fy", "Fz", "Tx", "Ty", "Tz")
 _FORCES = {"n": "N", "kn": "kN", "lbf": "lbf", "lb": "lbf", "kg": "kgf", "kgf": "kgf"}
@@ -50,7 +50,7 @@ class AtiCalibration:
         """Look for the root element."""
         return "<FTSensor" in text
 
-    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+    def read(self, path: Path, text: str) -> PriorFile:
         """Read it."""
         root = read_xml(path)
         try:
@@ -62,7 +62,7 @@ class AtiCalibration:
 def _read(root: Element | None) -> PriorFile:
     if root is None or root.tag != "FTSensor":
         raise FormatError(f"expected the root FTSensor, got {'nothing' if root is None else root.tag[:40]!r}")
-    version = _word(root, "CalFileVersion")
+    version = _text(root, "CalFileVersion")
     if version not in ("1.0", "1.1"):
         raise FormatError(f"CalFileVersion: expected 1.0 or 1.1, got {version[:40]!r}; other versions are not known")
     calibrations = root.findall("Calibration")
@@ -84,7 +84,7 @@ def _read(root: Element | None) -> PriorFile:
         matrix=factors[:, None] * matrix,
         raw_unit=RawUnit.VOLTS,
         full_scale=factors * full_scale,
-        serial=_word(root, "Serial"),
+        serial=_text(root, "Serial"),
         date=calibration.get("CalDate"),
         notes=tuple(_notes(calibration)),
     )
@@ -95,13 +95,13 @@ def _matrix(calibration: Element, version: str, gauges: int) -> tuple[FloatArray
     axes = _by_name(calibration, "Axis")
     scaled = np.stack([_values(axis, gauges) / _positive(axis, "scale") for axis in axes])
     transform = calibration.find("BasicTransform")
-    turned = transform is not None and any(_number(transform, name, 0.0) for name in ("Rx", "Ry", "Rz"))
-    moved = None if turned else _moved(scaled, transform, calibration)
+    rotated = transform is not None and any(_number(transform, name, 0.0) for name in ("Rx", "Ry", "Rz"))
+    moved = None if rotated else _moved(scaled, transform, calibration)
     if version == "1.0":
         if moved is None:
             raise FormatError(
-                "BasicTransform: expected no rotation, got one; in which order ATI turns is not documented, so export "
-                "the file as version 1.1"
+                "BasicTransform: expected no rotation, got one; in which order ATI rotates is not documented, so "
+                "export the file as version 1.1"
             )
         return moved, np.array([_positive(axis, "max") for axis in axes])
     users = _by_name(calibration, "UserAxis")
@@ -160,12 +160,12 @@ def _by_name(calibration: Element, tag: str) -> list[Element]:
 
 
 def _values(axis: Element, gauges: int) -> FloatArray:
-    words = _word(axis, "values").split()
-    if len(words) != gauges:
+    cells = _text(axis, "values").split()
+    if len(cells) != gauges:
         raise FormatError(
-            f"{axis.tag} {axis.get('Name')}: expected a value for each of {gauges} gauges, got {len(words)}"
+            f"{axis.tag} {axis.get('Name')}: expected a value for each of {gauges} gauges, got {len(cells)}"
         )
-    return np.array([_float(axis, "values", word) for word in words])
+    return np.array([_float(axis, "values", text) for text in cells])
 
 
 def _factors(calibration: Element) -> FloatArray:
@@ -182,13 +182,13 @@ def _moment(calibration: Element) -> tuple[str, float]:
 
 
 def _unit(calibration: Element, key: str, known: dict[str, str]) -> tuple[str, float]:
-    word = _word(calibration, key)
-    if word.lower() not in known:
-        raise FormatError(f"{key}: {known_names(word, known)}; got {word[:40]!r}")
-    return si_factor(known[word.lower()])
+    text = _text(calibration, key)
+    if text.lower() not in known:
+        raise FormatError(f"{key}: {known_names(text, known)}; got {text[:40]!r}")
+    return si_factor(known[text.lower()])
 
 
-def _word(element: Element, key: str) -> str:
+def _text(element: Element, key: str) -> str:
     value = element.get(key)
     if not value:
         raise FormatError(f"{str(element.tag)[:40]}: expected the attribute {key}, got none")
@@ -199,7 +199,7 @@ def _number(element: Element, key: str, default: float | None = None) -> float:
     value = element.get(key)
     if value is None and default is not None:
         return default
-    return _float(element, key, _word(element, key))
+    return _float(element, key, _text(element, key))
 
 
 def _positive(element: Element, key: str) -> float:
@@ -209,11 +209,11 @@ def _positive(element: Element, key: str) -> float:
     return value
 
 
-def _float(element: Element, key: str, word: str) -> float:
+def _float(element: Element, key: str, text: str) -> float:
     try:
-        value = float(word)
+        value = float(text)
     except ValueError:
         value = np.nan
     if not abs(value) < _LARGEST:
-        raise FormatError(f"{str(element.tag)[:40]}: {key}: expected a number, got {word[:40]!r}")
+        raise FormatError(f"{str(element.tag)[:40]}: {key}: expected a number, got {text[:40]!r}")
     return value

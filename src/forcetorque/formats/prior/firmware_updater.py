@@ -16,7 +16,7 @@ from forcetorque.base.arrays import IntArray
 from forcetorque.base.errors import FormatError, MissingFileError, ShapeError, quoted
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.formats.icub_matrix import MatrixFile
-from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
+from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 
 _VERSION = "File version:"
 _SERIAL = "Serial number:"
@@ -65,7 +65,7 @@ class FirmwareUpdaterData:
         """Look at the first line."""
         return text.lstrip("\ufeff").startswith(_VERSION)
 
-    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+    def read(self, path: Path, text: str) -> PriorFile:
         """Read it."""
         file = _parsed(path, text)
         board = "strain" if file.registers is None else "strain2"

@@ -15,7 +15,7 @@ from forcetorque.base.errors import FormatError, UnitError
 from forcetorque.base.units import si_factor
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.formats.icub_matrix import read_matrix_file, serial_number_in_name
-from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
+from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 
 _CODES = 36
 _MOST_CODES_LOOKED_AT, _FEWEST_CODES = 12, 10
@@ -30,11 +30,11 @@ class IcubMatrix:
         """Look for one number of hex digits a line; a short or damaged file is one too, by its name."""
         lines = text.split("\n")
         codes = [line.strip() for line in lines[:_MOST_CODES_LOOKED_AT]]
-        # nearly all: what is wrong with one of them is said by its reader, line by line
+        # nearly all: its reader reports what is wrong with one of them, line by line
         hex_only = sum(re.fullmatch("[0-9A-Fa-f]{1,4}", code) is not None for code in codes) >= _FEWEST_CODES
         return (hex_only and len(lines) > _CODES) or serial_number_in_name(path) is not None
 
-    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+    def read(self, path: Path, text: str) -> PriorFile:
         """Read it."""
         file = read_matrix_file(path)
         return PriorFile(
@@ -60,17 +60,19 @@ class PlainTable:
         """Look for six rows of as many numbers."""
         return _rows(text) is not None
 
-    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
-        """Read it, in the units that are stated."""
+    def read(
+        self, path: Path, text: str, *, force_unit: str | None = None, moment_unit: str | None = None
+    ) -> PriorFile:
+        """Read it, in the units that are specified."""
         rows = _rows(text)
         if rows is None:
             raise FormatError(f"{path}: expected {self.sign}")
-        if units.force is None or units.moment is None:
+        if force_unit is None or moment_unit is None:
             raise FormatError(
                 f"{path}: expected its units, which plain numbers do not state; write "
                 f'prior = {{ path = "{path.name}", force_unit = "N", moment_unit = "N m" }}'
             )
-        factors = [_factor(path, unit, si) for unit, si in ((units.force, "N"), (units.moment, "N m"))]
+        factors = [_factor(path, unit, si) for unit, si in ((force_unit, "N"), (moment_unit, "N m"))]
         matrix = np.repeat(factors, 3)[:, None] * rows
         return PriorFile(form="plain table", matrix=matrix, raw_unit=RawUnit.COUNTS)
 
@@ -84,7 +86,7 @@ class ExportedTable:
         """Look at the headings."""
         return text.split("\n", 1)[0].strip().split(",")[: len(_HEADINGS)] == _HEADINGS
 
-    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+    def read(self, path: Path, text: str) -> PriorFile:
         """Read it."""
         try:
             lines = list(csv.DictReader(io.StringIO(text), strict=True))

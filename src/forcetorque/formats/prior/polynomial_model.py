@@ -7,17 +7,17 @@ Its inputs are wrenches as another calibration gives them, so it corrects a cali
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.input_file import read_xml
 from forcetorque.base.output_file import write_bytes_atomically
-from forcetorque.formats.prior.prior_file import PriorFile, RawUnit, StatedUnits
+from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 
 _GROUP = "modelClassParams"
 _ROW = re.compile(r"row([0-9]{1,4})")
@@ -26,19 +26,15 @@ _LARGEST = 1e12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PolynomialModel:
+class PolynomialModel(ArrayRecord):
     """A correction of calibrated wrenches: `wrench = matrix reading + offset`."""
 
-    matrix: FloatArray
+    matrix: FloatArray = field(metadata=array(6, None))
     """Matrix; shape (6, c)."""
-    offset: FloatArray
+    offset: FloatArray = field(metadata=array(6))
     """Offset; shape (6,); N, N m."""
     name: str = "polynomial"
     """What the file calls the model."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", read_only(self.matrix, name="matrix", shape=(6, None)))
-        object.__setattr__(self, "offset", read_only(self.offset, name="offset", shape=(6,)))
 
 
 class PolynomialModelFile:
@@ -50,7 +46,7 @@ class PolynomialModelFile:
         """Look for the name of the group."""
         return _GROUP in text and "<group" in text
 
-    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+    def read(self, path: Path, text: str) -> PriorFile:
         """Read it."""
         model = read_polynomial_model(path)
         return PriorFile(
@@ -81,8 +77,8 @@ def read_polynomial_model(path: Path | str) -> PolynomialModel:
     try:
         return _read(read_xml(file))
     except FormatError as error:
-        words = str(error)
-        raise FormatError(words if words.startswith(str(file)) else f"{file}: {words}") from error
+        message = str(error)
+        raise FormatError(message if message.startswith(str(file)) else f"{file}: {message}") from error
 
 
 def write_polynomial_model(path: Path | str, model: PolynomialModel) -> None:
@@ -133,9 +129,9 @@ def _count(params: dict[str, str], name: str) -> int:
 
 def _six(where: str, text: str) -> list[float]:
     match = _LIST.fullmatch(text)
-    words = [] if match is None else match[1].replace(",", " ").split()
+    numbers = [] if match is None else match[1].replace(",", " ").split()
     try:
-        values = [float(word) for word in words]
+        values = [float(word) for word in numbers]
     except ValueError:
         values = []
     if len(values) != 6 or not all(abs(value) < _LARGEST for value in values):

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a file of any form says of a sensor's calibration, in SI units, and what a form has to have."""
+"""Calibration of a sensor from a file of any form, in SI units, and the members that a form needs."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 from typing import Protocol
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays
 from forcetorque.base.errors import FormatError
 
 
@@ -22,29 +22,19 @@ class RawUnit(StrEnum):
     WRENCH = "N, N m"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StatedUnits:
-    """Units that a file does not state and somebody else does."""
-
-    force: str | None = None
-    """Unit of the first three rows; None where nobody said."""
-    moment: str | None = None
-    """Unit of the last three rows; None where nobody said."""
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PriorFile:
+class PriorFile(ArrayRecord):
     """A calibration that a sensor came with."""
 
     form: str
-    """What the file is, in words."""
-    matrix: FloatArray
+    """What the file is, as text."""
+    matrix: FloatArray = field(metadata=array(6, None))
     """Matrix; rows fx to tz, columns the c channels; shape (6, c); N, N m per raw unit."""
     raw_unit: RawUnit
     """Unit of the channels."""
-    offset: FloatArray | None = None
+    offset: FloatArray | None = field(default=None, metadata=array(6))
     """What is added; shape (6,); N, N m; None where the form has none."""
-    full_scale: FloatArray | None = None
+    full_scale: FloatArray | None = field(default=None, metadata=array(6))
     """Full scale of fx to tz; shape (6,); N, N m; None where the form has none."""
     serial: str | None = None
     """Serial number of the sensor; None where the form has none."""
@@ -54,12 +44,9 @@ class PriorFile:
     """What else is to be known of it."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", read_only(self.matrix, name="matrix", shape=(6, None)))
-        for name in ("offset", "full_scale"):
-            value = getattr(self, name)
-            if value is not None:
-                object.__setattr__(self, name, read_only(value, name=name, shape=(6,)))
-            if value is not None and not np.isfinite(value).all():
+        check_arrays(self)
+        for name, values in (("offset", self.offset), ("full_scale", self.full_scale)):
+            if values is not None and not np.isfinite(values).all():
                 raise FormatError(f"{name}: expected finite numbers")
         if self.matrix.shape[1] < 1 or not np.isfinite(self.matrix).all():
             raise FormatError("matrix: expected finite numbers in at least one column")
@@ -73,7 +60,7 @@ class PriorFormat(Protocol):
         """What it is recognised by, for the message where nothing is."""
 
     def recognises(self, path: Path, text: str) -> bool:
-        """Tell whether a file is one.
+        """Check whether a file is one.
 
         Args:
             path: File.
@@ -83,17 +70,16 @@ class PriorFormat(Protocol):
             Whether it is.
         """
 
-    def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
+    def read(self, path: Path, text: str) -> PriorFile:
         """Read a file.
 
         Args:
             path: File.
             text: Its content.
-            units: Units for a form that states none.
 
         Returns:
-            What it says.
+            Its content.
 
         Raises:
-            FormatError: If it is damaged, or says what is not known here.
+            FormatError: If it is damaged, or has content that is not known here.
         """

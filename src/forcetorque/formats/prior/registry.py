@@ -12,7 +12,7 @@ from forcetorque.formats.prior.ati_cal import AtiCalibration
 from forcetorque.formats.prior.firmware_updater import FirmwareUpdaterData
 from forcetorque.formats.prior.matrix_files import ExportedTable, IcubMatrix, PlainTable
 from forcetorque.formats.prior.polynomial_model import PolynomialModelFile
-from forcetorque.formats.prior.prior_file import PriorFile, PriorFormat, StatedUnits
+from forcetorque.formats.prior.prior_file import PriorFile, PriorFormat
 
 LARGEST_FILE = 1 << 20
 """Bytes of a file with a matrix; what is larger is something else."""
@@ -25,7 +25,7 @@ PRIOR_FORMATS: tuple[PriorFormat, ...] = (
     ExportedTable(),
     PlainTable(),
 )
-"""Forms of priors, asked in their order; the first that knows a file reads it."""
+"""Forms of prior calibrations, tried in their order; the first that recognises a file reads it."""
 
 _KINDS = (
     (b"%PDF", "a PDF document"),
@@ -42,7 +42,7 @@ _ROOT = re.compile(r"<([A-Za-z_][\w:.-]{0,60})")
 
 
 def holds_prior(path: Path) -> bool:
-    """Tell whether a file is a calibration of any known form, whatever is wrong with it.
+    """Check whether a file is a calibration of any known form, damaged or not.
 
     Args:
         path: File; it exists.
@@ -54,15 +54,16 @@ def holds_prior(path: Path) -> bool:
     return text is not None and any(form.recognises(path, text) for form in PRIOR_FORMATS)
 
 
-def read_prior_file(path: Path | str, units: StatedUnits | None = None) -> PriorFile:
+def read_prior_file(path: Path | str, *, force_unit: str | None = None, moment_unit: str | None = None) -> PriorFile:
     """Read the calibration that a sensor came with, of any known form.
 
     Args:
         path: File.
-        units: Units, for a form that states none.
+        force_unit: Unit of the first three rows, for plain numbers, which state none.
+        moment_unit: Unit of the last three rows, for plain numbers.
 
     Returns:
-        What it says, in SI units.
+        Its content, in SI units.
 
     Raises:
         MissingFileError: If there is no such file.
@@ -77,12 +78,13 @@ def read_prior_file(path: Path | str, units: StatedUnits | None = None) -> Prior
     if text is None or not known:
         signs = ", ".join(form.sign for form in PRIOR_FORMATS)
         raise FormatError(f"{file}: expected a calibration: {signs}; got {_kind(file, text)}")
-    stated = units or StatedUnits()
-    if not isinstance(known[0], PlainTable) and (stated.force or stated.moment):
+    if isinstance(known[0], PlainTable):
+        return known[0].read(file, text, force_unit=force_unit, moment_unit=moment_unit)
+    if force_unit or moment_unit:
         raise FormatError(
             f"{file}: expected no force_unit nor moment_unit: it is {known[0].sign}, which states its own"
         )
-    return known[0].read(file, text, stated)
+    return known[0].read(file, text)
 
 
 def _text(file: Path) -> str | None:
@@ -95,7 +97,7 @@ def _text(file: Path) -> str | None:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        # a matrix file with a damaged byte is said to be one
+        # a matrix file with a damaged byte is reported as one
         return data.decode("latin-1") if IcubMatrix().recognises(file, "") else None
 
 
@@ -104,7 +106,7 @@ def _kind(file: Path, text: str | None) -> str:
     if text is None:
         with file.open("rb") as stream:
             head = stream.read(16)
-        kinds = [words for magic, words in _KINDS if head.startswith(magic)]
+        kinds = [kind for magic, kind in _KINDS if head.startswith(magic)]
         size = file.stat().st_size
         return kinds[0] if kinds else f"a file of {size} bytes that is no small text"
     stripped = text.lstrip()

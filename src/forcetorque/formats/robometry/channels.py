@@ -10,22 +10,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.errors import FormatError, UnitError
+from forcetorque.base.errors import FormatError, MissingExtraError, UnitError
 from forcetorque.base.units import SI_FACTORS, si_factor
 from forcetorque.formats.hdf5_file import (
     MOST_OBJECTS,
     dataset_numbers,
     datasets,
-    elsewhere,
+    is_hdf5_file,
     is_member,
     member,
+    not_in_file,
+    opened_hdf5,
     require_readable,
 )
+from forcetorque.formats.log_format import StreamReading
 from forcetorque.recording.frames import OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream
@@ -65,8 +69,27 @@ def log_group(file: Any) -> Any | None:
     """
     import h5py
 
-    groups = [file, *(member(file, name) for name in file if is_member(file, name) and elsewhere(file, name) is None)]
+    groups = [file, *(member(file, name) for name in file if is_member(file, name) and not_in_file(file, name) is None)]
     return next((group for group in groups if isinstance(group, h5py.Group) and is_member(group, DESCRIPTION)), None)
+
+
+def is_robometry_log(path: Path) -> bool:
+    """Check whether a file is a log of robometry, which labels what it holds.
+
+    Args:
+        path: File or folder; it exists.
+
+    Returns:
+        Whether it is one; False for a file that is damaged or cannot be opened without h5py: the format of HDF5 files
+        in general reports that.
+    """
+    if not is_hdf5_file(path):
+        return False
+    try:
+        with opened_hdf5(path) as file:
+            return log_group(file) is not None
+    except (FormatError, MissingExtraError):
+        return False
 
 
 def channel_paths(group: Any) -> Iterator[str]:
@@ -194,7 +217,7 @@ _ONE_TURN = 6.3
 
 
 def sensor_quantity(path: str) -> str | None:
-    """Tell what a channel of a sensor holds.
+    """Give the quantity that a channel of a sensor holds.
 
     Args:
         path: Path of the channel.
@@ -208,7 +231,7 @@ def sensor_quantity(path: str) -> str | None:
 
 def joint_stream(
     channels: Sequence[Channel], *, name: str, joints: Sequence[str], units: Mapping[str, Sequence[str]]
-) -> tuple[Stream, tuple[Finding, ...]]:
+) -> StreamReading:
     """Make one stream of the channels of the joints.
 
     Args:
@@ -218,7 +241,7 @@ def joint_stream(
         units: Units of channels without a label, by path.
 
     Returns:
-        The stream, with the times of the first channel, and what is doubtful in it.
+        The stream, with the times of the first channel, and findings.
 
     Raises:
         FormatError: If a channel has not one element per joint.
@@ -237,11 +260,13 @@ def joint_stream(
         quantity = JOINT_QUANTITIES[channel.path.rpartition("/")[2]]
         values, si_units = _in_si(channel, units, QUANTITIES[quantity].units)
         signals[quantity] = Signal(quantity=quantity, values=values, columns=names, units=si_units)
-        findings += _doubtful_angles(channel, name)
-    return Stream(name=name, clock=CLOCK, stamp_ns=first.stamp_ns, signals=signals), tuple(findings)
+        findings += _angle_unit_findings(channel, name)
+    return StreamReading(Stream(name=name, clock=CLOCK, stamp_ns=first.stamp_ns, signals=signals), tuple(findings))
 
 
-def sensor_stream(channel: Channel, *, name: str, frame: str | None, units: Mapping[str, Sequence[str]]) -> Stream:
+def sensor_stream(
+    channel: Channel, *, name: str, frame: str | None, units: Mapping[str, Sequence[str]]
+) -> StreamReading:
     """Make a stream of the channel of a sensor.
 
     Args:
@@ -267,12 +292,12 @@ def sensor_stream(channel: Channel, *, name: str, frame: str | None, units: Mapp
     if si_units != form.units:
         raise UnitError(f"{channel.path}: expected units that convert to {form.units}, got {si_units}")
     signal = Signal.of_fixed(quantity, values, frame=frame if form.has_frame else None)
-    return Stream(name=name, clock=CLOCK, stamp_ns=channel.stamp_ns, signals={quantity: signal})
+    return StreamReading(Stream(name=name, clock=CLOCK, stamp_ns=channel.stamp_ns, signals={quantity: signal}))
 
 
 def orientation_stream(
     channel: Channel, *, name: str, frame: str, layout: OrientationLayout, units: Mapping[str, Sequence[str]]
-) -> tuple[Stream, tuple[Finding, ...]]:
+) -> StreamReading:
     """Make a stream of the roll, pitch and yaw of a sensor.
 
     Args:
@@ -283,7 +308,7 @@ def orientation_stream(
         units: Units of channels without a label, by path.
 
     Returns:
-        The stream, and what is doubtful in it.
+        The stream, and findings.
 
     Raises:
         FormatError: If the channel holds something else.
@@ -299,7 +324,7 @@ def orientation_stream(
     signals, findings = orientation_signals(
         values, layout, unit=unit, frame=frame, stream=name, place=lambda row: f"{channel.path}: sample {row + 1}"
     )
-    return Stream(name=name, clock=CLOCK, stamp_ns=channel.stamp_ns, signals=signals), findings
+    return StreamReading(Stream(name=name, clock=CLOCK, stamp_ns=channel.stamp_ns, signals=signals), findings)
 
 
 def _in_si(
@@ -324,12 +349,13 @@ def _known_labels(channel: Channel, stated: Sequence[str] | None) -> tuple[str, 
     known = bool(labels) and all(label in SI_FACTORS for label in labels)
     if known and stated is not None and labels != tuple(stated):
         raise UnitError(
-            f"{channel.path}: the file labels it {', '.join(labels)}, units states {', '.join(stated)}; delete it"
+            f"{channel.path}: the file labels it {', '.join(labels)}, units has {', '.join(stated)}; delete it"
         )
     if not known and stated is None:
         got = f"got {', '.join(map(repr, labels[:6]))}" if labels else "the file has none"
         raise UnitError(
-            f'{channel.path}: expected a unit as label, {got}; state it, such as units = {{ "{channel.path}" = "..." }}'
+            f"{channel.path}: expected a unit as label, {got}; specify it, such as "
+            f'units = {{ "{channel.path}" = "..." }}'
         )
     return labels if known or stated is None else tuple(stated)
 
@@ -339,11 +365,11 @@ def _spelled(label: str) -> str:
     return _SPELLINGS.get(word, word)
 
 
-def _doubtful_angles(channel: Channel, stream: str) -> list[Finding]:
-    """The dumper writes the label `deg` whatever its option `useRadians` says."""
+def _angle_unit_findings(channel: Channel, stream: str) -> list[Finding]:
+    """The dumper writes the label `deg` with and without its option `useRadians`."""
     largest = float(np.nanmax(np.abs(channel.values), initial=0.0))
-    doubtful = channel.path == f"{JOINTS}/positions" and "deg" in channel.labels and 0.0 < largest < _ONE_TURN
-    if not doubtful:
+    may_be_radians = channel.path == f"{JOINTS}/positions" and "deg" in channel.labels and 0.0 < largest < _ONE_TURN
+    if not may_be_radians:
         return []
     text = (
         f"positions are labelled deg and none exceeds {largest:.3g}: a robot that hardly moved, or rad under the label "

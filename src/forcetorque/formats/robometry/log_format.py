@@ -9,24 +9,24 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from forcetorque.base.errors import ForceTorqueError, FormatError, MissingExtraError, known_names
+from forcetorque.base.errors import ForceTorqueError, FormatError, known_names
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.formats.hdf5_file import (
     Member,
     datasets,
-    is_hdf5_file,
     is_member,
     member,
     members,
     opened_hdf5,
     require_readable,
 )
-from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable
+from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable, StreamReading
 from forcetorque.formats.robometry.channels import (
     DESCRIPTION,
     JOINT_QUANTITIES,
     JOINTS,
     channel_paths,
+    is_robometry_log,
     joint_stream,
     log_group,
     orientation_stream,
@@ -68,24 +68,15 @@ class RobometryLog(LogTable):
     """What is read."""
 
 
-_Reading = tuple[Stream, tuple[Finding, ...]]
-
-
 class RobometryFormat:
-    """Single files that label elements and units: they are described without anyone saying what is in them."""
+    """Single files that label elements and units: they are described without an experiment file."""
 
     table = RobometryLog
     sign = f"an HDF5 file with {DESCRIPTION}"
 
     def recognises(self, path: Path) -> bool:
         """Look for the names of the joints."""
-        if not is_hdf5_file(path):
-            return False
-        try:
-            with opened_hdf5(path) as file:
-                return log_group(file) is not None
-        except (FormatError, MissingExtraError):
-            return False  # said by the format of HDF5 files in general
+        return is_robometry_log(path)
 
     def describe(self, path: Path) -> LogDescription:
         """Read all that is labelled; other channels are findings."""
@@ -94,8 +85,8 @@ class RobometryFormat:
             require_readable(datasets(group))
             paths = tuple(channel_paths(group))
             channels = sorted(set(map(_channel_of, paths)))
-            readings: dict[str, _Reading] = {}
-            unread = [_elsewhere(group, entry) for entry in members(group) if entry.elsewhere is not None]
+            readings: dict[str, StreamReading] = {}
+            unread = [_not_in_file(group, entry) for entry in members(group) if entry.not_in_file is not None]
             for channel in channels:
                 try:
                     readings[channel] = _read(
@@ -111,15 +102,11 @@ class RobometryFormat:
             table=RobometryLog.model_construct(
                 format="robometry", path=path, units={}, stream=tuple(map(_stated, readings))
             ),
-            reading=LogReading(
-                streams=tuple(stream for stream, _ in readings.values()),
-                findings=(*unread, *(finding for _, findings in readings.values() for finding in findings)),
-                origin=origin,
-            ),
+            reading=LogReading.of(readings.values(), unread=unread, origin=origin),
         )
 
     def read(self, stated: RobometryLog, context: LogContext) -> LogReading:
-        """Read every channel that is stated."""
+        """Read every channel that is specified."""
         path = context.file(stated.path)
         units = {channel: (unit,) if isinstance(unit, str) else unit for channel, unit in stated.units.items()}
         readings = []
@@ -132,16 +119,13 @@ class RobometryFormat:
                 with context.stated_in(f"stream[{k}]"):
                     framed = entry.model_copy(update={"frame": entry.frame or context.sensors.get(entry.name)})
                     reading = _read(group, paths, framed, units=units)
-                    _require_rotary(reading[0], context.joint_units)
+                    _require_rotary(reading.stream, context.joint_units)
                     readings.append(reading)
-        return LogReading(
-            streams=tuple(stream for stream, _ in readings),
-            findings=tuple(finding for _, findings in readings for finding in findings),
-        )
+        return LogReading.of(readings)
 
 
-def _elsewhere(group: Any, entry: Member) -> Finding:
-    text = f"expected numbers in the file itself, got a {entry.elsewhere}, which is not followed"
+def _not_in_file(group: Any, entry: Member) -> Finding:
+    text = f"expected numbers in the file itself, got a {entry.not_in_file}, which is not followed"
     path = entry.path.removeprefix(group.name).strip("/")
     return Finding(stream=path, kind="not_read", message=text, count=0)
 
@@ -159,7 +143,9 @@ def _channel_of(path: str) -> str:
     return JOINTS if group == JOINTS and name in JOINT_QUANTITIES else path
 
 
-def _read(group: Any, paths: Sequence[str], entry: RobometryStream, *, units: Mapping[str, Sequence[str]]) -> _Reading:
+def _read(
+    group: Any, paths: Sequence[str], entry: RobometryStream, *, units: Mapping[str, Sequence[str]]
+) -> StreamReading:
     file = Path(group.file.filename)
     quantity = sensor_quantity(entry.channel)
     if (quantity == "orientation") != (entry.orientation is not None):
@@ -177,13 +163,13 @@ def _read(group: Any, paths: Sequence[str], entry: RobometryStream, *, units: Ma
         raise FormatError(f"{file}: {entry.channel}: expected a channel of a sensor or {JOINTS}; this is neither")
     if QUANTITIES[quantity].has_frame and entry.frame is None:
         raise FormatError(
-            f"{file}: {entry.channel}: expected a frame, or a [[sensor]] that reads {entry.name!r}; state frame"
+            f"{file}: {entry.channel}: expected a frame, or a [[sensor]] that reads {entry.name!r}; specify frame"
         )
     channel = read_channel(group, entry.channel)
     if entry.orientation is not None:
         layout = entry.orientation.applied_to(ROLL_PITCH_YAW)
         return orientation_stream(channel, name=entry.name, frame=str(entry.frame), layout=layout, units=units)
-    return sensor_stream(channel, name=entry.name, frame=entry.frame, units=units), ()
+    return sensor_stream(channel, name=entry.name, frame=entry.frame, units=units)
 
 
 def _require_known(file: Path, key: str, wanted: Iterable[str], paths: Sequence[str]) -> None:

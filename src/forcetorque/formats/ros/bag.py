@@ -28,7 +28,7 @@ _BLOCK = 1 << 20
 
 
 def bound_mcap() -> None:
-    """Let rosbags unpack no more of a chunk of MCAP than the chunk says, and that within the limit."""
+    """Let rosbags unpack no more of a chunk of MCAP than the chunk states, and that within the limit."""
     from rosbags.rosbag2 import storage_mcap
 
     for name in ("lz4", "zstd"):
@@ -116,7 +116,7 @@ def _unpacked(name: str, data: bytes, most: int) -> bytes:
     while data:
         unpacker = _unpacker(name)
         content += unpacker.decompress(data, max_length=most - len(content))
-        # what is as long as allowed ends where the next byte is asked for
+        # what is as long as allowed ends where the next byte is requested
         if not unpacker.eof and unpacker.decompress(b"", max_length=1):
             raise ValueError(f"expected a packed part of a bag of at most {most} bytes, got more")
         if not unpacker.eof:
@@ -204,7 +204,7 @@ class Bag:
 
 
 def is_bag(path: Path) -> bool:
-    """Tell whether a path is a bag, by the first bytes of a file or by the index of a folder.
+    """Check whether a path is a bag, by the first bytes of a file or by the index of a folder.
 
     Args:
         path: File or folder; it exists.
@@ -267,7 +267,7 @@ def _require_bag(path: Path) -> None:
         if (path / _INDEX).stat().st_size > _INDEX_SIZE:
             raise FormatError(f"{path / _INDEX}: expected at most {_INDEX_SIZE} bytes, got more; reindex the bag")
     elif path.suffix != _kind(path):
-        raise FormatError(f"{path}: expected a name that ends in {_kind(path)}, as its content says; rename it")
+        raise FormatError(f"{path}: expected a name that ends in {_kind(path)}, by its content; rename it")
 
 
 def _kind(path: Path) -> str | None:

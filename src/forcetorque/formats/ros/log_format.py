@@ -14,7 +14,7 @@ from pydantic import Field
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ForceTorqueError, FormatError, known_names
 from forcetorque.base.toml_file import Table, Text
-from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable
+from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable, StreamReading
 from forcetorque.formats.ros.bag import Bag, bag_files, is_bag, opened_bag
 from forcetorque.formats.ros.messages import (
     IMU_TYPE,
@@ -39,7 +39,7 @@ _RATES = {"position": "", "velocity": "/s", "torque": ""}
 
 @dataclass(kw_only=True)
 class Samples:
-    """What was read of a topic, in pieces of k messages that have one layout."""
+    """What was read of a topic, in batches of k messages that have one layout."""
 
     stamps: list[IntArray] = field(default_factory=list)
     """Stamps of the sender; shape (k,) each; ns."""
@@ -53,14 +53,14 @@ class Samples:
     """Frames that messages name, each once."""
     names: dict[str, None] = field(default_factory=dict)
     """Joints or channels that messages name, each once."""
-    piece_names: list[tuple[str, ...]] = field(default_factory=list)
-    """Those of every piece, in its order of columns."""
+    batch_names: list[tuple[str, ...]] = field(default_factory=list)
+    """Those of every batch, in its order of columns."""
     order: list[IntArray] = field(default_factory=list)
     """Places of the messages among all of the topic; shape (k,) each."""
 
     def joined(self, name: str) -> FloatArray:
-        """Put the pieces of some numbers one behind the other; shape (n, k)."""
-        return np.concatenate([piece[name] for piece in self.numbers])
+        """Put the batches of some numbers one behind the other; shape (n, k)."""
+        return np.concatenate([batch[name] for batch in self.numbers])
 
 
 def read_topic(bag: Bag, topic: str, *, child: str | None = None, parent: str | None = None) -> Samples:
@@ -105,7 +105,7 @@ def _keep(samples: Samples, batch: Batch, fields: Fields, received: IntArray, fi
     samples.numbers.append({name: batch.numbers(*place) for name, place in fields.numbers.items()})
     samples.frames[fields.frame] = None
     samples.names |= dict.fromkeys(fields.names)
-    samples.piece_names.append(fields.names)
+    samples.batch_names.append(fields.names)
 
 
 def topic_stream(
@@ -117,7 +117,7 @@ def topic_stream(
     world: str | None,
     joint_units: Mapping[str, str],
     orientation: OrientationLayout | None = None,
-) -> tuple[Stream, tuple[Finding, ...]]:
+) -> StreamReading:
     """Make the stream of a topic.
 
     Args:
@@ -130,17 +130,17 @@ def topic_stream(
         orientation: What the orientations of the messages mean, to read these and nothing that an IMU measures beside.
 
     Returns:
-        The stream, and what is doubtful in it.
+        The stream, and findings.
 
     Raises:
-        FormatError: If messages have two frames and none is stated.
+        FormatError: If messages have two frames and none is specified.
     """
     samples = read_topic(bag, topic, child=None if world is None else frame, parent=world)
     order = np.argsort(np.concatenate(samples.order), kind="stable")
     stamps, stamp_findings = _stamps(samples, name, order)
     if frame is None and len(samples.frames) > 1:
         frames = ", ".join(map(repr, sorted(samples.frames)))
-        raise FormatError(f"{bag.path}: {topic}: expected messages of one frame, got {frames}; state it")
+        raise FormatError(f"{bag.path}: {topic}: expected messages of one frame, got {frames}; specify it")
     own = next(iter(samples.frames)).strip("/") or name
     signals: dict[str, Signal]
     findings: tuple[Finding, ...] = ()
@@ -160,7 +160,7 @@ def topic_stream(
         # drivers that leave the counter at zero do not count
         sequence=counters if counters is not None and world is None and counters.any() else None,
     )
-    return stream, (*stamp_findings, *findings)
+    return StreamReading(stream, (*stamp_findings, *findings))
 
 
 def _stamps(samples: Samples, name: str, order: IntArray) -> tuple[IntArray, tuple[Finding, ...]]:
@@ -174,9 +174,9 @@ def _stamps(samples: Samples, name: str, order: IntArray) -> tuple[IntArray, tup
 
 def _signals(samples: Samples, order: IntArray, *, frame: str, joint_units: Mapping[str, str]) -> dict[str, Signal]:
     signals: dict[str, Signal] = {}
-    for quantity in dict.fromkeys(key for piece in samples.numbers for key in piece if key in QUANTITIES):
+    for quantity in dict.fromkeys(key for batch in samples.numbers for key in batch if key in QUANTITIES):
         if quantity == "orientation":
-            continue  # nobody said what it turns into what
+            continue  # the rotation's sense is not specified
         if quantity in _RATES:
             units = tuple(_joint_unit(quantity, joint_units.get(joint, "rad")) for joint in samples.names)
             values = _by_joint(samples, quantity)[order]
@@ -216,7 +216,7 @@ def _pose(
 
 
 def _missing(samples: Samples, quantity: str) -> BoolArray:
-    """Messages whose driver says that it does not measure a quantity; shape (n,)."""
+    """Messages whose driver flags that it does not measure a quantity; shape (n,)."""
     covariance = not_measured(quantity)
     if covariance not in samples.numbers[0]:
         return np.zeros(sum(map(len, samples.stamps)), dtype=bool)
@@ -230,23 +230,24 @@ def _joint_unit(quantity: str, unit: str) -> str:
 
 
 def _by_joint(samples: Samples, quantity: str) -> FloatArray:
-    """Columns by name, whatever order and choice of joints a message has; NaN where it lacks one."""
+    """Columns by name, for any order and choice of joints in a message; NaN where it lacks one."""
     columns = {joint: k for k, joint in enumerate(samples.names)}
-    pieces = []
-    for names, numbers, stamps in zip(samples.piece_names, samples.numbers, samples.stamps, strict=True):
+    batches = []
+    for names, numbers, stamps in zip(samples.batch_names, samples.numbers, samples.stamps, strict=True):
         values = np.full((len(stamps), len(columns)), np.nan)
         if quantity in numbers:
             values[:, [columns[joint] for joint in names]] = numbers[quantity]
-        pieces.append(values)
-    return np.concatenate(pieces)
+        batches.append(values)
+    return np.concatenate(batches)
 
 
 class RosOrientation(WorldTable):
-    """The world of an orientation, and what the message does not say of it."""
+    """The world of an orientation, and what the message does not state of it."""
 
     sense: OrientationSense | None = None
-    """Of Imu and QuaternionStamped, which need it: `sensor_to_world` where the quaternion turns vectors along the
-    frame's axes to the world's, as REP 145 asks of drivers, else `world_to_sensor`. Poses and tf have the former."""
+    """Of Imu and QuaternionStamped, which need it: `sensor_to_world` where the quaternion rotates vectors along the
+    frame's axes to the world's, as REP 145 requires of drivers, else `world_to_sensor`. Poses and tf have the
+    former."""
 
 
 class RosStream(Table):
@@ -255,7 +256,7 @@ class RosStream(Table):
     name: Text
     """Name of the stream in the recording."""
     topic: Text
-    """Topic; its type of message says what it holds."""
+    """Topic; its type of message fixes what it holds."""
     frame: Text | None = None
     """Frame of the readings; that of the `[[sensor]]` which reads the stream, or else of the messages, if left out. Of
     poses, tf and quaternions, which need it, the frame whose orientation is wanted."""
@@ -277,9 +278,6 @@ class RosLog(LogTable):
     """What is read."""
 
 
-_Reading = tuple[Stream, tuple[Finding, ...]]
-
-
 class RosFormat:
     """Bags of ROS 1 (.bag) and of ROS 2 (.db3, .mcap, or the folder of either)."""
 
@@ -292,7 +290,7 @@ class RosFormat:
 
     def describe(self, path: Path) -> LogDescription:
         """Read every topic of a type that is known; the others are findings."""
-        readings: dict[str, _Reading] = {}
+        readings: dict[str, StreamReading] = {}
         unread: list[Finding] = []
         with opened_bag(path) as bag:
             for topic, kind in sorted(bag.types.items()):
@@ -318,15 +316,11 @@ class RosFormat:
                     RosStream.model_construct(name=topic, topic=topic, frame=None, world=None) for topic in readings
                 ),
             ),
-            reading=LogReading(
-                streams=tuple(stream for stream, _ in readings.values()),
-                findings=(*unread, *(finding for _, findings in readings.values() for finding in findings)),
-                origin={"format": "ros", "path": str(path)},
-            ),
+            reading=LogReading.of(readings.values(), unread=unread, origin={"format": "ros", "path": str(path)}),
         )
 
     def read(self, stated: RosLog, context: LogContext) -> LogReading:
-        """Read every topic that is stated."""
+        """Read every topic that is specified."""
         is_file = bool(stated.path.suffix in (".bag", ".mcap", ".db3"))
         path = context.file(stated.path) if is_file else context.below(stated.path, *bag_files())
         readings = []
@@ -335,21 +329,18 @@ class RosFormat:
                 with context.stated_in(f"stream[{k}]"):
                     framed = entry.model_copy(update={"frame": entry.frame or context.sensors.get(entry.name)})
                     readings.append(_read(bag, framed, context.joint_units))
-        return LogReading(
-            streams=tuple(stream for stream, _ in readings),
-            findings=tuple(finding for _, findings in readings for finding in findings),
-        )
+        return LogReading.of(readings)
 
 
 def _not_described(kind: str) -> str | None:
     if kind in POSE_TYPES:
-        return "poses: state frame, whose they are, and world, in which they are seen, for each that is wanted"
+        return "poses: specify frame, whose they are, and world, in which they are seen, for each that is wanted"
     if kind == QUATERNION_TYPE:
-        return f"orientations: state frame, whose they are, and {STATE_SENSE}"
+        return f"orientations: specify frame, whose they are, and {STATE_SENSE}"
     return None if kind in MESSAGES else f"nothing reads messages of {kind}"
 
 
-def _read(bag: Bag, entry: RosStream, joint_units: Mapping[str, str]) -> _Reading:
+def _read(bag: Bag, entry: RosStream, joint_units: Mapping[str, str]) -> StreamReading:
     types = bag.types
     if entry.topic not in types:
         raise FormatError(f"{bag.path}: no topic {entry.topic!r}; {known_names(entry.topic, types)}")
@@ -376,7 +367,7 @@ def _layout(place: str, kind: str, entry: RosStream) -> OrientationLayout | None
         )
     if poses:
         if stated is not None and stated.sense is not None:
-            raise FormatError(f"{place}: expected no sense: a pose turns vectors from its frame to the world")
+            raise FormatError(f"{place}: expected no sense: a pose rotates vectors from its frame to the world")
         return QUATERNION_XYZW if stated is None else stated.applied_to(QUATERNION_XYZW)
     if kind == QUATERNION_TYPE and (stated is None or entry.frame is None):
         raise FormatError(f"{place}: expected frame, whose orientations these are, and {STATE_SENSE}")
@@ -385,12 +376,12 @@ def _layout(place: str, kind: str, entry: RosStream) -> OrientationLayout | None
     if kind not in (IMU_TYPE, QUATERNION_TYPE):
         raise FormatError(f"{place}: expected no orientation for messages of {kind}, which have none")
     if stated.sense is None:
-        raise FormatError(f"{place}: expected {STATE_SENSE}: messages do not say which")
+        raise FormatError(f"{place}: expected {STATE_SENSE}: messages do not state which")
     return stated.applied_to(replace(QUATERNION_XYZW, sense=stated.sense))
 
 
 def _unread_orientations(bag: Bag, topic: str, kind: str) -> str | None:
-    """Words about orientations that an IMU estimates, if it does: nobody says yet what they turn into what."""
+    """Text about orientations that an IMU estimates, if it does: their sense is not specified yet."""
     if kind != IMU_TYPE:
         return None
     sense = RosOrientation(sense=OrientationSense.SENSOR_TO_WORLD)
@@ -398,4 +389,4 @@ def _unread_orientations(bag: Bag, topic: str, kind: str) -> str | None:
         _read(bag, RosStream(name=topic, topic=topic, orientation=sense), {})
     except FormatError:
         return None
-    return f"orientations of an IMU: state, in a stream of its own, {STATE_SENSE}"
+    return f"orientations of an IMU: specify, in a stream of its own, {STATE_SENSE}"

@@ -227,7 +227,7 @@ MESSAGES: dict[str, Callable[[Cursor], tuple[Fields, ...]]] = {
 """How to find the fields, by the type of message."""
 _POSES = (transforms, transform_stamped, odometry, pose_stamped)
 POSE_TYPES = tuple(name for name, find in MESSAGES.items() if find in _POSES)
-"""Types of poses of a frame: as ROS has it they turn vectors along its axes to those of the header's frame."""
+"""Types of poses of a frame: as ROS has it they rotate vectors along its axes to those of the header's frame."""
 
 
 def _header(cursor: Cursor) -> tuple[int | None, int, str]:

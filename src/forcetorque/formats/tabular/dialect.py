@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How a text holds a table that nobody has declared, and why a text cannot be read as one."""
+"""How a text holds a table without a declared layout, and why a text cannot be read as one."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from forcetorque.formats.headings import headings_of, named_columns, repeated_words
+from forcetorque.formats.headings import headings_of, named_columns, repeated_heading_message
 from forcetorque.formats.tabular.numbers import is_date
 from forcetorque.formats.tabular.table_layout import cells_of, open_text
 
@@ -30,7 +30,7 @@ _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Form:
+class TableForm:
     """How a text holds a table."""
 
     delimiter: str
@@ -52,7 +52,7 @@ class Form:
         return len(self.skipped) + int(self.has_headings and not self.names_apart)
 
     def is_bare(self, column: int) -> bool:
-        """Tell whether a column lacks a heading where others have one.
+        """Check whether a column lacks a heading where others have one.
 
         Args:
             column: Its place.
@@ -74,7 +74,7 @@ class Form:
         return _with_points(cells_of(line, self.delimiter), self.decimal)
 
 
-def beginning(path: Path) -> str:
+def first_lines(path: Path) -> str:
     """Read the first lines.
 
     Args:
@@ -95,7 +95,7 @@ def beginning(path: Path) -> str:
         return ""
 
 
-def form_of(text: str) -> Form | None:
+def table_form(text: str) -> TableForm | None:
     """Find how a text holds a table, from its first line on or below lines of something else.
 
     Args:
@@ -106,11 +106,11 @@ def form_of(text: str) -> Form | None:
     """
     lines = text.splitlines()
     probed = [line for line in lines if line.strip()][:PROBED_LINES]
-    form = _form_of(probed)
+    form = _form_of_lines(probed)
     if form is not None or repeated_headings(probed) or lacks_last_heading(probed):
         return form
     for count in range(1, min(len(lines), _MOST_SKIPPED + 1)):
-        form = _form_of(lines[count : count + PROBED_LINES])
+        form = _form_of_lines(lines[count : count + PROBED_LINES])
         if form is None:
             continue
         first = count + int(form.has_headings)
@@ -139,7 +139,7 @@ def repeated_headings(lines: Sequence[str]) -> tuple[str, ...]:
 
 
 def lacks_last_heading(lines: Sequence[str]) -> bool:
-    """Tell whether rows end with a delimiter that their headings end without.
+    """Check whether rows end with a delimiter that their headings end without.
 
     Args:
         lines: The first lines of a text, none of them empty.
@@ -154,7 +154,7 @@ def lacks_last_heading(lines: Sequence[str]) -> bool:
     return False
 
 
-def _with_units(form: Form, lines: Sequence[str]) -> Form:
+def _with_units(form: TableForm, lines: Sequence[str]) -> TableForm:
     """The same with names and units of two lines, where these are what stands above."""
     first = form.lines_above
     names, units = (form.cells(line) for line in lines[first - 2 : first]) if first > 1 else ((), ())
@@ -164,7 +164,7 @@ def _with_units(form: Form, lines: Sequence[str]) -> Form:
     return replace(form, names=headings, has_headings=True, skipped=tuple(lines[:first]), names_apart=True)
 
 
-def _form_of(lines: Sequence[str]) -> Form | None:
+def _form_of_lines(lines: Sequence[str]) -> TableForm | None:
     for delimiter in DELIMITERS:
         texts = [cells_of(line, delimiter) for line in lines]
         if not texts or not 2 <= len(texts[0]) <= MOST_COLUMNS or len({len(row) for row in texts}) > 1:
@@ -175,9 +175,9 @@ def _form_of(lines: Sequence[str]) -> Form | None:
             names = tuple(str(k) for k in range(1, len(first) + 1))
             if not are_rows(rows):
                 return None
-            return Form(delimiter=delimiter, decimal=decimal, names=names, has_headings=False)
+            return TableForm(delimiter=delimiter, decimal=decimal, names=names, has_headings=False)
         if are_rows(others) and _are_headings(texts[0], others):
-            return Form(delimiter=delimiter, decimal=decimal, names=named_columns(texts[0]), has_headings=True)
+            return TableForm(delimiter=delimiter, decimal=decimal, names=named_columns(texts[0]), has_headings=True)
     return None
 
 
@@ -188,7 +188,7 @@ def _are_headings(cells: Sequence[str], rows: Sequence[Sequence[str]]) -> bool:
     return len(set(names)) == len(names) and not bare
 
 
-def _is_below(form: Form, above: Sequence[str], below: Sequence[str]) -> bool:
+def _is_below(form: TableForm, above: Sequence[str], below: Sequence[str]) -> bool:
     """Whether lines are rows of a table, enough of them, and none above them is."""
     rows, others = ([form.cells(line) for line in lines if line.strip()] for lines in (below, above))
     width = len(form.names)
@@ -201,7 +201,7 @@ def _is_below(form: Form, above: Sequence[str], below: Sequence[str]) -> bool:
 
 
 def are_rows(rows: Sequence[Sequence[str]]) -> bool:
-    """Tell whether each has two numbers or dates, and none begins with another text, as lines of prose do.
+    """Check whether each has two numbers or dates, and none begins with another text, as lines of prose do.
 
     Args:
         rows: Cells of lines.
@@ -213,7 +213,7 @@ def are_rows(rows: Sequence[Sequence[str]]) -> bool:
 
 
 def is_value_or_empty(cell: str) -> bool:
-    """Tell whether a cell may be one of numbers or dates.
+    """Check whether a cell may be one of numbers or dates.
 
     Args:
         cell: The cell.
@@ -225,7 +225,7 @@ def is_value_or_empty(cell: str) -> bool:
 
 
 def has_decimal_comma(cell: str) -> bool:
-    """Tell whether a cell is a number if its comma stands in front of decimals.
+    """Check whether a cell is a number if its comma stands in front of decimals.
 
     Args:
         cell: The cell.
@@ -269,8 +269,8 @@ _SHOWN = 40
 """Characters of a cell that are shown."""
 
 
-def hindrance(path: Path) -> str | None:
-    """Say what keeps a file from being read as a table.
+def rejection_reason(path: Path) -> str | None:
+    """Give the reason why a file cannot be read as a table.
 
     Args:
         path: A file that is not recognised as one.
@@ -278,21 +278,21 @@ def hindrance(path: Path) -> str | None:
     Returns:
         Where, what was expected, what is there, and what to do; None where it is nothing like a table.
     """
-    text = beginning(path)
+    text = first_lines(path)
     if not text.strip():
         return _of_encoding(path)
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()][:PROBED_LINES]
     repeated = repeated_headings([line for _, line in lines])
     if repeated:
-        return repeated_words(path, lines[0][0], repeated)
+        return repeated_heading_message(path, lines[0][0], repeated)
     if len(lines) == 1 and path.suffix.lower() in _TABLES:
         return f"{path}:{lines[0][0]}: expected rows of numbers below the headings, got none"
     numbers = [number for number, _ in lines]
     for delimiter in DELIMITERS:
         rows = [cells_of(line, delimiter) for _, line in lines]
-        words = None if min(map(len, rows), default=0) < 2 else _of_rows(rows, numbers, delimiter)
-        if words is not None:
-            return f"{path}:{words}"
+        reason = None if min(map(len, rows), default=0) < 2 else _of_rows(rows, numbers, delimiter)
+        if reason is not None:
+            return f"{path}:{reason}"
     return None
 
 
@@ -303,7 +303,7 @@ def _of_encoding(path: Path) -> str | None:
         return f"{path}: expected a log, got an empty file; was the recording stopped before it began?"
     for name, code in (("UTF-16", "utf-16-le"), ("UTF-16", "utf-16-be"), ("another encoding than UTF-8", "cp1252")):
         text = data[: len(data) // 2 * 2].decode(code, errors="replace")
-        if "\0" not in text and form_of(text[: text.rfind("\n") + 1]) is not None:
+        if "\0" not in text and table_form(text[: text.rfind("\n") + 1]) is not None:
             return (
                 f"{path}: expected a table in UTF-8, or in UTF-16 with a byte-order mark, got {name}; save it as UTF-8"
             )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Folders of text tables as a format of logs: every column that is read is stated."""
+"""Folders of text tables as a format of logs: every column that is read is specified."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.base.errors import FormatError
 from forcetorque.base.toml_file import Table, Text
-from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogSketch, LogTable
+from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogSketch, LogTable, StreamReading
 from forcetorque.formats.signals import StatedRate, StatedSignal
 from forcetorque.formats.tabular.sketch import is_table, sketch_table
 from forcetorque.formats.tabular.table import ROW_NS, read_table, table_columns
@@ -52,8 +52,8 @@ class TabularStream(StatedRate):
     file: Text | Annotated[tuple[Text, ...], Field(min_length=1)]
     """File below the log's folder, or several in the order of time."""
     stamp: StampTable | Literal["row"] | None = None
-    """Column of the time; `row` for still poses without one, whose rows are then a second apart. Rows with neither have
-    `rate_hz` and `start_s`."""
+    """Column of the time; `row` for static poses without one, whose rows are then a second apart. Rows with neither
+    have `rate_hz` and `start_s`."""
     clock: Text = "log"
     """Name of the clock; only streams of one clock are combined."""
     delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
@@ -87,7 +87,7 @@ class TabularStream(StatedRate):
         return (self.file,) if isinstance(self.file, str) else self.file
 
     def stamp_of(self, number: int) -> StampColumn | EvenRows | None:
-        """Say how the rows of a file are stamped.
+        """Give the time stamps of the rows of a file.
 
         Args:
             number: Number of the file, from 0.
@@ -114,7 +114,7 @@ class TabularLog(LogTable):
 
 
 class TabularFormat:
-    """Text tables and Parquet, which say nothing of what they hold: all that is read is stated."""
+    """Text tables and Parquet, which do not state what they hold: the experiment file specifies all that is read."""
 
     table = TabularLog
     sign = "a table of numbers (CSV, TSV, Parquet)"
@@ -128,24 +128,20 @@ class TabularFormat:
         return sketch_table(path)
 
     def describe(self, path: Path) -> LogDescription:
-        """Refuse: nothing is guessed from names or numbers."""
+        """Refuse: nothing is inferred from names or numbers."""
         names = f"the columns {', '.join(table_columns(path)[:200])}" if path.is_file() else "text tables"
         raise FormatError(
-            f"{path}: expected a log that says what it holds, got {names}; state their columns and units in an "
+            f"{path}: expected a log that states what it holds, got {names}; specify their columns and units in an "
             "experiment file; `forcetorque init` begins one"
         )
 
     def read(self, stated: TabularLog, context: LogContext) -> LogReading:
-        """Read every file that is stated."""
+        """Read every file that is specified."""
         context.folder(stated.path)
-        readings = [_read_stream(k, stated, context) for k in range(len(stated.stream))]
-        return LogReading(
-            streams=tuple(stream for reading in readings for stream in reading.streams),
-            findings=tuple(finding for reading in readings for finding in reading.findings),
-        )
+        return LogReading.of([_read_stream(k, stated, context) for k in range(len(stated.stream))])
 
 
-def _read_stream(k: int, stated: TabularLog, context: LogContext) -> LogReading:
+def _read_stream(k: int, stated: TabularLog, context: LogContext) -> StreamReading:
     entry = stated.stream[k]
     paths = [context.file(stated.path / file) for file in entry.files]
     with context.stated_in(f"stream[{k}]"):
@@ -153,16 +149,15 @@ def _read_stream(k: int, stated: TabularLog, context: LogContext) -> LogReading:
             read_table(path, _layout(entry, number), stream=entry.name, clock=entry.clock)
             for number, path in enumerate(paths)
         ]
-        pieces = [stream for reading in readings for stream in reading.streams]
-        joined = joined_stream(_numbered_on(pieces) if entry.stamp == "row" else pieces, [*map(str, paths)])
-    skipped = () if entry.skip_rows == 0 else (_skipped(entry),)
-    doubts = (finding for reading in readings for finding in reading.findings)
-    return LogReading(streams=(joined,), findings=(*skipped, *entry.rate_findings(entry.name, len(joined)), *doubts))
-
-
-def _skipped(entry: TabularStream) -> Finding:
-    text = f"{entry.skip_rows} line(s) in front of the table are not read, as stated"
-    return Finding(stream=entry.name, kind="skipped_rows", message=text, count=entry.skip_rows)
+        segments = [stream for reading in readings for stream in reading.streams]
+        joined = joined_stream(_numbered_on(segments) if entry.stamp == "row" else segments, [*map(str, paths)])
+    findings = [*entry.rate_findings(entry.name, len(joined))]
+    if entry.skip_rows:
+        text = f"{entry.skip_rows} line(s) in front of the table are not read, as specified"
+        skipped = Finding(stream=entry.name, kind="skipped_rows", message=text, count=entry.skip_rows)
+        findings.insert(0, skipped)
+    findings += [finding for reading in readings for finding in reading.findings]
+    return StreamReading(joined, tuple(findings))
 
 
 def _layout(entry: TabularStream, number: int) -> TableLayout:
@@ -176,10 +171,12 @@ def _layout(entry: TabularStream, number: int) -> TableLayout:
     )
 
 
-def _numbered_on(pieces: list[Stream]) -> list[Stream]:
+def _numbered_on(segments: list[Stream]) -> list[Stream]:
     """Rows without a time have no other order than that of the files."""
-    starts = np.cumsum([0, *map(len, pieces[:-1])]) * ROW_NS
-    return [replace(piece, stamp_ns=piece.stamp_ns + start) for piece, start in zip(pieces, starts, strict=True)]
+    starts = np.cumsum([0, *map(len, segments[:-1])]) * ROW_NS
+    return [
+        replace(segment, stamp_ns=segment.stamp_ns + start) for segment, start in zip(segments, starts, strict=True)
+    ]
 
 
 def _declared(signal: SignalTable) -> TableSignal:

@@ -26,7 +26,7 @@ _AROUND = " \t'"
 
 
 def is_date(cell: str) -> bool:
-    """Tell whether a cell is a date with a time of day.
+    """Check whether a cell is a date with a time of day.
 
     Args:
         cell: The cell.
@@ -38,7 +38,7 @@ def is_date(cell: str) -> bool:
 
 
 def is_text(column: Any) -> bool:
-    """Tell whether a column holds texts.
+    """Check whether a column holds texts.
 
     Args:
         column: Column of Arrow.
@@ -54,7 +54,7 @@ def date_stamps(column: Any, place: Callable[[int], str]) -> IntArray:
 
     Args:
         column: Column of Arrow with texts.
-        place: Says where its rows are, in the words that an error begins with.
+        place: Gives the location of a row, with which an error begins.
 
     Returns:
         Nanoseconds since 1970, as if the dates were in UTC where they state no zone; shape (n,).
@@ -70,7 +70,7 @@ def instant_stamps(column: Any, place: Callable[[int], str]) -> IntArray:
 
     Args:
         column: Column of Arrow with timestamps of any unit.
-        place: Says where its rows are, in the words that an error begins with.
+        place: Gives the location of a row, with which an error begins.
 
     Returns:
         Nanoseconds since 1970, as if the instants were in UTC where they have no zone; shape (n,).
@@ -91,7 +91,7 @@ def instant_stamps(column: Any, place: Callable[[int], str]) -> IntArray:
 
 
 def column_of_dates(column: Any) -> IntArray | None:
-    """Read a column of which nobody has said what it holds.
+    """Read a column whose content is not declared.
 
     Args:
         column: Column of Arrow.
@@ -152,7 +152,7 @@ def column_floats(column: Any, name: str, place: Callable[[int], str]) -> FloatA
     Args:
         column: Column of Arrow.
         name: Its name.
-        place: Says where its rows are.
+        place: Gives the location of a row, for messages.
 
     Returns:
         Its numbers, NaN where one is missing; shape (n,).
@@ -177,7 +177,7 @@ def column_stamps(column: Any, stamp: StampColumn, place: Callable[[int], str]) 
     Args:
         column: Column of Arrow: texts of decimal numbers or of dates, numbers, or instants.
         stamp: Its name and unit.
-        place: Says where its rows are.
+        place: Gives the location of a row, for messages.
 
     Returns:
         Nanoseconds, exactly where the column is; shape (n,).
@@ -194,7 +194,7 @@ def column_stamps(column: Any, stamp: StampColumn, place: Callable[[int], str]) 
     if pa.types.is_timestamp(column.type):
         return instant_stamps(column, where)
     if stamp.unit == ISO8601:
-        raise FormatError(f"{where(0)}: expected dates, as stated, got {column.type}; state s, ms, us or ns")
+        raise FormatError(f"{where(0)}: expected dates, as specified, got {column.type}; specify s, ms, us or ns")
     digits = NANOSECOND_DIGITS[stamp.unit]
     if pa.types.is_integer(column.type) and not column.null_count:
         whole = arrow_numbers(column.cast(pa.int64()))
@@ -235,7 +235,7 @@ def _bad_text(stamp: StampColumn, text: Any, place: Callable[[int], str]) -> For
                 continue
         except (TypeError, ValueError):
             pass
-        remedy = f'; state unit = "{ISO8601}"' if is_date(field or "") else ""
+        remedy = f'; specify unit = "{ISO8601}"' if is_date(field or "") else ""
         return FormatError(f"{place(row)}: {_expected(stamp)}, got {field!r}{remedy}")
     return FormatError(f"{place(0)}: {_expected(stamp)} with at most 18 decimals")
 

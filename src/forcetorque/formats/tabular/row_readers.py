@@ -13,7 +13,7 @@ import pyarrow.csv as pacsv
 
 from forcetorque.base.arrow import arrow_text, require_small_parquet
 from forcetorque.base.errors import FormatError, known_names
-from forcetorque.formats.headings import named_columns, repeated_words
+from forcetorque.formats.headings import named_columns, repeated_heading_message
 from forcetorque.formats.tabular.numbers import ISO8601
 from forcetorque.formats.tabular.table_layout import (
     Rows,
@@ -111,7 +111,7 @@ def _headings(file: Path, layout: TableLayout) -> tuple[tuple[str, ...], int]:
         names = tuple(text_columns(file, layout.delimiter, skip_rows=layout.skip_rows))
         first_line += 1
     if len(set(names)) != len(names):
-        raise FormatError(repeated_words(file, layout.skip_rows + 1, names))
+        raise FormatError(repeated_heading_message(file, layout.skip_rows + 1, names))
     return names, first_line
 
 
@@ -185,7 +185,7 @@ def _with_points(file: Path, table: Any, layout: TableLayout, first_line: int) -
     if True in points:
         row = points.index(True)
         raise FormatError(
-            f"{file}:{first_line + row}: column {name!r}: expected a decimal comma, as stated, got {column[row]}"
+            f"{file}:{first_line + row}: column {name!r}: expected a decimal comma, as specified, got {column[row]}"
         )
     return table.set_column(table.column_names.index(name), name, pc.replace_substring(column, ",", "."))
 
@@ -195,8 +195,8 @@ def _placed(
 ) -> FormatError:
     """Find the line and column that the fast reader refused."""
     has_comma = layout.decimal == ","
-    swapped = str.maketrans(".,", ",.") if has_comma else {}
-    expected = "a number with a decimal comma, as stated" if has_comma else "a number"
+    exchanged = str.maketrans(".,", ",.") if has_comma else {}
+    expected = "a number with a decimal comma, as specified" if has_comma else "a number"
     wanted = {name: k for k, name in enumerate(names) if any(name in s.columns for s in layout.signals)}
     for number, line in enumerate(text.rstrip(b"\n").split(b"\n"), start=first_line):
         row = line.decode(errors="replace")
@@ -209,7 +209,7 @@ def _placed(
             )
         for name, k in wanted.items():
             try:
-                float(fields[k].translate(swapped) or "nan")
+                float(fields[k].translate(exchanged) or "nan")
             except ValueError:
                 return FormatError(f"{file}:{number}: column {name!r}: expected {expected}, got {fields[k][:40]!r}")
     return FormatError(f"{file}: expected a table of numbers, got {' '.join(reason.split())[:200]}")
@@ -220,11 +220,20 @@ MAGIC = b"PAR1"
 BATCH_ROWS = 1 << 17
 _FIRST_CELLS = 1 << 20
 
-_STUMBLES = (ArithmeticError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError, pa.ArrowException)
+_READ_ERRORS = (
+    ArithmeticError,
+    LookupError,
+    MemoryError,
+    OSError,
+    RuntimeError,
+    TypeError,
+    ValueError,
+    pa.ArrowException,
+)
 
 
 def is_parquet_file(path: Path) -> bool:
-    """Tell whether a file is one of Parquet, by its first bytes.
+    """Check whether a file is one of Parquet, by its first bytes.
 
     Args:
         path: A file.
@@ -320,7 +329,7 @@ def first_batch(file: Path) -> Any:
     rows = max(1, _FIRST_CELLS // max(len(table.schema_arrow.names), 1))
     try:
         return next(table.iter_batches(batch_size=rows), None)
-    except _STUMBLES as error:
+    except _READ_ERRORS as error:
         raise FormatError(_damaged(file, error)) from error
 
 
@@ -330,7 +339,7 @@ def _opened(file: Path) -> Any:
     try:
         table = pq.ParquetFile(file)
         table.schema_arrow.names  # noqa: B018 - read here, where its damage is an error of ours
-    except _STUMBLES as error:
+    except _READ_ERRORS as error:
         raise FormatError(_damaged(file, error)) from error
     return table
 
@@ -351,7 +360,7 @@ def frame_rows(frame: Any, layout: TableLayout) -> Rows:
     columns = _require_columns("data frame", layout, list(map(str, frame.columns)))
     try:
         table = pa.Table.from_pandas(frame[columns], preserve_index=False)
-    except _STUMBLES as error:
+    except _READ_ERRORS as error:
         raise FormatError(_damaged("data frame", error)) from error
     batches = iter(table.to_batches(max_chunksize=BATCH_ROWS))
     return Rows(name="data frame", count=len(table), batches=batches, place=lambda row: _row("data frame", row))
@@ -367,9 +376,9 @@ def _require_columns(name: str, layout: TableLayout, names: list[str]) -> list[s
 
 def _parquet_batches(file: Path, table: Any, columns: Sequence[str]) -> Iterator[Any]:
     try:
-        for group in range(table.metadata.num_row_groups):  # one at a time: asked for all, Arrow holds them all
+        for group in range(table.metadata.num_row_groups):  # one at a time: a request for all makes Arrow hold them all
             yield from table.iter_batches(batch_size=BATCH_ROWS, row_groups=[group], columns=list(columns))
-    except _STUMBLES as error:
+    except _READ_ERRORS as error:
         raise FormatError(_damaged(file, error)) from error
 
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables that nobody has declared: whether a file is one, what its columns hold, and their extents."""
+"""Tables without a declared layout: whether a file is one, what its columns hold, and their extents."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -16,8 +16,8 @@ from forcetorque.base.arrow import arrow_text
 from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import unpacked_limit
 from forcetorque.formats.headings import read_heading
-from forcetorque.formats.log_format import LogSketch, SketchedColumns, median_step
-from forcetorque.formats.tabular.dialect import LOOKED_AT, MOST_COLUMNS, Form, beginning, form_of, hindrance
+from forcetorque.formats.log_format import LogSketch, SketchedColumns, median_step, sketched_numbers
+from forcetorque.formats.tabular.dialect import LOOKED_AT, MOST_COLUMNS, first_lines, rejection_reason, table_form
 from forcetorque.formats.tabular.numbers import ISO8601, column_of_dates
 from forcetorque.formats.tabular.row_readers import (
     first_batch,
@@ -57,75 +57,11 @@ class Extent:
             self.count += len(finite)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Extents:
-    """Of the columns of a table."""
-
-    columns: Mapping[str, Extent]
-    """Those of numbers, by name."""
-    rows: int
-    """How many rows were read, from the first."""
-    stopped: str | None
-    """Why the others were not; None where all were."""
-
-
-def parquet_extents(path: Path, names: Sequence[str]) -> Extents:
-    """Read the columns of a Parquet file.
-
-    Args:
-        path: The file.
-        names: Names of the columns of numbers.
-
-    Returns:
-        Their extents.
-    """
-    return _extents(path, names, parquet_batches(path, names))
-
-
-def text_extents(path: Path, form: Form, names: Sequence[str]) -> Extents:
-    """Read the columns of a text.
-
-    Args:
-        path: The file.
-        form: How it holds a table.
-        names: Names of the columns of numbers.
-
-    Returns:
-        Their extents.
-    """
-    if not names:
-        return Extents(columns={}, rows=0, stopped=None)
-    layout = TableLayout(
-        delimiter=form.delimiter,
-        decimal=form.decimal,
-        column_names=form.names,
-        skip_rows=form.lines_above,
-        stamp=None,
-        signals=(TableSignal(quantity="scalar", columns=tuple(names), units=("1",) * len(names)),),
-    )
-    return _extents(path, names, text_batches(path, layout))
-
-
-def _extents(path: Path, names: Sequence[str], batches: Iterator[Any]) -> Extents:
-    columns = {name: Extent() for name in names}
-    rows, most = 0, unpacked_limit(path) // (8 * max(len(names), 1))
-    try:
-        for batch in batches:
-            for name, extent in columns.items():
-                extent.add(batch.column(name))
-            rows += len(batch)
-            if rows > most:
-                return Extents(columns=columns, rows=rows, stopped=f"{path}: the others unpack to more than is read")
-    except FormatError as error:
-        return Extents(columns=columns, rows=rows, stopped=str(error))
-    return Extents(columns=columns, rows=rows, stopped=None)
-
-
 _UNIT_NORM = 1e-3
 
 
 def is_table(path: Path) -> bool:
-    """Tell whether a file is a table of numbers, by its first lines.
+    """Check whether a file is a table of numbers, by its first lines.
 
     Args:
         path: File or folder; it exists.
@@ -139,7 +75,7 @@ def is_table(path: Path) -> bool:
         return False
     if is_parquet_file(path):
         return True
-    form = form_of(beginning(path))
+    form = table_form(first_lines(path))
     return form is not None and (form.has_headings or form.delimiter != " ")
 
 
@@ -166,17 +102,16 @@ def _sketch_parquet(path: Path) -> LogSketch:
     )
     # two columns may have one name
     numeric = [column.name for column in columns if column.smallest is not None and names.count(column.name) == 1]
-    return _with_extents(
-        LogSketch(path=path, columns=columns), parquet_extents(path, numeric), 0 if batch is None else len(batch)
-    )
+    sketch = LogSketch(path=path, columns=columns)
+    return _with_extents(sketch, parquet_batches(path, numeric), numeric, 0 if batch is None else len(batch))
 
 
 def _sketch_text(path: Path) -> LogSketch:
-    text = beginning(path)
-    form = form_of(text)
+    text = first_lines(path)
+    form = table_form(text)
     if form is None:
         raise FormatError(
-            hindrance(path)
+            rejection_reason(path)
             or f"{path}: expected a table of numbers below at most one line of headings, got another text"
         )
     lines = [line for line in text.splitlines()[form.lines_above :] if line.strip()]
@@ -205,25 +140,52 @@ def _sketch_text(path: Path) -> LogSketch:
         quaternion=_unit_fours(table),
     )
     numeric = [column.name for column in sketch.columns if column.smallest is not None]
-    return _with_extents(sketch, text_extents(path, form, numeric), len(table))
+    if not numeric:
+        return sketch
+    layout = TableLayout(
+        delimiter=form.delimiter,
+        decimal=form.decimal,
+        column_names=form.names,
+        skip_rows=form.lines_above,
+        stamp=None,
+        signals=(TableSignal(quantity="scalar", columns=tuple(numeric), units=("1",) * len(numeric)),),
+    )
+    return _with_extents(sketch, text_batches(path, layout), numeric, len(table))
 
 
-def _with_extents(sketch: LogSketch, extents: Extents, sketch_rows: int) -> LogSketch:
-    """The same with the extents of more rows than were looked at; of those where a block has no other."""
-    if not extents.rows and extents.stopped is not None:
-        return replace(sketch, ranged_rows=sketch_rows, stopped=extents.stopped)
+def _with_extents(sketch: LogSketch, batches: Iterator[Any], names: Sequence[str], sketch_rows: int) -> LogSketch:
+    """The same with the extents of more rows than were looked at; of those where a block has no other.
+
+    Args:
+        sketch: The sketch, with the extents of its first rows.
+        batches: Rows of the columns of numbers, as tables or batches of Arrow.
+        names: Names of these columns.
+        sketch_rows: Rows that were looked at.
+
+    Returns:
+        The sketch, which states why rows are left out if some are.
+    """
+    extents = {name: Extent() for name in names}
+    rows, most, stopped = 0, unpacked_limit(sketch.path) // (8 * max(len(names), 1)), None
+    try:
+        for batch in batches:
+            for name, extent in extents.items():
+                extent.add(batch.column(name))
+            rows += len(batch)
+            if rows > most:
+                stopped = f"{sketch.path}: the others unpack to more than is read"
+                break
+    except FormatError as error:
+        stopped = str(error)
+    if not rows and stopped is not None:
+        return replace(sketch, ranged_rows=sketch_rows, stopped=stopped)
     columns = (
         column
-        if (extent := extents.columns.get(column.name)) is None or not extent.count
-        else replace(column, smallest=extent.smallest, largest=extent.largest, mean=extent.total / extent.count)
+        if (read := extents.get(column.name)) is None or not read.count
+        else replace(column, smallest=read.smallest, largest=read.largest, mean=read.total / read.count)
         for column in sketch.columns
     )
-    return replace(
-        sketch,
-        columns=tuple(columns),
-        ranged_rows=None if extents.stopped is None else extents.rows,
-        stopped=extents.stopped,
-    )
+    return replace(sketch, columns=tuple(columns), ranged_rows=None if stopped is None else rows, stopped=stopped)
 
 
 def _count_lines(path: Path) -> int:
@@ -263,15 +225,4 @@ def _sketched(name: str, rows: int, column: Any) -> SketchedColumns:
         is_number = kind is None or pa.types.is_null(kind)
         return SketchedColumns(name=name, rows=rows, unit=unit, is_number=is_number)
     values = np.asarray(column.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False), dtype=np.float64)
-    finite = values[np.isfinite(values)]
-    if not len(finite):
-        return SketchedColumns(name=name, rows=rows, unit=unit)
-    return SketchedColumns(
-        name=name,
-        rows=rows,
-        unit=unit,
-        smallest=float(finite.min()),
-        largest=float(finite.max()),
-        mean=float(finite.mean()),
-        step=median_step(values),
-    )
+    return sketched_numbers(name, values, rows=rows, unit=unit)

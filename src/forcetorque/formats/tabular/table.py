@@ -51,7 +51,7 @@ def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str
         clock: Name of the clock of its stamps; a table without times has the clock `row`.
 
     Returns:
-        The stream, in SI units, and what is doubtful in it.
+        The stream, in SI units, and findings.
 
     Raises:
         MissingFileError: If there is no such file.
@@ -86,7 +86,7 @@ def read_frame(frame: Any, layout: TableLayout, *, stream: str, clock: str) -> L
         clock: Name of the clock of its stamps; a table without times has the clock `row`.
 
     Returns:
-        The stream, in SI units, and what is doubtful in it.
+        The stream, in SI units, and findings.
 
     Raises:
         FormatError: If a column is not there, or holds no numbers.

@@ -105,7 +105,7 @@ class TableLayout:
         if not quantities or len(set(quantities)) != len(quantities):
             raise FormatError(f"signals: expected at least one and each quantity once, got {quantities}")
         if {"orientation", "gravity"} <= set(quantities):
-            raise FormatError("signals: expected orientation or gravity, which follows from it, got both; state one")
+            raise FormatError("signals: expected orientation or gravity, which follows from it, got both; specify one")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -119,7 +119,7 @@ class Rows:
     batches: Iterator[Any]
     """The columns that are wanted, some rows at a time, as tables or batches of Arrow."""
     place: Callable[[int], str]
-    """Says where a row is, for messages, from its number from 0."""
+    """Gives the location of a row, for messages, by its number from 0."""
 
 
 def wanted_columns(layout: TableLayout) -> list[str]:
@@ -159,7 +159,7 @@ def cells_of(line: str, delimiter: str) -> list[str]:
 
 
 def has_open_quote(line: str, delimiter: str) -> bool:
-    """Tell whether a cell of a line begins with a quote and does not end with one.
+    """Check whether a cell of a line begins with a quote and does not end with one.
 
     Args:
         line: The line.
@@ -178,7 +178,7 @@ def has_open_quote(line: str, delimiter: str) -> bool:
 
 
 def quote_of(delimiter: str) -> str | bool:
-    """Say to Arrow what may stand around cells.
+    """Give Arrow the quote of cells.
 
     Args:
         delimiter: Character between columns.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The ports in a folder of logs, and what each of them holds, told from its first message.
+"""The ports in a folder of logs, and what each of them holds by its first message.
 
-Lists say what they are. Plain numbers do not: six may be a force-torque sensor or the positions of
+Lists are recognised by their form. Plain numbers are not: six may be a force-torque sensor or the positions of
 six joints, twelve an inertial sensor or the positions of twelve. The name decides that: they are
 positions if the name of the port's folder starts with `state`, counts of taxels if it lies in a
 folder `skin`, and a sensor otherwise.
@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from operator import itemgetter
 from pathlib import Path
@@ -19,20 +19,26 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError
+from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.signals import STATE_SENSE
-from forcetorque.formats.yarp.measures import READ_LISTS, MeasuresList, MeasuresSensor, read_measures, sensor_sizes
+from forcetorque.formats.yarp.measures import READ_LISTS, MeasuresList, sensor_sizes
 from forcetorque.formats.yarp.message import Bottle, is_number
-from forcetorque.formats.yarp.plain_ports import PortReading, read_analog, read_inertial, read_state
+from forcetorque.formats.yarp.plain_ports import INERTIAL_COLUMNS, read_inertial
 from forcetorque.formats.yarp.port_log import LOG_NAMES, find_port, read_first_message
-from forcetorque.formats.yarp.skin_ports import (
-    SkinPart,
-    holds_skin,
-    holds_skin_events,
-    read_skin,
-    read_skin_events,
-    skin_parts,
+from forcetorque.formats.yarp.port_tables import (
+    AnalogPort,
+    InertialPort,
+    MeasuresEntry,
+    MeasuresPort,
+    Port,
+    SkinEventsPort,
+    SkinPort,
+    StateExtPort,
+    StatePort,
+    read_port,
 )
-from forcetorque.formats.yarp.state_ext import count_joints, read_state_ext
+from forcetorque.formats.yarp.skin_ports import SkinPart, holds_skin, holds_skin_events, skin_parts
+from forcetorque.formats.yarp.state_ext import count_joints
 from forcetorque.recording.frames import ROLL_PITCH_YAW
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES
@@ -67,26 +73,20 @@ class FoundPort:
     """Folder of the port."""
     path: str
     """Its path below the folder of logs, with `/`; its own name where it is that folder."""
-    kind: PortKind
-    """What its first message holds."""
+    table: Port | None = None
+    """How an experiment file specifies it, under names that are made up from the path, not checked: names of folders
+    need not be UTF-8. None where it is unknown what the port holds."""
     reason: str | None = None
     """Why that is unknown; None if it is known."""
-    n_joints: int = 0
-    """Joints of a board."""
-    n_taxels: int = 0
-    """Numbers in a message of skin."""
-    sensors: tuple[MeasuresSensor, ...] = ()
-    """Sensors of a device that can be read."""
-    skin_parts: tuple[SkinPart, ...] = ()
-    """Patches of skin that are touched."""
 
-
-_SENSORS = {6: PortKind.ANALOG, 12: PortKind.INERTIAL}
-"""Sensors that send plain numbers, by the count of these."""
+    @property
+    def kind(self) -> PortKind:
+        """What its first message holds."""
+        return PortKind.UNKNOWN if self.table is None else PortKind(self.table.kind)
 
 
 def discover_ports(folder: str | Path) -> tuple[FoundPort, ...]:
-    """Find all ports in a folder of logs and tell from the first message what each of them holds.
+    """Find all ports in a folder of logs and identify by the first message what each of them holds.
 
     Only the first line of each log is read, of one with contacts on skin all: any may be the
     first of a patch. Links to folders are not followed.
@@ -105,22 +105,22 @@ def discover_ports(folder: str | Path) -> tuple[FoundPort, ...]:
     paths = {
         port: port.relative_to(root).as_posix() if port != root else port.resolve().name for port in _port_folders(root)
     }
-    return tuple(_look_at(port, path) for port, path in sorted(paths.items(), key=itemgetter(1)))
+    return tuple(_identified(root, port, path) for port, path in sorted(paths.items(), key=itemgetter(1)))
 
 
 def has_ports(folder: Path) -> bool:
-    """Tell whether there is any port in a folder, without opening it.
+    """Check whether there is any port in a folder, without opening it.
 
     Args:
         folder: Folder to search at any depth.
 
     Returns:
-        Whether there is one, of whatever it holds.
+        Whether there is one, of any content.
     """
     return next(_port_folders(folder), None) is not None
 
 
-def read_port(found: FoundPort) -> tuple[PortReading, ...]:
+def read_found_port(found: FoundPort) -> tuple[StreamReading, ...]:
     """Read a port that was found, with made-up names, to inspect it.
 
     The stream is called as the path of the port, and so is the frame; joints are called `joint_0`,
@@ -138,35 +138,26 @@ def read_port(found: FoundPort) -> tuple[PortReading, ...]:
         MissingFileError: If the port is not there any more.
         FormatError: If it is unknown what the port holds, or it holds something else further down.
     """
-    joints = [f"joint_{k}" for k in range(found.n_joints)]
-    match found.kind:
-        case PortKind.ANALOG:
-            return (read_analog(found.folder, stream=found.path, frame=found.path),)
-        case PortKind.INERTIAL:
-            return (_with_angles_named(read_inertial(found.folder, stream=found.path, frame=found.path), found),)
-        case PortKind.STATE:
-            return (read_state(found.folder, stream=found.path, joints=joints),)
-        case PortKind.STATE_EXT:
-            return (read_state_ext(found.folder, stream=found.path, joints=joints),)
-        case PortKind.MEASURES:
-            return read_measures(found.folder, sensors=found.sensors)
-        case PortKind.SKIN:
-            return (read_skin(found.folder, stream=found.path, taxels=found.n_taxels),)
-        case PortKind.SKIN_EVENTS:
-            return read_skin_events(found.folder, parts=found.skin_parts)
-        case PortKind.UNKNOWN:
-            raise FormatError(f"{found.folder}: expected a port whose messages are known; {found.reason}")
+    if found.table is None:
+        raise FormatError(f"{found.folder}: expected a port whose messages are known; {found.reason}")
+    if isinstance(found.table, MeasuresPort):
+        frames = {entry.name: entry.name for entry in found.table.sensor if _has_frame(entry.list)}
+    else:
+        frames = {found.path: found.path}
+    readings = read_port(found.table, found.folder, frames=frames, joint_units={})
+    if not isinstance(found.table, InertialPort):
+        return readings
+    return tuple(_with_unread_angles(reading, found) for reading in readings)
 
 
-def _with_angles_named(reading: PortReading, found: FoundPort) -> PortReading:
-    """Name the roll, pitch and yaw of a device that estimates them: nobody says yet what they turn into what."""
-    turned = read_inertial(found.folder, stream=found.path, frame=found.path, orientation=ROLL_PITCH_YAW).stream
-    orientation = turned.signal("orientation").values
-    if (orientation == np.eye(3).ravel()).all():
+def _with_unread_angles(reading: StreamReading, found: FoundPort) -> StreamReading:
+    """Add a finding where an inertial sensor estimates roll, pitch and yaw, whose sense the log does not state."""
+    rotated = read_inertial(found.folder, stream=found.path, frame=found.path, orientation=ROLL_PITCH_YAW).stream
+    if (rotated.signal("orientation").values == np.eye(3).ravel()).all():
         return reading
-    text = f"roll, pitch and yaw of an inertial sensor: state, in a stream of its own, {STATE_SENSE}"
+    text = f"roll, pitch and yaw of an inertial sensor: specify, in a stream of its own, {STATE_SENSE}"
     unread = Finding(stream=found.path, kind="not_read", message=text, count=0)
-    return replace(reading, findings=(*reading.findings, unread))
+    return reading._replace(findings=(*reading.findings, unread))
 
 
 def _port_folders(root: Path) -> Iterator[Path]:
@@ -189,26 +180,33 @@ def _port_folders(root: Path) -> Iterator[Path]:
             yield here
 
 
-def _look_at(folder: Path, path: str) -> FoundPort:
+def _identified(root: Path, folder: Path, path: str) -> FoundPort:
     try:
-        port = find_port(folder)
-        if holds_skin_events(port):
-            return _skin_events(folder, path)
-        line = read_first_message(port)
-        *others, last = (line[1 + len(stamps) :] for stamps in port.possible_stamps(line))
-        for message in others:
-            with suppress(FormatError):
-                return _classify(message, folder, path)
-        return _classify(last, folder, path)
+        table = _table_of(folder, path)
     except ForceTorqueError as error:
-        return FoundPort(folder=folder, path=path, kind=PortKind.UNKNOWN, reason=str(error))
+        return FoundPort(folder=folder, path=path, reason=str(error))
+    port = folder.relative_to(root).as_posix()
+    return FoundPort(folder=folder, path=path, table=type(table).model_construct(port=port, **dict(table)))
 
 
-def _classify(message: Bottle, folder: Path, path: str) -> FoundPort:
+def _table_of(folder: Path, path: str) -> Port:
+    port = find_port(folder)
+    if holds_skin_events(port):
+        return _skin_events(folder, path)
+    line = read_first_message(port)
+    *others, last = (line[1 + len(stamps) :] for stamps in port.possible_stamps(line))
+    for message in others:
+        with suppress(FormatError):
+            return _classify(message, folder, path)
+    return _classify(last, folder, path)
+
+
+def _classify(message: Bottle, folder: Path, path: str) -> Port:
     if all(map(is_number, message)):
         return _classify_numbers(len(message), folder, path)
     with suppress(FormatError):
-        return FoundPort(folder=folder, path=path, kind=PortKind.STATE_EXT, n_joints=count_joints(message))
+        joints = _made_up_joints(count_joints(message))
+        return StateExtPort.model_construct(kind="state_ext", name=path, joints=joints)
     try:
         counts = dict(zip(MeasuresList, map(len, sensor_sizes(message)), strict=False))
     except FormatError as error:
@@ -222,30 +220,44 @@ def _classify(message: Bottle, folder: Path, path: str) -> FoundPort:
             f"{folder}: expected a device with a sensor in one of the lists that are read ({', '.join(READ_LISTS)}), "
             f"got {', '.join(name for name, count in counts.items() if count) or 'no sensor'}"
         )
-    return FoundPort(folder=folder, path=path, kind=PortKind.MEASURES, sensors=sensors)
+    return MeasuresPort.model_construct(kind="measures", sensor=sensors)
 
 
-def _skin_events(folder: Path, path: str) -> FoundPort:
+def _skin_events(folder: Path, path: str) -> Port:
     streams = {number: f"{path}#skin_part[{number}]" for number in skin_parts(folder)}
     if not streams:
         raise FormatError(f"{folder}: expected contacts on skin, got messages without any")
-    parts = tuple(SkinPart(number=number, stream=stream, frame=stream) for number, stream in streams.items())
-    return FoundPort(folder=folder, path=path, kind=PortKind.SKIN_EVENTS, skin_parts=parts)
+    parts = tuple(
+        SkinPart.model_construct(name=stream, number=number, frame=stream) for number, stream in streams.items()
+    )
+    return SkinEventsPort.model_construct(kind="skin_events", part=parts)
 
 
-def _classify_numbers(count: int, folder: Path, path: str) -> FoundPort:
+def _classify_numbers(count: int, folder: Path, path: str) -> Port:
     if holds_skin(path, count):
-        return FoundPort(folder=folder, path=path, kind=PortKind.SKIN, n_taxels=count)
-    kind = PortKind.STATE if path.rpartition("/")[2].startswith("state") else _SENSORS.get(count)
-    if kind is None or not count:
-        raise FormatError(
-            f"{folder}: expected {' or '.join(map(str, _SENSORS))} numbers of a sensor, or a folder whose name starts "
-            f'with "state", got {count} numbers'
-        )
-    return FoundPort(folder=folder, path=path, kind=kind, n_joints=count if kind is PortKind.STATE else 0)
+        return SkinPort.model_construct(kind="skin", name=path, taxels=count)
+    if count and path.rpartition("/")[2].startswith("state"):
+        return StatePort.model_construct(kind="state", name=path, joints=_made_up_joints(count))
+    if count == len(QUANTITIES["wrench"].columns):
+        return AnalogPort.model_construct(kind="analog", name=path)
+    if count == len(INERTIAL_COLUMNS):
+        return InertialPort.model_construct(kind="inertial", name=path, frame=path)
+    raise FormatError(
+        f"{folder}: expected {len(QUANTITIES['wrench'].columns)} or {len(INERTIAL_COLUMNS)} numbers of a sensor, or a "
+        f'folder whose name starts with "state", got {count} numbers'
+    )
 
 
-def _sensor(name: MeasuresList, index: int, path: str) -> MeasuresSensor:
+def _made_up_joints(count: int) -> tuple[str, ...]:
+    return tuple(f"joint_{k}" for k in range(count))
+
+
+def _has_frame(name: MeasuresList) -> bool:
+    return QUANTITIES[READ_LISTS[name]].has_frame
+
+
+def _sensor(name: MeasuresList, index: int, path: str) -> MeasuresEntry:
     stream = f"{path}#{name}[{index}]"
-    has_frame = QUANTITIES[READ_LISTS[name].quantity].has_frame
-    return MeasuresSensor(list=name, index=index, stream=stream, frame=stream if has_frame else None)
+    # a force-torque sensor has its frame from the [[sensor]] that reads it
+    frame = stream if _has_frame(name) and name is not MeasuresList.SIX_AXIS_FORCE_TORQUE else None
+    return MeasuresEntry.model_construct(name=stream, list=name, index=index, frame=frame)

@@ -23,12 +23,13 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, RecordingError, known_names
 from forcetorque.base.units import si_factor
+from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import Bottle, BottleValue, is_number
-from forcetorque.formats.yarp.plain_ports import ANGLES, CLOCK, PortReading
+from forcetorque.formats.yarp.plain_ports import ANGLES
 from forcetorque.formats.yarp.port_log import PortLog, read_port_log
 from forcetorque.recording.frames import ROLL_PITCH_YAW, OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
-from forcetorque.recording.stream import QUANTITIES, Signal, Stream
+from forcetorque.recording.stream import QUANTITIES, Signal
 
 
 class MeasuresList(StrEnum):
@@ -60,27 +61,16 @@ class MeasuresList(StrEnum):
     """Angular accelerations; sent by newer versions only."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Content:
-    """What the sensors of a list measure."""
-
-    quantity: str
-    logged_units: tuple[str, ...]
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of the numbers of a sensor."""
-        return ANGLES if self.quantity == "orientation" else QUANTITIES[self.quantity].columns
-
-
 READ_LISTS = {
-    MeasuresList.GYROSCOPE: _Content(quantity="angular_velocity", logged_units=("deg/s",) * 3),
-    MeasuresList.ACCELEROMETER: _Content(quantity="proper_acceleration", logged_units=("m/s2",) * 3),
-    MeasuresList.ORIENTATION: _Content(quantity="orientation", logged_units=("deg",) * 3),
-    MeasuresList.TEMPERATURE: _Content(quantity="temperature", logged_units=("degC",)),
-    MeasuresList.SIX_AXIS_FORCE_TORQUE: _Content(quantity="wrench", logged_units=("N",) * 3 + ("N m",) * 3),
+    MeasuresList.GYROSCOPE: "angular_velocity",
+    MeasuresList.ACCELEROMETER: "proper_acceleration",
+    MeasuresList.ORIENTATION: "orientation",
+    MeasuresList.TEMPERATURE: "temperature",
+    MeasuresList.SIX_AXIS_FORCE_TORQUE: "wrench",
 }
-"""The lists that are read."""
+"""The lists that are read, and the quantity that their sensors measure."""
+_LOGGED_UNITS = {"angular_velocity": ("deg/s",) * 3, "orientation": ("deg",) * 3}
+"""Units of quantities that are not logged in those of recordings."""
 
 MIN_LISTS = 9
 """Lists in the messages of the oldest version."""
@@ -121,19 +111,24 @@ class MeasuresSensor:
     @property
     def quantity(self) -> str:
         """Name of the quantity that it measures."""
-        return READ_LISTS[self.list].quantity
+        return READ_LISTS[self.list]
 
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of its numbers in a message, its stamp left out."""
-        return READ_LISTS[self.list].columns
+        return ANGLES if self.quantity == "orientation" else QUANTITIES[self.quantity].columns
+
+    @property
+    def logged_units(self) -> tuple[str, ...]:
+        """Units of these numbers."""
+        return _LOGGED_UNITS.get(self.quantity, QUANTITIES[self.quantity].units)
 
 
-def read_measures(port_dir: str | Path, *, sensors: Sequence[MeasuresSensor]) -> tuple[PortReading, ...]:
+def read_measures(port_dir: str | Path, *, sensors: Sequence[MeasuresSensor]) -> tuple[StreamReading, ...]:
     """Read the log of a device with several sensors.
 
     Angular velocities are logged in deg/s and given in rad/s, orientations as roll, pitch and yaw in deg and given as
-    rotation matrix and gravity. The messages do not say whether the
+    rotation matrix and gravity. The messages do not state whether the
     device calibrates its force-torque sensors: that they hold N and N m is assumed.
 
     Where messages carry the sender's and the dumper's stamp, the sender's is taken if it is
@@ -169,7 +164,7 @@ def sensor_sizes(message: Bottle) -> list[list[int]]:
         Numbers of each sensor, its stamp included, for each list that the message has.
 
     Raises:
-        FormatError: If it is not a message of such a device; the text does not say where.
+        FormatError: If it is not a message of such a device; the message does not name the line.
     """
     lists = [element for element in message if isinstance(element, tuple)]
     if len(lists) != len(message) or len(lists) < MIN_LISTS:
@@ -251,26 +246,17 @@ def _size(sensor: BottleValue, place: int) -> int:
     )
 
 
-def _reading(sensor: MeasuresSensor, values: FloatArray, log: PortLog) -> PortReading:
+def _reading(sensor: MeasuresSensor, values: FloatArray, log: PortLog) -> StreamReading:
     ticks = Signal.of_fixed("device_stamp", values[:, -1:])
-    signals, doubts = _signals(sensor, values[:, :-1])
-    return PortReading(
-        stream=Stream(
-            name=sensor.stream,
-            clock=CLOCK,
-            stamp_ns=log.stamp_ns,
-            signals={**signals, ticks.quantity: ticks},
-            sequence=log.sequence,
-        ),
-        findings=(*(replace(finding, stream=sensor.stream) for finding in log.findings), *doubts),
-    )
+    signals, findings = _signals(sensor, values[:, :-1])
+    of_sensor = replace(log, findings=tuple(replace(finding, stream=sensor.stream) for finding in log.findings))
+    return of_sensor.reading(sensor.stream, {**signals, ticks.quantity: ticks}, findings=findings)
 
 
 def _signals(sensor: MeasuresSensor, values: FloatArray) -> tuple[dict[str, Signal], tuple[Finding, ...]]:
-    units = READ_LISTS[sensor.list].logged_units
     if sensor.quantity == "orientation":
         return orientation_signals(
-            values, sensor.orientation, unit=units[0], frame=str(sensor.frame), stream=sensor.stream
+            values, sensor.orientation, unit=sensor.logged_units[0], frame=str(sensor.frame), stream=sensor.stream
         )
-    scaled = values * [si_factor(unit)[1] for unit in units]
+    scaled = values * [si_factor(unit)[1] for unit in sensor.logged_units]
     return {sensor.quantity: Signal.of_fixed(sensor.quantity, scaled, frame=sensor.frame)}, ()

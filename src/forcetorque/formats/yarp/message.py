@@ -141,7 +141,7 @@ def parse_line(line: bytes) -> Bottle:
         `[ok]` and `[fail]`, and only finite numbers.
 
     Raises:
-        FormatError: If the line is anything else; the text does not say where.
+        FormatError: If the line is anything else; the message does not name the line.
     """
     if not line:
         raise FormatError("expected a message, got a blank line; delete it")
@@ -164,7 +164,7 @@ def check_head(line: bytes, bottle: Bottle, *, n_stamps: int) -> None:
         n_stamps: Stamps that stand before the message, 1 or 2.
 
     Raises:
-        FormatError: If it does not; the text does not say where.
+        FormatError: If it does not; the message does not name the line.
     """
     head = bottle[: 1 + n_stamps]
     if len(head) <= n_stamps or not all(is_number(value) for value in head):
@@ -183,7 +183,7 @@ def check_head(line: bytes, bottle: Bottle, *, n_stamps: int) -> None:
 
 
 def is_number(value: BottleValue) -> TypeGuard[int | float]:
-    """Tell whether an element is a number.
+    """Check whether an element is a number.
 
     Args:
         value: One element of a message.
@@ -207,7 +207,7 @@ _LOWER_CASE = np.uint8(0x20)
 """Bit that makes ASCII letters small ones."""
 _LINE = re.compile(rb"[^\n\x8a]*[\n\x8a]")
 _PIECE_SIZE = 1 << 17
-"""Bytes taken at a time: the arrays of a piece stay in the processor's cache."""
+"""Bytes taken at a time: the arrays of so many stay in the processor's cache."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -274,7 +274,7 @@ def _skeletons(text: bytes, wanted: Sequence[range]) -> tuple[bytes, list[IntArr
 
 
 def _is_structure(characters: npt.NDArray[np.uint8]) -> BoolArray:
-    """Tell which characters are none of `NUMBER_CHARACTERS`; comparisons take half the time of a table."""
+    """Find which characters are none of `NUMBER_CHARACTERS`; comparisons take half the time of a table."""
     is_exponent = (characters | _LOWER_CASE) == ord("e")
     is_digit_sign_or_point = (characters - np.uint8(ord("+"))) <= ord("9") - ord("+")  # of + , - . / 0 to 9
     is_neither = (characters == ord(",")) | (characters == ord("/"))

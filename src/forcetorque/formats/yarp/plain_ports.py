@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the reader of a port returns, and the ports whose messages are plain numbers."""
+"""Ports whose messages are plain numbers: force-torque sensors, inertial sensors and positions of joints."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -13,28 +12,14 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, RecordingError, known_names
 from forcetorque.base.units import si_factor
+from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import Bottle, is_number
 from forcetorque.formats.yarp.port_log import read_port_log
 from forcetorque.recording.frames import OrientationLayout, orientation_signals
-from forcetorque.recording.recording import Finding
-from forcetorque.recording.stream import QUANTITIES, Signal, Stream
-
-CLOCK = "yarp"
-"""Name of the clock of all streams of a YARP network, whose machines are assumed to be synchronised."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PortReading:
-    """A stream and what was found while reading it."""
-
-    stream: Stream
-    """The stream."""
-    findings: tuple[Finding, ...]
-    """What is wrong with it; empty if nothing is."""
-
+from forcetorque.recording.stream import QUANTITIES, Signal
 
 ANGLES = ("roll", "pitch", "yaw")
-"""Names of the numbers, of which `recording.ROLL_PITCH_YAW` says what they mean."""
+"""Names of the numbers, whose meaning is `recording.ROLL_PITCH_YAW`."""
 
 
 def angles_of(orientation: Signal) -> FloatArray:
@@ -71,7 +56,7 @@ NAME_ALL = f'name all joints of this board in its order, "{NO_JOINT}" for one th
 """What to do where a board has another number of joints."""
 
 
-def places_of_joints(board: Sequence[str]) -> list[int]:
+def indices_of_joints(board: Sequence[str]) -> list[int]:
     """Find the joints of the robot among those of a board.
 
     Args:
@@ -83,14 +68,14 @@ def places_of_joints(board: Sequence[str]) -> list[int]:
     Raises:
         RecordingError: If the robot lacks all of them.
     """
-    places = [place for place, joint in enumerate(board) if joint != NO_JOINT]
-    if board and not places:
+    indices = [index for index, joint in enumerate(board) if joint != NO_JOINT]
+    if board and not indices:
         raise RecordingError(f"joints: expected the name of at least one joint of the robot, got {list(board)}")
-    return places
+    return indices
 
 
 def units_of_joints(joints: Sequence[str], joint_units: Mapping[str, str] | None) -> tuple[str, ...]:
-    """Tell the unit of each joint.
+    """Give the unit of each joint.
 
     Args:
         joints: Names of the joints.
@@ -144,7 +129,7 @@ def expect_numbers(message: Bottle, names: Sequence[str], *, advice: str) -> ran
         The place of every number.
 
     Raises:
-        FormatError: If it holds something else; the text does not say where.
+        FormatError: If it holds something else; the message does not name the line.
     """
     numbers = sum(map(is_number, message))
     others = len(message) - numbers
@@ -154,7 +139,7 @@ def expect_numbers(message: Bottle, names: Sequence[str], *, advice: str) -> ran
     return range(numbers)
 
 
-def read_analog(port_dir: str | Path, *, stream: str, frame: str) -> PortReading:
+def read_analog(port_dir: str | Path, *, stream: str, frame: str) -> StreamReading:
     """Read the log of a force-torque sensor's port.
 
     Where messages carry the sender's and the dumper's stamp, the sender's is taken if it is
@@ -172,31 +157,19 @@ def read_analog(port_dir: str | Path, *, stream: str, frame: str) -> PortReading
         MissingFileError: If the folder or its log is not there.
         FormatError: If the log is anything but one message of six numbers per line.
     """
-    log = read_port_log(port_dir, stream=stream, choose=_choose_wrench)
-    quantity = QUANTITIES["wrench"]
-    wrench = Signal(
-        quantity=quantity.name, values=log.values, columns=quantity.columns, units=quantity.units, frame=frame
-    )
-    return PortReading(
-        stream=Stream(
-            name=stream, clock=CLOCK, stamp_ns=log.stamp_ns, signals={wrench.quantity: wrench}, sequence=log.sequence
-        ),
-        findings=log.findings,
-    )
+    choose = partial(expect_numbers, names=QUANTITIES["wrench"].columns, advice="is this the port of such a sensor?")
+    log = read_port_log(port_dir, stream=stream, choose=choose)
+    return log.reading(stream, {"wrench": Signal.of_fixed("wrench", log.values, frame=frame)})
 
 
-def _choose_wrench(message: Bottle) -> range:
-    return expect_numbers(message, QUANTITIES["wrench"].columns, advice="is this the port of such a sensor?")
-
-
-_COMPONENTS = (*ANGLES, "ax", "ay", "az", "gx", "gy", "gz", "mx", "my", "mz")
+INERTIAL_COLUMNS = (*ANGLES, "ax", "ay", "az", "gx", "gy", "gz", "mx", "my", "mz")
 _TURN = slice(0, 3)
 _MOTION = slice(3, 9)
 
 
 def read_inertial(
     port_dir: str | Path, *, stream: str, frame: str, orientation: OrientationLayout | None = None
-) -> PortReading:
+) -> StreamReading:
     """Read the log of an inertial sensor's port.
 
     Where messages carry the sender's and the dumper's stamp, the sender's is taken if it is
@@ -216,32 +189,22 @@ def read_inertial(
         MissingFileError: If the folder or its log is not there.
         FormatError: If the log is anything but one message of twelve numbers per line.
     """
-    log = read_port_log(
-        port_dir, stream=stream, choose=partial(_choose_inertial, _MOTION if orientation is None else _TURN)
-    )
-    doubts: tuple[Finding, ...] = ()
-    if orientation is None:
-        signals = _motion(log.values, frame)
-    else:
-        signals, doubts = orientation_signals(log.values, orientation, unit="deg", frame=frame, stream=stream)
-    return PortReading(
-        stream=Stream(name=stream, clock=CLOCK, stamp_ns=log.stamp_ns, signals=signals, sequence=log.sequence),
-        findings=(*log.findings, *doubts),
-    )
+    kept = _MOTION if orientation is None else _TURN
 
+    def choose(message: Bottle) -> range:
+        return expect_numbers(message, INERTIAL_COLUMNS, advice="is this the port of an inertial sensor?")[kept]
 
-def _motion(values: FloatArray, frame: str) -> dict[str, Signal]:
-    logged = {"proper_acceleration": values[:, :3], "angular_velocity": values[:, 3:] * si_factor("deg/s")[1]}
-    return {name: Signal.of_fixed(name, numbers, frame=frame) for name, numbers in logged.items()}
-
-
-def _choose_inertial(kept: slice, message: Bottle) -> range:
-    return expect_numbers(message, _COMPONENTS, advice="is this the port of an inertial sensor?")[kept]
+    log = read_port_log(port_dir, stream=stream, choose=choose)
+    if orientation is not None:
+        signals, findings = orientation_signals(log.values, orientation, unit="deg", frame=frame, stream=stream)
+        return log.reading(stream, signals, findings=findings)
+    motion = {"proper_acceleration": log.values[:, :3], "angular_velocity": log.values[:, 3:] * si_factor("deg/s")[1]}
+    return log.reading(stream, {name: Signal.of_fixed(name, values, frame=frame) for name, values in motion.items()})
 
 
 def read_state(
     port_dir: str | Path, *, stream: str, joints: Sequence[str], joint_units: Mapping[str, str] | None = None
-) -> PortReading:
+) -> StreamReading:
     """Read the log of a control board's port of positions.
 
     Rotary joints are logged in deg and given in rad; prismatic ones are logged and given in m.
@@ -263,23 +226,13 @@ def read_state(
         FormatError: If the log is anything but one message of so many numbers per line.
         RecordingError: If no joint is named or one twice, or `joint_units` names another joint or unit.
     """
-    places = places_of_joints(joints)
-    names = [joints[place] for place in places]
+    indices = indices_of_joints(joints)
+    names = [joints[index] for index in indices]
     units = units_of_joints(names, joint_units)
-    log = read_port_log(port_dir, stream=stream, choose=partial(_choose_state, tuple(joints), places))
-    position = joint_signal("position", log.values, joints=names, units=units)
-    return PortReading(
-        stream=Stream(
-            name=stream,
-            clock=CLOCK,
-            stamp_ns=log.stamp_ns,
-            signals={position.quantity: position},
-            sequence=log.sequence,
-        ),
-        findings=log.findings,
-    )
 
+    def choose(message: Bottle) -> list[int]:
+        numbers = expect_numbers(message, joints, advice=NAME_ALL)
+        return [numbers[index] for index in indices]
 
-def _choose_state(board: Sequence[str], places: Sequence[int], message: Bottle) -> list[int]:
-    numbers = expect_numbers(message, board, advice=NAME_ALL)
-    return [numbers[place] for place in places]
+    log = read_port_log(port_dir, stream=stream, choose=choose)
+    return log.reading(stream, {"position": joint_signal("position", log.values, joints=names, units=units)})

@@ -15,7 +15,7 @@ from __future__ import annotations
 import gzip
 import re
 import zlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BufferedIOBase
@@ -26,6 +26,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.input_file import require_unpacked
+from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import (
     Bottle,
     LineGroup,
@@ -40,6 +41,10 @@ from forcetorque.formats.yarp.message import (
     quote,
 )
 from forcetorque.recording.recording import Finding
+from forcetorque.recording.stream import Signal, Stream
+
+CLOCK = "yarp"
+"""Name of the clock of all streams of a YARP network, whose machines are assumed to be synchronised."""
 
 LOG_NAMES = ("data.log", "data.log.gz")
 """Names that the file of messages may have."""
@@ -60,7 +65,7 @@ _STAMPS = {"tx": ("tx",), "rx": ("rx",), "tx+rx": ("tx", "rx"), "rx+tx": ("rx", 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PortFolder:
-    """What a port folder says about its log before a message is read."""
+    """What a port folder states about its log before a message is read."""
 
     data: Path
     """The file of messages, `data.log` or `data.log.gz`."""
@@ -70,7 +75,7 @@ class PortFolder:
     """Whether there is an `info.log`."""
 
     def possible_stamps(self, line: Bottle) -> tuple[tuple[str, ...], ...]:
-        """Tell which stamps a message may carry.
+        """Find which stamps a message may carry.
 
         Args:
             line: The elements of its line.
@@ -206,8 +211,8 @@ def _stamps(info: Path, header: str) -> tuple[str, ...]:
     return _STAMPS[stamp[1]]
 
 
-Choose = Callable[[Bottle], Sequence[int | None]]
-"""Tells for each value that is wanted which number of a message it is, None where the message has
+NumberChoice = Callable[[Bottle], Sequence[int | None]]
+"""Gives for each value that is wanted which number of a message it is, None where the message has
 none; raises `FormatError` without a place if the message is not of the expected kind."""
 
 FORM_LIMIT = 8192
@@ -230,8 +235,24 @@ class PortLog:
     findings: tuple[Finding, ...]
     """What is to be known about the stamps."""
 
+    def reading(self, stream: str, signals: Mapping[str, Signal], *, findings: Sequence[Finding] = ()) -> StreamReading:
+        """Make a stream of the messages.
 
-def read_port_log(port_dir: str | Path, *, stream: str, choose: Choose) -> PortLog:
+        Args:
+            stream: Name for the stream.
+            signals: Signals by quantity, one sample per message.
+            findings: Findings on the signals.
+
+        Returns:
+            The stream, with the findings on the stamps in front of those on the signals.
+        """
+        return StreamReading(
+            Stream(name=stream, clock=CLOCK, stamp_ns=self.stamp_ns, signals=signals, sequence=self.sequence),
+            (*self.findings, *findings),
+        )
+
+
+def read_port_log(port_dir: str | Path, *, stream: str, choose: NumberChoice) -> PortLog:
     """Read chosen numbers of every message of a port.
 
     Where messages carry the sender's and the dumper's stamp, the sender's is taken if it is
@@ -243,7 +264,7 @@ def read_port_log(port_dir: str | Path, *, stream: str, choose: Choose) -> PortL
     Args:
         port_dir: Folder with `data.log` or `data.log.gz`, and `info.log`.
         stream: Name of the stream, for the findings.
-        choose: Tells which numbers of a message are wanted.
+        choose: Gives the numbers of a message that are wanted.
 
     Returns:
         The messages in the order of the log.
@@ -316,21 +337,21 @@ def _check_text(text: bytes, path: Path, n_before: int) -> None:
 
 
 def _read_block(
-    text: bytes, port: PortFolder, n_before: int, layouts: dict[bytes, NumberLayout], choose: Choose
+    text: bytes, port: PortFolder, n_before: int, layouts: dict[bytes, NumberLayout], choose: NumberChoice
 ) -> Numbers:
     (first,) = group_lines(text[: text.index(b"\n") + 1])
     _add_layout(first, port, n_before, layouts, choose)
     groups = group_lines(text, n_structure=layouts[first.skeleton].n_structure)
     for group in groups:
         _add_layout(group, port, n_before, layouts, choose)
-    parts = [_convert(group, layouts[group.skeleton], port, n_before) for group in groups]
-    if len(parts) == 1:
-        return parts[0]
-    return _joined(parts, order=np.argsort(np.concatenate([group.rows for group in groups])))
+    numbers = [_convert(group, layouts[group.skeleton], port, n_before) for group in groups]
+    if len(numbers) == 1:
+        return numbers[0]
+    return _joined(numbers, order=np.argsort(np.concatenate([group.rows for group in groups])))
 
 
 def _add_layout(
-    group: LineGroup, port: PortFolder, n_before: int, layouts: dict[bytes, NumberLayout], choose: Choose
+    group: LineGroup, port: PortFolder, n_before: int, layouts: dict[bytes, NumberLayout], choose: NumberChoice
 ) -> None:
     """Add the layout of the lines of a group, from the first of them, if it is not there."""
     if group.skeleton not in layouts:
@@ -340,16 +361,16 @@ def _add_layout(
             raise FormatError(f"{port.data}:{n_before + int(group.rows[0]) + 1}: {error}") from error
 
 
-def _joined(parts: Sequence[Numbers], *, order: IntArray | slice = slice(None)) -> Numbers:
+def _joined(numbers: Sequence[Numbers], *, order: IntArray | slice = slice(None)) -> Numbers:
     return Numbers(
-        sequence=np.concatenate([part.sequence for part in parts])[order],
-        stamp_ns=np.concatenate([part.stamp_ns for part in parts])[order],
-        by_dumper=np.concatenate([part.by_dumper for part in parts])[order],
-        values=np.concatenate([part.values for part in parts])[order],
+        sequence=np.concatenate([part.sequence for part in numbers])[order],
+        stamp_ns=np.concatenate([part.stamp_ns for part in numbers])[order],
+        by_dumper=np.concatenate([part.by_dumper for part in numbers])[order],
+        values=np.concatenate([part.values for part in numbers])[order],
     )
 
 
-def _layout(group: LineGroup, port: PortFolder, choose: Choose, *, n_known: int) -> NumberLayout:
+def _layout(group: LineGroup, port: PortFolder, choose: NumberChoice, *, n_known: int) -> NumberLayout:
     line = group.text[: group.text.index(b"\n")]
     if len(line) > LINE_LIMIT:
         raise FormatError(_TOO_LONG)
@@ -375,7 +396,7 @@ def _advice(port: PortFolder, stamps: Sequence[str]) -> str:
     return f'with {fitting} the line would fit: if that is so, write "Type: Bottle;" and "Stamp: tx+rx;" to info.log'
 
 
-def _fits(bottle: Bottle, n_stamps: int, choose: Choose) -> bool:
+def _fits(bottle: Bottle, n_stamps: int, choose: NumberChoice) -> bool:
     try:
         choose(bottle[1 + n_stamps :])
     except FormatError:
@@ -400,11 +421,11 @@ def _convert(group: LineGroup, layout: NumberLayout, port: PortFolder, n_before:
 
 
 def _check_envelopes(numbers: Numbers, group: LineGroup, layout: NumberLayout, port: PortFolder, n_before: int) -> None:
-    """Check that lines with more stamps than were asked for are of messages without an envelope."""
+    """Check that lines with more stamps than requested are of messages without an envelope."""
     if len(layout.stamps) != len(port.stamps) and (numbers.sequence >= 0).any():
         row = group.rows[np.flatnonzero(numbers.sequence >= 0)[0]]
         raise FormatError(
-            f"{port.data}:{n_before + row + 1}: expected one stamp as info.log says, got two although the sequence "
+            f"{port.data}:{n_before + row + 1}: expected one stamp as info.log states, got two although the sequence "
             "number is not negative; delete the line"
         )
 

@@ -9,14 +9,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FormatError, RecordingError
+from forcetorque.base.toml_file import Table, Text
+from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import Bottle, BottleValue, check_head, is_number, leaves, parse_bottle
-from forcetorque.formats.yarp.plain_ports import CLOCK, PortReading, expect_numbers
+from forcetorque.formats.yarp.plain_ports import expect_numbers
 from forcetorque.formats.yarp.port_log import (
+    CLOCK,
     LINE_LIMIT,
     PortFolder,
     find_port,
@@ -54,7 +59,7 @@ class SkinEvent:
     skin_part: int
     """Number of the patch of skin."""
     place: tuple[int, int]
-    """Numbers of the part of the body and of the link, which say in which frame the vectors are."""
+    """Numbers of the part of the body and of the link, which fix the frame of the vectors."""
     values: tuple[float, ...]
     """Numbers as in `COLUMNS`."""
 
@@ -70,7 +75,7 @@ def parse_events_line(line: bytes, *, n_stamps: int) -> tuple[Bottle, tuple[Skin
         Sequence number with stamps, and the contacts; none where nothing is touched.
 
     Raises:
-        FormatError: If the line is anything else; the text does not say where.
+        FormatError: If the line is anything else; the message does not name the line.
     """
     if not line.strip():
         raise FormatError("expected a message, got a blank line; delete it")
@@ -142,7 +147,7 @@ class SkinEventLog:
     left_out: int
     """Messages that only the other clock stamped."""
     dumper_ahead_s: float | None
-    """How far the dumper's clock is ahead of the sender's; None where the log does not tell; s."""
+    """How far the dumper's clock is ahead of the sender's; None where the log does not show it; s."""
 
     @property
     def two_clocks(self) -> bool:
@@ -242,7 +247,7 @@ MOST_TAXELS = 10_000
 """Numbers of one patch: the torso of iCub has 768."""
 
 
-def read_skin(port_dir: str | Path, *, stream: str, taxels: int) -> PortReading:
+def read_skin(port_dir: str | Path, *, stream: str, taxels: int) -> StreamReading:
     """Read the log of a port of skin.
 
     Args:
@@ -262,19 +267,14 @@ def read_skin(port_dir: str | Path, *, stream: str, taxels: int) -> PortReading:
             "those of a message"
         )
     names = tuple(map(str, range(taxels)))
-    choose = partial(expect_numbers, names=names, advice="state how many numbers a message of this patch has")
+    choose = partial(expect_numbers, names=names, advice="specify how many numbers a message of this patch has")
     log = read_port_log(port_dir, stream=stream, choose=choose)
     counts = Signal(quantity="taxel_counts", values=log.values, columns=names, units=("counts",) * taxels)
-    return PortReading(
-        stream=Stream(
-            name=stream, clock=CLOCK, stamp_ns=log.stamp_ns, signals={counts.quantity: counts}, sequence=log.sequence
-        ),
-        findings=log.findings,
-    )
+    return log.reading(stream, {counts.quantity: counts})
 
 
 def holds_skin(path: str, count: int) -> bool:
-    """Tell from name and size of its messages whether a port of plain numbers is one of skin.
+    """Check by name and size of its messages whether a port of plain numbers is one of skin.
 
     Args:
         path: Path of the port's folder below the folder of logs, with `/`.
@@ -304,19 +304,18 @@ _EVENT = re.compile(rb"^\S+ (?:\S+ ){1,2}\(\(-?\d+ -?\d+ -?\d+ -?\d+\) \(")
 """A message that begins with a contact."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SkinPart:
-    """A patch of skin of which contacts are wanted."""
+class SkinPart(Table):
+    """One patch of skin of a YARP port `skin_events:o`."""
 
-    number: int
-    """Its number in the messages, such as 12 for the right lower leg."""
-    stream: str
-    """Name for its stream."""
-    frame: str
-    """Frame that the messages give its contacts in."""
+    name: Text
+    """Name of the stream in the recording."""
+    number: Annotated[int, Field(ge=0, strict=True)]
+    """Its skin part in the messages, such as 12 for the right lower leg."""
+    frame: Text
+    """Link of the URDF in whose frame the messages give its contacts, such as `r_forearm_dh_frame`."""
 
 
-def read_skin_events(port_dir: str | Path, *, parts: Sequence[SkinPart]) -> tuple[PortReading, ...]:
+def read_skin_events(port_dir: str | Path, *, parts: Sequence[SkinPart]) -> tuple[StreamReading, ...]:
     """Read the contacts on some patches from the log of a skinManager.
 
     Args:
@@ -338,7 +337,7 @@ def read_skin_events(port_dir: str | Path, *, parts: Sequence[SkinPart]) -> tupl
 
 
 def holds_skin_events(port: PortFolder) -> bool:
-    """Tell from the first message that is not empty whether a port holds contacts on skin.
+    """Check by the first message that is not empty whether a port holds contacts on skin.
 
     Args:
         port: The port folder.
@@ -360,7 +359,7 @@ def holds_skin_events(port: PortFolder) -> bool:
 
 
 def skin_parts(port_dir: str | Path) -> tuple[int, ...]:
-    """Tell which patches of skin are touched anywhere in a log.
+    """Find which patches of skin have contacts anywhere in a log.
 
     Args:
         port_dir: Folder of the port.
@@ -379,13 +378,13 @@ def skin_parts(port_dir: str | Path) -> tuple[int, ...]:
 def _check_parts(parts: Sequence[SkinPart]) -> None:
     if not parts:
         raise RecordingError("skin parts: expected at least one, got none")
-    named = {"number": [str(part.number) for part in parts], "stream": [part.stream for part in parts]}
+    named = {"number": [str(part.number) for part in parts], "stream": [part.name for part in parts]}
     for name, values in named.items():
         if len(set(values)) != len(values):
             raise RecordingError(f"skin parts: expected each {name} once, got {', '.join(values)}; keep one")
 
 
-def _reading(part: SkinPart, port: PortFolder, log: SkinEventLog) -> PortReading:
+def _reading(part: SkinPart, port: PortFolder, log: SkinEventLog) -> StreamReading:
     events = [tuple(event for event in message if event.skin_part == part.number) for message in log.events]
     _require_one_frame(part, port, events)
     width = max(1, *map(len, events))
@@ -397,13 +396,13 @@ def _reading(part: SkinPart, port: PortFolder, log: SkinEventLog) -> PortReading
         frame=part.frame,
     )
     stream = Stream(
-        name=part.stream,
+        name=part.name,
         clock=OTHER_CLOCK if log.two_clocks else CLOCK,
         stamp_ns=log.stamp_ns,
         signals={signal.quantity: signal},
         sequence=log.sequence,
     )
-    return PortReading(stream=stream, findings=tuple(_findings(part, port, log)))
+    return StreamReading(stream, tuple(_findings(part, port, log)))
 
 
 def _require_one_frame(part: SkinPart, port: PortFolder, events: Sequence[Sequence[SkinEvent]]) -> None:
@@ -438,7 +437,7 @@ def _findings(part: SkinPart, port: PortFolder, log: SkinEventLog) -> list[Findi
     if log.two_clocks and log.dumper_ahead_s is not None:
         text = (
             f"the dumper's clock is {log.dumper_ahead_s:+.0f} s from the one that stamped the contacts; only streams "
-            "of the same sender may be laid beside them"
+            "of the same sender may be compared with them"
         )
         statements.append(("two_clocks", text, count, log.dumper_ahead_s))
     statements.append(
@@ -446,7 +445,7 @@ def _findings(part: SkinPart, port: PortFolder, log: SkinEventLog) -> list[Findi
     )
     return [
         Finding(
-            stream=part.stream,
+            stream=part.name,
             kind=kind,
             message=message,
             count=samples,

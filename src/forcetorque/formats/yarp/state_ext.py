@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Ports of control boards, `stateExt:o`: one list per quantity, with one element per joint of the board.
 
-Five layouts are in use, told apart by their number of elements [1]. Only the positions, velocities
+Five layouts are in use, distinguished by their number of elements [1]. Only the positions, velocities
 and accelerations of the joints are kept.
 
 References:
@@ -18,19 +18,17 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
+from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import FAIL, OK, Bottle, is_number
 from forcetorque.formats.yarp.plain_ports import (
-    CLOCK,
     JOINT_UNITS,
     NAME_ALL,
-    PortReading,
+    indices_of_joints,
     joint_signal,
-    places_of_joints,
     units_of_joints,
 )
 from forcetorque.formats.yarp.port_log import PortLog, read_port_log
 from forcetorque.recording.recording import Finding
-from forcetorque.recording.stream import Stream
 
 _MOTOR = ("motor position", "motor velocity", "motor acceleration")
 _MODES = ("control mode", "interaction mode")
@@ -45,7 +43,7 @@ _FIRST_WITH_FLAGS = 20
 
 def read_state_ext(
     port_dir: str | Path, *, stream: str, joints: Sequence[str], joint_units: Mapping[str, str] | None = None
-) -> PortReading:
+) -> StreamReading:
     """Read the log of a control board's port.
 
     Rotary joints are logged in deg and given in rad; prismatic ones are logged and given in m.
@@ -70,10 +68,10 @@ def read_state_ext(
         FormatError: If the log is not one of a control board with so many joints.
         RecordingError: If a joint is named twice, or `joint_units` names another joint or unit.
     """
-    names = [joints[place] for place in places_of_joints(joints)]
+    names = [joints[place] for place in indices_of_joints(joints)]
     units = units_of_joints(names, joint_units)
     log = read_port_log(port_dir, stream=stream, choose=_BoardMessages(joints=tuple(joints)))
-    findings = list(log.findings)
+    findings: list[Finding] = []
     logged: dict[str, FloatArray] = {}
     for name, values in zip(JOINT_UNITS, np.split(log.values, len(JOINT_UNITS), axis=1), strict=True):
         findings.extend(_failures(stream, name, values, log))
@@ -82,10 +80,7 @@ def read_state_ext(
         else:
             logged[name] = values
     signals = {name: joint_signal(name, values, joints=names, units=units) for name, values in logged.items()}
-    return PortReading(
-        stream=Stream(name=stream, clock=CLOCK, stamp_ns=log.stamp_ns, signals=signals, sequence=log.sequence),
-        findings=tuple(findings),
-    )
+    return log.reading(stream, signals, findings=findings)
 
 
 def count_joints(message: Bottle) -> int:
@@ -98,7 +93,7 @@ def count_joints(message: Bottle) -> int:
         Length of the first list that is not empty.
 
     Raises:
-        FormatError: If it is no message of a board or all its lists are empty; the text does not say where.
+        FormatError: If it is no message of a board or all its lists are empty; the message does not name the line.
     """
     lists, _ = _split_flags(message)
     lengths = [len(numbers) for numbers in lists if numbers]
@@ -128,8 +123,8 @@ class _BoardMessages:
                     f"expected {len(self.joints)} numbers of {name} because so many joints were named "
                     f"({', '.join(self.joints)}), got {length}; {NAME_ALL}"
                 )
-        starts, places = np.cumsum([0, *map(len, lists)]).tolist(), places_of_joints(self.joints)
-        return [None if failed[i] else starts[i] + joint for i in range(len(JOINT_UNITS)) for joint in places]
+        starts, indices = np.cumsum([0, *map(len, lists)]).tolist(), indices_of_joints(self.joints)
+        return [None if failed[i] else starts[i] + joint for i in range(len(JOINT_UNITS)) for joint in indices]
 
     def _compare(self, n_elements: int, lengths: list[int | None]) -> None:
         if not self.lengths:

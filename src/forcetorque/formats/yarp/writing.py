@@ -16,7 +16,7 @@ from forcetorque.base.errors import MissingFileError, RecordingError
 from forcetorque.base.output_file import real_path, temporary_beside
 from forcetorque.base.units import si_factor
 from forcetorque.formats.yarp.discover import PortKind
-from forcetorque.formats.yarp.measures import READ_LISTS, MeasuresList, MeasuresSensor
+from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor
 from forcetorque.formats.yarp.plain_ports import JOINT_UNITS, angles_of
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
@@ -81,7 +81,7 @@ def _check_path(path: str) -> None:
 
 
 DIGITS = 15
-"""Significant digits of a number: as many as a float64 holds whatever its value."""
+"""Significant digits of a number: as many as a float64 holds for any value."""
 
 _OTHER_LISTS = 8
 """Lists of a stateExt message after position, velocity and acceleration, in the layout of 2017 to 2025."""
@@ -159,7 +159,7 @@ def _board_messages(stream: Stream) -> Iterator[str]:
 
 
 def _list_texts(stream: Stream, quantity: str, values: FloatArray) -> list[str]:
-    """A list fails as a whole: NaN in all joints of a sample is its flag, NaN in some cannot be said."""
+    """A list fails as a whole: NaN in all joints of a sample is its flag, NaN in some has no notation."""
     failed: BoolArray = np.logical_and.reduce(np.isnan(values), axis=1)
     whole = _finite(stream, np.where(failed[:, None], 0.0, values), what=f"the {quantity} of some joints")
     return [_list(row, flag="fail" if bad else "ok") for row, bad in zip(whole.tolist(), failed.tolist(), strict=True)]
@@ -184,7 +184,7 @@ def _sensor_values(stream: Stream, sensor: MeasuresSensor) -> FloatArray:
         return _reading(stream).values
     if sensor.quantity == "orientation":
         return angles_of(stream.signal("orientation"))
-    factors = [si_factor(unit)[1] for unit in READ_LISTS[sensor.list].logged_units]
+    factors = [si_factor(unit)[1] for unit in sensor.logged_units]
     return stream.signal(sensor.quantity).values / factors
 
 

@@ -13,10 +13,10 @@ from pydantic import Field, ValidationError
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_bytes_atomically
-from forcetorque.base.toml_file import open_questions
+from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
-from forcetorque.formats.log_format import not_read_sentence
+from forcetorque.formats.log_format import not_read_message
 from forcetorque.formats.registry import format_named
 from forcetorque.inspection.draft.gravity import Hanging, hanging
 from forcetorque.inspection.draft.intervals import (
@@ -156,7 +156,7 @@ def draft_experiment(
     text, notes, recording = _written(log, folder, model, robot)
     if output is not None:
         write_bytes_atomically(file, text.encode())
-    questions = tuple(QuestionRow(line=q.line, key=q.key, question=q.words) for q in open_questions(text))
+    questions = tuple(QuestionRow(line=q.line, key=q.key, question=q.words) for q in unanswered_keys(text))
     return Draft(
         file=str(file),
         format=log.format,
@@ -217,7 +217,7 @@ def _read(
     text: str, folder: Path, sensors: Sequence[DraftedSensor], model: RobotModel | None
 ) -> tuple[Recording | None, str]:
     """The recording that the table states, once nothing of it is open; else why it is not known."""
-    if open_questions(text):
+    if unanswered_keys(text):
         return None, "the log is read once the questions of [recording] are answered"
     try:
         content = tomllib.loads(text)["recording"]
@@ -260,7 +260,7 @@ def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel 
     if not sensors:
         yield "no stream looks like the reading of a force-torque sensor; without one a log is inspected and viewed"
     if log.skipped_arrays:
-        yield not_read_sentence(log.skipped_arrays)
+        yield not_read_message(log.skipped_arrays)
     if log.description is not None:
         left_out = [one.stream for one in log.description.reading.findings if one.kind == "not_read"]
         if left_out:

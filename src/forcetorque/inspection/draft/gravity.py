@@ -18,7 +18,7 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.recording.alignment import interpolate, usable_samples
-from forcetorque.recording.quality import spans
+from forcetorque.recording.quality import true_runs
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.stream import Stream
@@ -278,7 +278,7 @@ def free_spans(stamp_ns: IntArray, free: BoolArray) -> list[tuple[int, int]]:
     breaks = np.flatnonzero(np.diff(stamp_ns) > 5.0 * step) + 1
     runs: list[tuple[int, int]] = []
     for part in np.split(np.arange(len(stamp_ns)), breaks):
-        for a, b in spans(free[part]):
+        for a, b in true_runs(free[part]):
             early, late = (0 if edge else int(MARGIN_S * 1e9) for edge in (a == 0, b == len(part) - 1))
             runs.append((int(stamp_ns[part[a]]) + early, int(stamp_ns[part[b]]) - late))
     return [(first, last) for first, last in runs if last - first >= SHORTEST_S * 1e9]

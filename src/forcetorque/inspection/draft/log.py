@@ -11,7 +11,7 @@ from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.toml_file import OPEN
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.log_format import LogDescription, LogFormat, LogSketch, SketchingFormat
-from forcetorque.formats.other_file import other_file
+from forcetorque.formats.not_a_log import not_a_log_reason
 from forcetorque.formats.registry import format_name, format_named, not_recognised, recognised_format
 from forcetorque.inspection.draft.joints import joints_question
 from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream, likenesses, relative, time_column
@@ -48,7 +48,7 @@ def draft_log(paths: Sequence[Path], model: RobotModel | None, log_format: str |
     for path in paths:
         if not path.exists():
             raise MissingFileError(f"{path}: expected a log, there is none")
-        other = other_file(path) if log_format is None else None
+        other = not_a_log_reason(path) if log_format is None else None
         if other is not None:
             raise FormatError(other)
     formats = [recognised_format(path) if log_format is None else format_named(log_format) for path in paths]

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from forcetorque.base.toml_file import OPEN
 from forcetorque.formats.headings import Heading, read_heading
-from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_sentence
+from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_message
 from forcetorque.formats.tabular.numbers import ISO8601
 from forcetorque.inspection.draft.joints import joints_question
 from forcetorque.inspection.draft.streams import (
@@ -242,9 +242,9 @@ def _largest(sketch: LogSketch, group: ColumnMatch) -> float | None:
 def _range_words(sketch: LogSketch, group: ColumnMatch) -> str:
     if group.quantity != "wrench":
         extent = _extent(sketch, group.columns)
-        return f"; they run {extent}{sketch.range_words}" if extent else ""
+        return f"; they run {extent}{sketch.range_text}" if extent else ""
     force, moment = (_extent(sketch, places) for places in (group.columns[:3], group.columns[3:]))
-    return f"; forces run {force}, moments {moment}{sketch.range_words}" if force and moment else ""
+    return f"; forces run {force}, moments {moment}{sketch.range_text}" if force and moment else ""
 
 
 def _extent(sketch: LogSketch, places: Sequence[int]) -> str:
@@ -341,7 +341,7 @@ def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
         if rest:
             lines += ["", remark(f"not read: {listed(rest)}")]
     if log.skipped_arrays:
-        lines += ["", remark(not_read_sentence(log.skipped_arrays))]
+        lines += ["", remark(not_read_message(log.skipped_arrays))]
     if not log.streams:
         arrays = listed([f"{one.name} ({one.rows} x {one.columns})" for one in log.arrays])
         lines += ["", "[[recording.stream]]", line("name", "log")]

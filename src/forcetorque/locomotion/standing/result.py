@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.autocorrelation import autocorrelation
-from forcetorque.base.noise.means import one_after_another, sample_statistics
+from forcetorque.base.noise.means import joined_times, sample_statistics
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import ComAcceleration, PressureCentres
 from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance, RobotBalance, half_widths
@@ -157,7 +157,7 @@ def phase_rows(intervals: Sequence[IntervalBalance]) -> Iterator[SupportPhaseRow
         phases = [(interval, phase) for interval, _ in parts for phase in interval.phases.phases if phase.name == name]
         stretches = [interval.net_N[phase.samples][interval.phases.known[phase.samples]] for interval, phase in phases]
         net = np.concatenate([interval.net_N[inside] for interval, inside in parts])
-        time = one_after_another([interval.time_s[inside] for interval, inside in parts])
+        time = joined_times([interval.time_s[inside] for interval, inside in parts])
         weights = {interval.weight_N for interval, _ in parts}
         weight_N = weights.pop() if len(weights) == 1 else None
         force = sample_statistics(net[:, None], time)

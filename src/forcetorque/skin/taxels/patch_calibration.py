@@ -24,7 +24,7 @@ from forcetorque.base.arrays import (
 )
 from forcetorque.base.errors import FormatError, ShapeError, SkinError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
-from forcetorque.base.stored_model import Part, checked_part, read_json
+from forcetorque.base.stored_model import StoredTable, read_json, validated_table
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
 from forcetorque.skin.taxels.health import require_counts
 from forcetorque.skin.temperature.gains import WarmUp
@@ -199,7 +199,7 @@ SCHEMA: Final = "forcetorque/taxels/1"
 """Name and version of the file's form."""
 
 
-class CalibratedTaxel(Part):
+class CalibratedTaxel(StoredTable):
     """One taxel: its curve and what that is worth, or why it has none."""
 
     taxel: int = Field(ge=0)
@@ -228,7 +228,7 @@ class CalibratedTaxel(Part):
         return self
 
 
-class PatchProvenance(Part):
+class PatchProvenance(StoredTable):
     """What the curves were fitted to."""
 
     code_version: str
@@ -245,7 +245,7 @@ class PatchProvenance(Part):
     """SHA-256 of every input file, by its experiment and its path as the experiment file names it."""
 
 
-class PatchCalibration(Part):
+class PatchCalibration(StoredTable):
     """Curves of the taxels of one patch."""
 
     model_config = ConfigDict(
@@ -350,4 +350,4 @@ def read_patch_calibration(path: Path | str) -> PatchCalibration:
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema != SCHEMA:
         raise FormatError(f"{file}: expected the schema {SCHEMA!r}, got {schema!r}; calibrate again with this version")
-    return checked_part(file, PatchCalibration, content)
+    return validated_table(file, PatchCalibration, content)

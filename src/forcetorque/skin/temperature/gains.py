@@ -13,7 +13,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers, require_shape
 from forcetorque.base.errors import SkinError
-from forcetorque.base.stored_model import Part
+from forcetorque.base.stored_model import StoredTable
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.taxels.health import taxel_ailments
 
@@ -70,7 +70,7 @@ def followed_pads(layout: SkinLayout, alive: BoolArray) -> BoolArray:
     return (own[:, None] == layout.thermal_modules) & alive
 
 
-class ThermalGain(Part):
+class ThermalGain(StoredTable):
     """How a taxel follows one thermal pad."""
 
     pad: int = Field(ge=0)
@@ -83,7 +83,7 @@ class ThermalGain(Part):
     """By how much the pad follows heat later than its taxels; negative where it follows sooner."""
 
 
-class TaxelHeat(Part):
+class TaxelHeat(StoredTable):
     """What heat does to a taxel; without gains it was not sound in the warm-up."""
 
     gains: tuple[ThermalGain, ...] = ()
@@ -96,7 +96,7 @@ class TaxelHeat(Part):
     """Its steepest change over a minute."""
 
 
-class WarmUp(Part):
+class WarmUp(StoredTable):
     """The recording without contact that gains were learned in."""
 
     experiment: str

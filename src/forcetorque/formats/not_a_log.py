@@ -13,8 +13,8 @@ from forcetorque.formats.prior.registry import holds_prior
 _LOOKED_AT = 4096
 
 
-def other_file(path: Path) -> str | None:
-    """Say what a file is that is no log.
+def not_a_log_reason(path: Path) -> str | None:
+    """Report what a file is that is no log.
 
     Args:
         path: File or folder; it exists.
