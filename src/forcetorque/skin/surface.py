@@ -4,13 +4,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import lru_cache
-from typing import Final
+from functools import cached_property, lru_cache
+from typing import Any, Final, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, read_only
 from forcetorque.base.errors import SkinError
+
+_Array = TypeVar("_Array", bound=npt.NDArray[Any])
 
 LONGEST_EDGE_M: Final = 0.015
 """Longest edge between neighbours: twice the pitch of a module, less than a gap that a missing module leaves."""
@@ -215,50 +218,60 @@ def _runs_against(one: IntArray, other: IntArray) -> bool:
     return any((other[k], other[k - 1]) in forward for k in range(3))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SkinSurface:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SkinSurface(ArrayRecord):
     """Taxels and the triangles between them, in the frame of the link."""
 
-    positions: FloatArray
+    positions: FloatArray = field(metadata=array("n", 3))
     """Taxels; shape (n, 3); m."""
-    triangles: IntArray
+    triangles: IntArray = field(metadata=array("m", 3, dtype="int"))
     """Taxels at the corners of each facet, counterclockwise seen from outside; shape (m, 3)."""
-    edges: IntArray = field(init=False)
-    """Pairs of neighbours, the smaller number first; shape (e, 2)."""
-    neighbours: IntArray = field(init=False)
-    """Neighbours of each taxel, filled up with the taxel itself; shape (n, d), where d is the most that one has."""
-    boundary: IntArray = field(init=False)
-    """Edges of one facet only, in its direction, so that the skin is on their left; shape (b, 2)."""
-    facet_areas: FloatArray = field(init=False)
-    """Areas; shape (m,); m²."""
-    facet_normals: FloatArray = field(init=False)
-    """Outward unit normals; shape (m, 3)."""
-    vertex_normals: FloatArray = field(init=False)
-    """Outward unit normals of the taxels, means of their facets by area; zero for one without facet; shape (n, 3)."""
-
-    def __post_init__(self) -> None:
-        positions = read_only(self.positions, name="positions", shape=(None, 3))
-        triangles = read_only_integers(self.triangles, name="triangles", shape=(None, 3))
-        corners = positions[triangles]
-        doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        sums = np.zeros_like(positions)
-        np.add.at(sums, triangles.ravel(), np.repeat(doubled, 3, axis=0))
-        edges, boundary = _edges(triangles, len(positions))
-        for name, array in (
-            ("positions", positions),
-            ("triangles", triangles),
-            ("edges", edges),
-            ("neighbours", _neighbours(edges, len(positions))),
-            ("boundary", boundary),
-            ("facet_areas", np.linalg.norm(doubled, axis=1) / 2.0),
-            ("facet_normals", _unit(doubled)),
-            ("vertex_normals", _unit(sums)),
-        ):
-            array.setflags(write=False)
-            object.__setattr__(self, name, array)
 
     def __len__(self) -> int:
         return len(self.positions)
+
+    @cached_property
+    def edges(self) -> IntArray:
+        """Pairs of neighbours, the smaller number first; shape (e, 2); read-only."""
+        return self._edges_and_boundary[0]
+
+    @cached_property
+    def boundary(self) -> IntArray:
+        """Edges of one facet only, in its direction, so that the skin is on their left; shape (b, 2); read-only."""
+        return self._edges_and_boundary[1]
+
+    @cached_property
+    def neighbours(self) -> IntArray:
+        """Neighbours of each taxel, filled up with the taxel itself; shape (n, d), d the most of one; read-only."""
+        return _read_only(_neighbours(self.edges, len(self)))
+
+    @cached_property
+    def facet_areas(self) -> FloatArray:
+        """Areas; shape (m,); m²; read-only."""
+        return _read_only(np.linalg.norm(self._doubled_areas, axis=1) / 2.0)
+
+    @cached_property
+    def facet_normals(self) -> FloatArray:
+        """Outward unit normals; shape (m, 3); read-only."""
+        return _read_only(_unit(self._doubled_areas))
+
+    @cached_property
+    def vertex_normals(self) -> FloatArray:
+        """Outward unit normals of the taxels, area-weighted means of their facets; 0 without facet; shape (n, 3)."""
+        sums = np.zeros_like(self.positions)
+        np.add.at(sums, self.triangles.ravel(), np.repeat(self._doubled_areas, 3, axis=0))
+        return _read_only(_unit(sums))
+
+    @cached_property
+    def _edges_and_boundary(self) -> tuple[IntArray, IntArray]:
+        edges, boundary = _edges(self.triangles, len(self))
+        return _read_only(edges), _read_only(boundary)
+
+    @cached_property
+    def _doubled_areas(self) -> FloatArray:
+        """Outward normal of each facet, twice as long as its area; shape (m, 3); m²."""
+        corners = self.positions[self.triangles]
+        return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
     @property
     def area(self) -> float:
@@ -312,6 +325,11 @@ def skin_surface(
             "and no triangle between them; positions are in m"
         )
     return SkinSurface(positions=points, triangles=outward_triangles(points, triangles, hints))
+
+
+def _read_only(values: _Array) -> _Array:
+    values.setflags(write=False)
+    return values
 
 
 def _edges(triangles: IntArray, count: int) -> tuple[IntArray, IntArray]:
@@ -373,14 +391,14 @@ _LONGEST_MITRE: Final = 2.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Rim:
+class Rim(ArrayRecord):
     """Facets outside the boundary of a surface."""
 
-    positions: FloatArray
+    positions: FloatArray = field(metadata=array("k", 3))
     """Outer points; shape (k, 3); m."""
-    taxels: IntArray
+    taxels: IntArray = field(metadata=array("k", dtype="int"))
     """Taxel from which each outer point was taken outwards; shape (k,)."""
-    triangles: IntArray
+    triangles: IntArray = field(metadata=array("m", 3, dtype="int"))
     """Corners, counterclockwise seen from outside: a taxel below n, an outer point from n on; shape (m, 3)."""
 
 

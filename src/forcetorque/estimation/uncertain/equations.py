@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import accumulate
 from typing import Final
 
@@ -31,7 +32,7 @@ class Affine:
     """Shape (n, r, m)."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Scene:
     """What acts on which body, and what the bodies need."""
 
@@ -119,14 +120,14 @@ class Scene:
     def _numbered(self, count: int) -> list[tuple[int, Actor]]:
         return list(enumerate(self.actors[:count]))
 
-    @property
+    @cached_property
     def _starts(self) -> list[tuple[int, int]]:
         """First column of each actor among unknowns and errors."""
         unknowns = accumulate((actor.free.shape[2] for actor in self.actors), initial=0)
         errors = accumulate((actor.errors.shape[2] for actor in self.actors), initial=0)
         return list(zip(unknowns, errors, strict=True))
 
-    @property
+    @cached_property
     def _width(self) -> tuple[int, int, int]:
         """Samples, unknowns, errors."""
         unknowns, errors = self._starts[-1]

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import PatchDescription
 from forcetorque.skin.layout.modules import outward_of_boards
@@ -29,27 +29,17 @@ _FEWEST: Final = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TouchingPlanes:
+class TouchingPlanes(ArrayRecord):
     """Planes that touch a surface."""
 
-    centres: FloatArray
+    centres: FloatArray = field(metadata=array("k", 3))
     """Where; shape (k, 3); m."""
-    normals: FloatArray
+    normals: FloatArray = field(metadata=array("k", 3))
     """Outward unit normals; shape (k, 3)."""
-    weights: FloatArray
+    weights: FloatArray = field(metadata=array("k"))
     """What each counts; shape (k,)."""
-    rough: FloatArray
+    rough: FloatArray = field(metadata=array("n", 3))
     """Rough normal of every taxel, from what is about it alone; shape (n, 3)."""
-
-    def __post_init__(self) -> None:
-        count = len(self.weights)
-        for name, shape in (
-            ("centres", (count, 3)),
-            ("normals", (count, 3)),
-            ("weights", (count,)),
-            ("rough", (None, 3)),
-        ):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=shape))
 
     def normal_at(self, point: FloatArray, rough: FloatArray) -> FloatArray:
         """Continue the normals of the planes to a point.

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays
 from forcetorque.base.errors import FitError
 from forcetorque.skin.taxels import capacitor, monotone, polynomial
 
@@ -41,19 +41,19 @@ _PRESSURES = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TaxelCurve:
+class TaxelCurve(ArrayRecord):
     """Pressure of one taxel as a function of its fall below rest, which is scaled by the range."""
 
     kind: CurveKind
     """Form."""
-    coefficients: FloatArray
+    coefficients: FloatArray = field(metadata=array(None))
     """Numbers of the form; shape (k,), as many as it has; Pa for each of them, but the second of
     `capacitor`, which has no unit."""
     range_counts: float
     """Fall at the highest pressure that was fitted: beyond, the curve is extrapolated; counts."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "coefficients", read_only(self.coefficients, name="coefficients", shape=(None,)))
+        check_arrays(self)
         if not self.range_counts > 0.0:
             raise FitError(f"range_counts: expected a fall above 0 counts, got {self.range_counts:g}")
 

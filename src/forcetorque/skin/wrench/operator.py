@@ -4,13 +4,21 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING, Final, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, require_last_axis, require_shape
+from forcetorque.base.arrays import (
+    ArrayRecord,
+    BoolArray,
+    FloatArray,
+    IntArray,
+    array,
+    require_last_axis,
+    require_shape,
+)
 from forcetorque.base.errors import SkinError
 from forcetorque.base.pose import cross
 from forcetorque.skin.layout.layout import SkinLayout
@@ -35,7 +43,7 @@ class WrenchMethod(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class WrenchOperator:
+class WrenchOperator(ArrayRecord):
     """Linear map from pressures to a wrench on the link, in its frame and about its origin.
 
     The environment pushes on the skin against its outward normal n: f = -∫ p n dA, m = -∫ r x p n dA. That is (7.4) and
@@ -44,20 +52,12 @@ class WrenchOperator:
 
     method: WrenchMethod
     """Where the weights come from."""
-    live: BoolArray
+    live: BoolArray = field(metadata=array("n", dtype="bool"))
     """Taxels that count; shape (n,)."""
-    weights: FloatArray
+    weights: FloatArray = field(metadata=array(6, "n"))
     """Wrench by pressure; zero for dead taxels; shape (6, n); N/Pa, N m/Pa."""
-    areas: FloatArray
+    areas: FloatArray = field(metadata=array("n"))
     """Area that each taxel stands for, the weights of (7.12); zero for dead taxels; shape (n,); m²."""
-
-    def __post_init__(self) -> None:
-        live = np.array(self.live, dtype=np.bool_)
-        require_shape(live, name="live", shape=(None,))
-        live.setflags(write=False)
-        object.__setattr__(self, "live", live)
-        object.__setattr__(self, "weights", read_only(self.weights, name="weights", shape=(6, len(live))))
-        object.__setattr__(self, "areas", read_only(self.areas, name="areas", shape=live.shape))
 
     def wrench(self, pressures: FloatArray) -> FloatArray:
         """Give the wrench on the link.
@@ -320,12 +320,12 @@ def _matern(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ForetoldPressures:
+class ForetoldPressures(ArrayRecord):
     """The pressure of each taxel as its live neighbours have it."""
 
-    neighbours: IntArray
+    neighbours: IntArray = field(metadata=array("n", "k", dtype="int"))
     """Live taxels about each, itself left out; shape (n, k)."""
-    shares: FloatArray
+    shares: FloatArray = field(metadata=array("n", "k"))
     """By how much each tells it; shape (n, k)."""
 
     @classmethod

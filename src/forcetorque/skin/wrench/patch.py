@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Final, Self, TypeVar
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Final, Self
 
 import numpy as np
 
@@ -24,12 +25,11 @@ from forcetorque.skin.wrench.operator import (
     thesis_operator,
 )
 
-_Built = TypeVar("_Built")
 _KEPT: Final = 16
 """Operators that are kept: masks of live taxels change now and then, not from frame to frame."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class SkinPatch:
     """A patch, its surface, and how the wrench is told from its pressures."""
 
@@ -47,8 +47,6 @@ class SkinPatch:
     """Area of a taxel, for the simple method."""
     plane: FloatArray | None = None
     """Places of the taxels in a drawing, for the method of the thesis; shape (n, 2); m."""
-    _operators: dict[bytes, WrenchOperator] = field(default_factory=dict, repr=False)
-    _foretold: dict[bytes, ForetoldPressures] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(
@@ -104,7 +102,7 @@ class SkinPatch:
         Returns:
             Who tells whom.
         """
-        return _kept(self._foretold, live, lambda: ForetoldPressures.of(self.surface, live))
+        return self._foretold_by_mask(live.tobytes())
 
     def operator(self, live: BoolArray | None = None) -> WrenchOperator:
         """Give the map from pressures to the wrench, built anew for every other mask of live taxels and then kept.
@@ -122,7 +120,17 @@ class SkinPatch:
         require_shape(mask, name="live", shape=(len(self.layout),))
         if not mask.any():
             raise SkinError(f"patch {self.layout.name!r}: live: expected a taxel that can be trusted, got none")
-        return _kept(self._operators, mask, lambda: self._built(mask))
+        return self._operator_by_mask(mask.tobytes())
+
+    @cached_property
+    def _operator_by_mask(self) -> Callable[[bytes], WrenchOperator]:
+        return lru_cache(maxsize=_KEPT)(lambda mask: self._built(np.frombuffer(mask, dtype=np.bool_)))
+
+    @cached_property
+    def _foretold_by_mask(self) -> Callable[[bytes], ForetoldPressures]:
+        return lru_cache(maxsize=_KEPT)(
+            lambda mask: ForetoldPressures.of(self.surface, np.frombuffer(mask, dtype=np.bool_))
+        )
 
     def _built(self, live: BoolArray) -> WrenchOperator:
         if self.taxel_area_m2 is not None:
@@ -131,13 +139,3 @@ class SkinPatch:
             return thesis_operator(self.layout, live, plane=self.plane)
         build = linear_operator if self.method is WrenchMethod.LINEAR else kriging_operator
         return build(self.surface, self.elements, live)
-
-
-def _kept(kept: dict[bytes, _Built], mask: BoolArray, build: Callable[[], _Built]) -> _Built:
-    """What belongs to a mask, from what is kept or built and kept; the oldest makes room."""
-    key = mask.tobytes()
-    if key not in kept:
-        while len(kept) >= _KEPT:
-            kept.pop(next(iter(kept)))
-        kept[key] = build()
-    return kept[key]
