@@ -25,7 +25,7 @@ from forcetorque.skin.layout.normals import rebuilt_normals
 from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
 from forcetorque.skin.simulation.recordings import REFERENCE_PA, TaxelResponses, chamber_recording
 from forcetorque.skin.taxels.curve import CurveKind, fit_curve
-from forcetorque.skin.taxels.health import taxel_response
+from forcetorque.skin.taxels.fit import calibrated_taxel
 from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.taxels.recording import REST_SHARE, pressure_cycle
 from forcetorque.skin.wrench.operator import WrenchMethod
@@ -175,7 +175,9 @@ def chamber_table(taxels: TaxelResponses, rng: np.random.Generator, *, both_ways
         fit_curve(CurveKind.MONOTONE, cycle.fall[used, k], cycle.pressure[used], range_counts=float(cycle.top_fall[k]))
         for k in range(number)
     ]
-    worth = [taxel_response(curve, cycle.fall[:, k], cycle.pressure, cycle.unloading) for k, curve in enumerate(curves)]
+    worth = [
+        calibrated_taxel(k, curve, cycle.fall[:, k], cycle.pressure, cycle.unloading) for k, curve in enumerate(curves)
+    ]
     return PressureTable(
         patch="leg",
         columns=number,

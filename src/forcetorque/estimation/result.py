@@ -13,7 +13,7 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import sample_statistics
 from forcetorque.estimation.estimate import IntervalEstimates
-from forcetorque.estimation.samples_file import EstimatedSpan, write_estimates
+from forcetorque.estimation.samples_file import write_estimates
 from forcetorque.estimation.torque.experiment_fusion import IntervalFusion, TorqueFusion, summarise_fusion
 from forcetorque.estimation.torque.motor import Friction
 from forcetorque.experiment.additions import with_recording_notes
@@ -324,9 +324,7 @@ def summarise_estimates(
         FormatError: If the name of the file ends otherwise.
     """
     if file is not None:
-        fused = {one.interval.label: one for one in fusions}
-        tables = [_for_table(experiment, span, fused.get(span.interval.label)) for span in spans]
-        write_estimates(file, tables, experiment.model)
+        write_estimates(file, experiment, spans, fusions)
     fusion = summarise_fusion(experiment, list(fusions), frictions) if fusions else None
     left_out = tuple(dict.fromkeys(sentence for span in spans for sentence in span.left_out))
     validity = tuple(_outside(corrections, spans))
@@ -371,24 +369,6 @@ def _doubts(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstim
                 f"{sensor}: no offset removed, so that its forces hold whatever offset the sensor has; see --offset, "
                 "from Python offset"
             )
-
-
-def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalFusion | None) -> EstimatedSpan:
-    return EstimatedSpan(
-        label=span.interval.label,
-        stamp_ns=span.stamp_ns,
-        time_s=seconds_since(span.stamp_ns, experiment.recording.start_ns),
-        measured=span.measured,
-        estimates=span.estimates,
-        outside={
-            sensor: np.ma.masked_array(applied.outside, mask=~applied.known) for sensor, applied in span.applied.items()
-        },
-        fused_joints=() if fused is None else fused.fusion.joints,
-        torques={} if fused is None else dict(fused.columns()),
-        uncertain=span.uncertain,
-        centres={source.contact.name: source.centre for source in span.skin},
-        identities={source.contact.name: source.identity for source in span.skin},
-    )
 
 
 def _contacts(span: IntervalEstimates) -> Iterator[ContactSummary]:

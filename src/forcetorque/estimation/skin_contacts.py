@@ -264,11 +264,11 @@ def sources_at(experiment: Experiment, patches: Sequence[PatchFrames], at_ns: In
 
 def _sources(experiment: Experiment, frames: PatchFrames, at_ns: IntArray) -> Iterator[SkinSource]:
     patch, start_ns = frames.patch, experiment.recording.start_ns
-    frame_ns = start_ns + np.array([np.rint(1e9 * middle) for middle, _, _ in frames.looked], dtype=np.int64)
+    frame_ns = start_ns + np.array([np.rint(1e9 * middle) for middle, _, _ in frames.read.frames], dtype=np.int64)
     oldest_s = OLDEST_S if patch.oldest_s is None else patch.oldest_s
     rows = frames_before(frame_ns, at_ns, patch=patch.name, oldest_s=oldest_s)
     link = frames.skin.layout.frame if patch.link is None else patch.link
-    contacts = [contacts for _, _, contacts in frames.looked]
+    contacts = [contacts for _, _, contacts in frames.read.frames]
     both = np.concatenate([rows, np.minimum(rows + 1, len(contacts) - 1)])
     now = np.arange(len(both)) < len(rows)
     for source in skin_sources(patch.name, link, contacts, both, friction=patch.friction):

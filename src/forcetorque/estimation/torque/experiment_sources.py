@@ -14,7 +14,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.section import FUSION, MOTORS, FusionTable
 from forcetorque.estimation.skin_contacts import SkinSource, frames_of_patches, sources_at
-from forcetorque.estimation.torque.motor import Friction, Motor, fit_friction, motor_source
+from forcetorque.estimation.torque.motor import Friction, drive_torque, fit_friction, motor_source
 from forcetorque.estimation.torque.source import TorqueSource, wrench_source
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in
@@ -251,8 +251,8 @@ class TorqueSources:
             stream, signal = recording.joint_signals(motor.quantity)[motor.joint]
             require_overlap(clock_stream(self.experiment), stream)
             reading = interpolate(stream, signal.column(motor.joint)[:, None], motion.stamp_ns)[:, 0]
-            drive = Motor(joint=motor.joint, torque_constant=motor.torque_constant, gear_ratio=motor.gear_ratio or 0.0)
-            columns.append(drive.drive_torque(reading))
+            constant, ratio = motor.torque_constant, motor.gear_ratio or 0.0
+            columns.append(drive_torque(motor.joint, reading, torque_constant=constant, gear_ratio=ratio))
         return np.stack(columns, axis=1)
 
     def _frictions(self) -> tuple[Friction, ...]:

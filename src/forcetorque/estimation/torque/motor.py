@@ -195,36 +195,28 @@ def _require_both_ways(joint: str, velocity: FloatArray, standstill: float) -> N
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Motor:
-    """The drive of one joint."""
+def drive_torque(joint: str, reading: FloatArray, *, torque_constant: float, gear_ratio: float) -> FloatArray:
+    """Give the torque of a motor as its joint would have it without friction.
 
-    joint: str
-    """Name of the joint."""
-    torque_constant: float
-    """Torque of the motor per ampere, or per whole PWM duty; N m/A, N m."""
-    gear_ratio: float
-    """Turns of the motor per turn of the joint; negative where it turns the other way."""
+    Args:
+        joint: Name of the joint.
+        reading: Currents, or PWM duties; shape (n,); A, 1.
+        torque_constant: Torque of the motor per ampere, or per whole PWM duty; N m/A, N m.
+        gear_ratio: Turns of the motor per turn of the joint; negative where it turns the other way.
 
-    def __post_init__(self) -> None:
-        for name in ("torque_constant", "gear_ratio"):
-            value = getattr(self, name)
-            if not np.isfinite(value) or value == 0.0:
-                raise EstimationError(
-                    f"motor of joint {self.joint!r}: {name}: expected a number other than 0, got {value}; "
-                    "no torque can be told from a motor without it"
-                )
+    Returns:
+        Torques along +q; shape (n,); N m.
 
-    def drive_torque(self, reading: FloatArray) -> FloatArray:
-        """Give the torque of the motor as the joint would have it without friction.
-
-        Args:
-            reading: Currents, or PWM duties; shape (n,); A, 1.
-
-        Returns:
-            Torques along +q; shape (n,); N m.
-        """
-        return self.torque_constant * self.gear_ratio * np.asarray(reading)
+    Raises:
+        EstimationError: If a factor is 0 or not finite.
+    """
+    for name, value in (("torque_constant", torque_constant), ("gear_ratio", gear_ratio)):
+        if not np.isfinite(value) or value == 0.0:
+            raise EstimationError(
+                f"motor of joint {joint!r}: {name}: expected a number other than 0, got {value}; "
+                "the torque cannot be computed from a motor without it"
+            )
+    return torque_constant * gear_ratio * np.asarray(reading)
 
 
 def motor_source(

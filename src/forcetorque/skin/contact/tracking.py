@@ -6,11 +6,13 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.table import Row, Shown
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import WAKING, PatchReader, PressureFrame
 from forcetorque.skin.temperature.gains import HeatGains, TaxelDrift
@@ -33,37 +35,25 @@ _JUST: Final = 1e-9
 """Less than the time between frames; s."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Release:
+OFFERED: Final = "offered"
+"""State of a release after which the rest may be taken again."""
+
+
+class ReleaseRow(Row):
     """A contact that was let go."""
 
-    time_s: float
-    """When it had settled; s."""
-    held_s: float
-    """For how long it was held; s."""
-    force_N: float
+    time_s: Annotated[float, Shown("time", "s", digits=1)]
+    """When it had settled, since the start of the recording."""
+    held_s: Annotated[float, Shown("held", "s", digits=1)]
+    """For how long it was held."""
+    force_N: Annotated[float, Shown("force", "N", digits=2)]
     """Force before."""
-    left_N: float
-    """Force that its taxels read after; heat, or what still touches them."""
-    drift_limit_N: float
-    """How much heat may have added by then; NaN if not known."""
-    touched: BoolArray
-    """Taxels that it touched; shape (n,)."""
-    re_tared: bool = False
-    """Whether what is left was taken as rest."""
-
-    @property
-    def may_be_heat(self) -> bool:
-        """Whether heat explains all that is left."""
-        return 0.0 < self.left_N <= self.drift_limit_N
-
-    def taken_as_rest(self) -> Release:
-        """Say that what is left was taken as rest.
-
-        Returns:
-            The same release.
-        """
-        return replace(self, re_tared=True)
+    left_N: Annotated[float, Shown("left", "N", digits=2)]
+    """Force that its taxels read after."""
+    drift_limit_N: Annotated[float | None, Shown("drift limit", "N", digits=1)]
+    """How much of that heat may be."""
+    re_tare: Annotated[str, Shown("re-tare")]
+    """`offered` where heat explains all that is left, `done` where that was taken as rest, else `no`."""
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -82,7 +72,7 @@ class _Touch:
         while len(self.course) > _FEWEST and self.course[0][0] < seconds - WITHIN_S:
             self.course.popleft()
 
-    def release(self) -> Release | None:
+    def release(self) -> ReleaseRow | None:
         """Tell whether it was let go and has settled."""
         times, forces, limits = np.array(self.course).T
         settled = times > min(times[-1] - SETTLED_S, times[-2:][0] - _JUST)
@@ -91,13 +81,14 @@ class _Touch:
         steady = len(now) < len(forces) and np.ptp(now) <= SETTLED_SHARE * before
         if not steady or now.mean() > (1.0 - RELEASED_SHARE) * before:
             return None
-        return Release(
+        left, limit = float(now.mean()), float(limits[-1])
+        return ReleaseRow(
             time_s=float(times[-1]),
             held_s=float(times[-1]) - self.begun_s,
             force_N=before,
-            left_N=float(now.mean()),
-            drift_limit_N=float(limits[-1]),
-            touched=self.touched,
+            left_N=left,
+            drift_limit_N=finite_or_none(limit),
+            re_tare=OFFERED if 0.0 < left <= limit else "no",
         )
 
 
@@ -107,7 +98,7 @@ class TouchLog:
     def __init__(self) -> None:
         self._touches: list[_Touch] = []
 
-    def released(self, seconds: float, contacts: SkinContacts) -> Iterator[Release]:
+    def released(self, seconds: float, contacts: SkinContacts) -> Iterator[tuple[ReleaseRow, BoolArray]]:
         """Add a frame.
 
         Args:
@@ -115,7 +106,7 @@ class TouchLog:
             contacts: Its contacts.
 
         Yields:
-            Contacts that were let go and have settled.
+            Contacts that were let go and have settled, and the taxels that each touched; shape (n,).
         """
         for number in range(len(contacts)):
             own = contacts.contact == number
@@ -130,7 +121,7 @@ class TouchLog:
             if release is not None:
                 self._touches.remove(touch)
                 if release.force_N > 0.0:
-                    yield release
+                    yield release, touch.touched
 
 
 BASELINE_S: Final = 30.0
@@ -169,7 +160,7 @@ class PatchFollower:
         """Fall that neither pressure nor pads explain; shape (n,); counts."""
         self.touched_s: FloatArray = np.zeros(len(patch.layout))
         """Time for which each taxel has been touched; shape (n,); s."""
-        self.releases: list[Release] = []
+        self.releases: list[ReleaseRow] = []
         """Contacts that were let go."""
         self._touches = TouchLog()
         self.heating = 0.0
@@ -199,8 +190,8 @@ class PatchFollower:
         contacts = find_contacts(self.patch, frame)
         left = self.reader.table.fall(message, self.reader.rest) - drift.fall
         self._keep(passed, contacts.contact >= 0, left)
-        for release in self._touches.released(seconds, contacts):
-            self.releases.append(self._let_go(release, left))
+        for release, touched in self._touches.released(seconds, contacts):
+            self.releases.append(self._let_go(release, touched, left))
         return frame, contacts
 
     def _heat(self, passed: float, message: FloatArray, number: int) -> tuple[FloatArray, FloatArray]:
@@ -229,14 +220,14 @@ class PatchFollower:
         self.baseline[idle] += (1.0 - np.exp(-passed / BASELINE_S)) * left[idle]
         self.touched_s = np.maximum(self.touched_s + np.where(touched, passed, -passed), 0.0)
 
-    def _let_go(self, release: Release, left: FloatArray) -> Release:
+    def _let_go(self, release: ReleaseRow, touched: BoolArray, left: FloatArray) -> ReleaseRow:
         """Take what is left on the taxels of a contact as their rest, if that was asked for and heat can explain it."""
-        if not (self.re_tare and release.may_be_heat):
+        if not self.re_tare or release.re_tare != OFFERED:
             return release
-        near = self.patch.surface.with_ring(release.touched)
+        near = self.patch.surface.with_ring(touched)
         self.baseline[near] += left[near]
         self.touched_s[near] = 0.0
-        return release.taken_as_rest()
+        return release.model_copy(update={"re_tare": "done"})
 
 
 REACH_M: Final = 0.02

@@ -17,8 +17,7 @@ from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
-from forcetorque.skin.taxels.fit import FittedSamples, compare_curves, fitted_samples
-from forcetorque.skin.taxels.health import taxel_response
+from forcetorque.skin.taxels.fit import FittedSamples, calibrated_taxel, compare_curves, fitted_samples
 from forcetorque.skin.taxels.patch_calibration import CalibratedTaxel, PatchCalibration, PatchProvenance
 from forcetorque.skin.taxels.recording import PatchRecording, of_use, patch_recordings, same_patch
 from forcetorque.skin.taxels.result import (
@@ -220,16 +219,7 @@ def _artefact(
 def _taxel(column: int, k: int, curve: TaxelCurve | None, samples: FittedSamples) -> CalibratedTaxel:
     if curve is None:
         return CalibratedTaxel(taxel=column, left_out=tuple(reason.value for reason in samples.ailments[k]))
-    response = taxel_response(curve, samples.fall[:, k], samples.pressure, samples.unloading)
-    return CalibratedTaxel(
-        taxel=column,
-        coefficients=curve.coefficients,
-        range_counts=curve.range_counts,
-        rmse_pa=response.rmse_pa,
-        error_pa=response.error_pa,
-        hysteresis_pa=response.hysteresis_pa,
-        hysteresis_share=response.hysteresis_share,
-    )
+    return calibrated_taxel(column, curve, samples.fall[:, k], samples.pressure, samples.unloading)
 
 
 def _answer(

@@ -14,7 +14,7 @@ from forcetorque.base.errors import SkinError, known_names
 from forcetorque.recording.alignment import seconds_since, usable_samples
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import PatchReader, PressureFrame
-from forcetorque.skin.contact.tracking import ContactLife, ContactLives, PatchFollower, Release
+from forcetorque.skin.contact.tracking import ContactLife, ContactLives, PatchFollower, ReleaseRow
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.taxels.health import FULL_COUNTS, Ailment, require_counts, taxel_ailments
 from forcetorque.skin.taxels.patch_calibration import PatchCalibration, PressureTable
@@ -206,7 +206,7 @@ class SkinFrames:
     """Time, pressures and contacts of every frame; s."""
     lives: tuple[ContactLife, ...]
     """Contacts from their first frame to their last."""
-    releases: tuple[Release, ...]
+    releases: tuple[ReleaseRow, ...]
     """Contacts that were let go, where heat is followed."""
     dead_pads: IntArray
     """Columns of thermal pads that are dead in this recording."""

@@ -17,7 +17,7 @@ from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import AxisValues, FloatOrNull, Row, Shown, WrenchValues
 from forcetorque.skin.contact.contacts import SkinContacts, lobes
 from forcetorque.skin.contact.pressure_frame import PressureFrame
-from forcetorque.skin.contact.tracking import ContactLife, Release, followed_places
+from forcetorque.skin.contact.tracking import ContactLife, followed_places
 from forcetorque.skin.temperature.gains import HeatRule
 from forcetorque.skin.wrench.frames import SkinFrames
 from forcetorque.skin.wrench.patch import SkinPatch
@@ -264,47 +264,8 @@ def _summary(stream: Stream, start_ns: int) -> tuple[SkinEventRow, SkinEventPict
     return row, SkinEventPicture(stream=stream.name, seconds=seconds, heuristic=heuristic)
 
 
-OFFERED: Final = "offered"
-"""Said of a release after which rest may be taken anew."""
 HEATING: Final = 1.25
 """Heat that comes faster than in the warm-up by more is said: the limits of drift are told from its steepest minute."""
-
-
-class ReleaseRow(Row):
-    """A contact that was let go."""
-
-    time_s: Annotated[float, Shown("time", "s", digits=1)]
-    """When it had settled, since the start of the recording."""
-    held_s: Annotated[float, Shown("held", "s", digits=1)]
-    """For how long it was held."""
-    force_N: Annotated[float, Shown("force", "N", digits=2)]
-    """Force before."""
-    left_N: Annotated[float, Shown("left", "N", digits=2)]
-    """Force that its taxels read after."""
-    drift_limit_N: Annotated[float | None, Shown("drift limit", "N", digits=1)]
-    """How much of that heat may be."""
-    re_tare: Annotated[str, Shown("re-tare")]
-    """`offered` where heat explains all that is left, `done` where that was taken as rest, else `no`."""
-
-
-def release_row(release: Release) -> ReleaseRow:
-    """Write a release down.
-
-    Args:
-        release: The release.
-
-    Returns:
-        Its row.
-    """
-    offered = OFFERED if release.may_be_heat else "no"
-    return ReleaseRow(
-        time_s=release.time_s,
-        held_s=release.held_s,
-        force_N=release.force_N,
-        left_N=release.left_N,
-        drift_limit_N=finite_or_none(release.drift_limit_N),
-        re_tare="done" if release.re_tared else offered,
-    )
 
 
 def heat_warnings(looked: SkinFrames, rows: Sequence[SkinContactRow], *, has_pads: bool) -> tuple[str, ...]:

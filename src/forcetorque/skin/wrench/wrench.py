@@ -19,6 +19,7 @@ from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import PressureFrame
+from forcetorque.skin.contact.tracking import OFFERED, ReleaseRow
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import SkinLayout
@@ -29,15 +30,12 @@ from forcetorque.skin.wrench.frames import FrameChoice, SkinFrames, patch_messag
 from forcetorque.skin.wrench.operator import WrenchMethod
 from forcetorque.skin.wrench.patch import SkinPatch
 from forcetorque.skin.wrench.result import (
-    OFFERED,
     ContactLifeRow,
-    ReleaseRow,
     SkinContactRow,
     SkinWrenchPicture,
     contact_rows,
     heat_warnings,
     life_rows,
-    release_row,
 )
 
 
@@ -214,11 +212,6 @@ class PatchFrames:
     read: SkinFrames
     """Its frames, and what they were read by."""
 
-    @property
-    def looked(self) -> tuple[tuple[float, PressureFrame, SkinContacts], ...]:
-        """Time in the middle of each mean of messages, s since the start of the recording; pressures and contacts."""
-        return self.read.frames
-
 
 def patch_frames(
     content: PatchExperiment,
@@ -262,7 +255,6 @@ def _answer(content: PatchExperiment, frames: PatchFrames, chosen: WrenchChoice)
     force = np.array([np.linalg.norm(contacts.wrench[:, :3].sum(axis=0)) for _, _, contacts in looked.frames])
     touched = np.array([len(contacts) > 0 for _, _, contacts in looked.frames])
     rows = [row for middle, frame, contacts in looked.frames for row in contact_rows(skin, frame, contacts, middle)]
-    releases = tuple(map(release_row, looked.releases))
     return SkinWrench(
         experiment=content.name,
         patch=own.name,
@@ -278,7 +270,7 @@ def _answer(content: PatchExperiment, frames: PatchFrames, chosen: WrenchChoice)
         mean_force_N=float(force[touched].mean()) if touched.any() else 0.0,
         contacts=tuple(rows),
         lives=life_rows(looked.lives, rows),
-        releases=releases,
+        releases=looked.releases,
         picture=_picture(own.name, skin, seconds, force, looked.frames, chosen),
         warnings=(
             *_warnings(rows, looked, chosen),
