@@ -2,7 +2,7 @@
 """Objects of 0.2 to 3 kg on a simulated lower leg, and how well their wrenches are told.
 
 `python -m tests.skin.contact_trials` prints the figures of docs/skin_wrench.md: the layout is iCub's `right_leg_lower`,
-the truth and the taxels are simulated. Methods were chosen, and `SURPRISE_SHARE` and `SHAPE_SHARE` fitted, on contacts
+the truth and the taxels are simulated. Methods were chosen, and `RESIDUAL_SHARE` and `SHAPE_SHARE` fitted, on contacts
 of the first seed; figures are of the second.
 """
 

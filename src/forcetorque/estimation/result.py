@@ -63,20 +63,20 @@ def skin_rows(span: IntervalEstimates) -> Iterator[SkinContactSummary]:
             continue
         name = source.contact.name
         force, sd = (values[there][:, :3] for values in (span.uncertain.contact(name), span.uncertain.contact_sd(name)))
-        told = np.isfinite(force).all(axis=1)
+        determined = np.isfinite(force).all(axis=1)
         yield SkinContactSummary(
             interval=span.interval.label,
             contact=name,
             identities=tuple(np.unique(source.identity[there]).tolist()),
             samples=int(there.sum()),
             push_mean_N=float(np.linalg.norm(source.wrench[there, :3], axis=1).mean()),
-            force_mean_N=float(np.linalg.norm(force[told], axis=1).mean()) if told.any() else None,
-            force_sd_N=float(np.sqrt((sd[told] ** 2).sum(axis=1).mean())) if told.any() else None,
+            force_mean_N=float(np.linalg.norm(force[determined], axis=1).mean()) if determined.any() else None,
+            force_sd_N=float(np.sqrt((sd[determined] ** 2).sum(axis=1).mean())) if determined.any() else None,
             beyond_range=int(source.beyond_range[there].sum()),
         )
 
 
-def skin_doubts(span: IntervalEstimates, exact: tuple[str, ...], resting: tuple[str, ...]) -> Iterator[str]:
+def skin_warnings(span: IntervalEstimates, exact: tuple[str, ...], resting: tuple[str, ...]) -> Iterator[str]:
     """Say what makes estimates with skin doubtful.
 
     Args:
@@ -151,7 +151,7 @@ class SubModelSummary(Row):
     residual_moment_mean_Nm: Annotated[float | None, Shown("residual", "N m", digits=3)]
     """Mean norm of the moment that they leave unexplained."""
     ambiguous: tuple[tuple[str, ...], ...]
-    """Groups of unknowns that cannot be told apart."""
+    """Groups of unknowns that cannot be determined apart."""
 
 
 class EstimatedRecording(Row):
@@ -341,7 +341,7 @@ def summarise_estimates(
         skin=tuple(row for span in spans for row in skin_rows(span)),
         warnings=(
             *sentences(validity),
-            *_doubts(corrections, spans),
+            *_warnings(corrections, spans),
             *(f"left out: {sentence}" for sentence in left_out),
             *(() if fusion is None else fusion.warnings()),
         ),
@@ -356,13 +356,13 @@ def _outside(corrections: Mapping[str, Correction], spans: Sequence[IntervalEsti
             )
 
 
-def _doubts(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[str]:
+def _warnings(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[str]:
     exact = tuple(
         name for name, one in corrections.items() if one.calibration is None or one.calibration.posterior is None
     )
     resting = tuple(name for name, one in corrections.items() if one.calibration is None and one.removes_offset)
     for span in spans:
-        yield from skin_doubts(span, exact, resting)
+        yield from skin_warnings(span, exact, resting)
     for sensor, one in corrections.items():
         if not one.removes_offset:
             yield (

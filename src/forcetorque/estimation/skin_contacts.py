@@ -77,7 +77,7 @@ class SkinSource:
             covariance = covariance + slanted @ slanted.transpose(0, 2, 1)
         return noise_share * covariance, square_root((1.0 - noise_share) * covariance)
 
-    def on_the_way_to(self, later: SkinSource) -> SkinSource:
+    def with_change_until(self, later: SkinSource) -> SkinSource:
         """Count what changes until the next frame among the errors: a sample may be anywhere between both.
 
         Args:
@@ -272,7 +272,7 @@ def _sources(experiment: Experiment, frames: PatchFrames, at_ns: IntArray) -> It
     both = np.concatenate([rows, np.minimum(rows + 1, len(contacts) - 1)])
     now = np.arange(len(both)) < len(rows)
     for source in skin_sources(patch.name, link, contacts, both, friction=patch.friction):
-        yield source.of_samples(now).on_the_way_to(source.of_samples(~now))
+        yield source.of_samples(now).with_change_until(source.of_samples(~now))
 
 
 def uncertainty_of(

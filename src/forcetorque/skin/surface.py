@@ -27,7 +27,7 @@ which diagonal is taken, and a layout that is turned would get another surface."
 _SAME_LENGTH_M: Final = 1e-9
 """Difference between lengths that is rounding."""
 _PATCHES: Final = 16
-"""Patches whose triangles are remembered: normals and pressures ask for them, with every hint at an outer side, and
+"""Patches whose triangles are remembered: normals and pressures need them, with every hint at an outer side, and
 every recording again."""
 
 
@@ -129,14 +129,14 @@ def _is_free(positions: FloatArray, edge: tuple[int, int], corner: int, corners:
 
 
 _FLAT: Final = 0.02
-"""Mean outward cosine below which a surface does not tell by its shape which side is out."""
+"""Mean outward cosine below which a surface does not show by its shape which side is out."""
 
 
 def outward_triangles(positions: FloatArray, triangles: IntArray, outward: FloatArray | None) -> IntArray:
     """Turn triangles so that their corners run counterclockwise where they are seen from outside.
 
-    Neighbours are turned alike; which way, every connected piece is told by rough directions, or by its shape: a piece
-    of skin bulges outwards.
+    Neighbours are turned alike. Rough directions decide which way for every connected piece, or its shape: a piece of
+    skin bulges outwards.
 
     Args:
         positions: Points; shape (n, 3); m.
@@ -148,7 +148,7 @@ def outward_triangles(positions: FloatArray, triangles: IntArray, outward: Float
         The triangles, turned; shape (m, 3).
 
     Raises:
-        SkinError: If the surface has only one side, or neither directions nor shape tell which one is outer.
+        SkinError: If the surface has only one side, or neither directions nor shape determine which one is outer.
     """
     turned, pieces = _turned_alike(triangles)
     corners = positions[turned]
@@ -164,8 +164,8 @@ def outward_triangles(positions: FloatArray, triangles: IntArray, outward: Float
         cosine = agreement[own].sum() / full[own].sum() if full[own].any() else 0.0
         if not abs(cosine) > _FLAT:
             raise SkinError(
-                f"outward: expected directions that tell the outer side of the skin about taxel {turned[own][0, 0]}, "
-                f"got a mean cosine of {cosine:.3f}; state rough outward directions of the taxels"
+                f"outward: expected directions that determine the outer side of the skin about taxel "
+                f"{turned[own][0, 0]}, got a mean cosine of {cosine:.3f}; state rough outward directions of the taxels"
             )
         if cosine < 0.0:
             turned[own] = turned[own][:, ::-1]
@@ -307,7 +307,7 @@ def skin_surface(
         The surface; taxels farther than an edge from all others stay without facet.
 
     Raises:
-        SkinError: If two taxels share a position, no three taxels are neighbours, or it is open which side is outer.
+        SkinError: If two taxels share a position, no three taxels are neighbours, or the outer side is undetermined.
     """
     points = read_only(positions, name="positions", shape=(None, 3))
     hints = None if outward is None else read_only(outward, name="outward", shape=(len(points), 3))

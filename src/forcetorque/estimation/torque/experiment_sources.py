@@ -125,8 +125,8 @@ class TorqueSources:
         rows, _ = pick_samples(experiment.recording, source, interval)
         at_ns = source.stamp_ns[rows]
         skin = sources_at(experiment, self.patches, at_ns)
-        asked = [ft for ft, there in ((True, experiment.sensors), (False, self._feels(interval))) if there]
-        needed = [joint for ft in asked for joint in required_joints_of(self._question(interval, skin, ft=ft))]
+        choices = [ft for ft, there in ((True, experiment.sensors), (False, self._feels(interval))) if there]
+        needed = [joint for ft in choices for joint in required_joints_of(self._question(interval, skin, ft=ft))]
         joints, root = robot_motion_at(
             experiment.recording,
             experiment.model,
@@ -164,7 +164,7 @@ class TorqueSources:
             contacts=tuple(contacts),
             torques=self.joints or moving_joints(tree),
             torque_sum=TorqueSum.SUB_MODEL,
-            # more unknowns than equations are no reason to refuse: torques that hang on them are left to other sources
+            # more unknowns than equations are allowed: torques that depend on them are left to other sources
             minimum_norm=MinimumNorm(length_scale=1.0),
         )
 
@@ -291,7 +291,7 @@ class TorqueSources:
             return self._skin(motion)
         raise ExperimentError(
             f"interval {motion.interval.label!r}: expected [[sensor]], [[patch]] with a table or a known [[contact]], "
-            "which tell the torques that friction of motors is fitted to, got none"
+            "which give the torques that friction of motors is fitted to, got none"
         )
 
 

@@ -144,7 +144,7 @@ def _stacked(blocks: Sequence[Affine], width: tuple[int, int, int]) -> Affine:
 
 
 _SEEN = 1e-6
-"""An answer does not depend on what cannot be told if less than this share of it does."""
+"""A result does not depend on undetermined directions if less than this share of it does."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -288,7 +288,7 @@ def undetermined_of(actors: Sequence[Actor], hidden: FloatArray) -> tuple[Undete
                 Undetermined(
                     contacts=tuple(actors[index].name for index in np.flatnonzero(pattern).tolist()),
                     samples=samples,
-                    directions=tuple(_words(actors, owner, vector, first) for vector in basis),
+                    directions=tuple(_description(actors, owner, vector, first) for vector in basis),
                 )
             )
     return tuple(results)
@@ -308,7 +308,7 @@ def _sparse_basis(projection: FloatArray) -> list[FloatArray]:
     return list(rows)
 
 
-def _words(actors: Sequence[Actor], owner: IntArray, vector: FloatArray, sample: int) -> str:
+def _description(actors: Sequence[Actor], owner: IntArray, vector: FloatArray, sample: int) -> str:
     """What a vector of unknowns does, scaled to a largest component of 1 N or 1 N m."""
     wrenches = {
         actor.name: actor.free[sample] @ vector[owner == k] for k, actor in enumerate(actors) if (owner == k).any()

@@ -57,7 +57,7 @@ class ReleaseRow(Row):
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
-class _Touch:
+class _HeldContact:
     """A contact that is followed from frame to frame; force and limit are those of all contacts on its taxels."""
 
     begun_s: float
@@ -92,11 +92,11 @@ class _Touch:
         )
 
 
-class TouchLog:
+class ReleaseDetector:
     """Follows contacts, and says which are let go."""
 
     def __init__(self) -> None:
-        self._touches: list[_Touch] = []
+        self._touches: list[_HeldContact] = []
 
     def released(self, seconds: float, contacts: SkinContacts) -> Iterator[tuple[ReleaseRow, BoolArray]]:
         """Add a frame.
@@ -112,7 +112,7 @@ class TouchLog:
             own = contacts.contact == number
             known = next((touch for touch in self._touches if (touch.touched & own).any()), None)
             if known is None:
-                self._touches.append(_Touch(begun_s=seconds, touched=own))
+                self._touches.append(_HeldContact(begun_s=seconds, touched=own))
             else:
                 known.touched = known.touched | own
         for touch in list(self._touches):
@@ -138,7 +138,7 @@ class PatchFollower:
 
     Pads tell heat from inside, by their gains and lags. What these leave is a baseline of every taxel, which follows it
     while it is idle, and is frozen in a contact and one ring around it, so that no contact is eaten. Heat that comes
-    through a contact is told by neither: it is bounded by the time for which each taxel has been touched, times the
+    through a contact is measured by neither: it is bounded by the time for which each taxel has been touched, times the
     steepest rate of the warm-up, and what pads left unexplained there. A taxel that is let go cools as slowly as it was
     heated.
     """
@@ -162,11 +162,11 @@ class PatchFollower:
         """Time for which each taxel has been touched; shape (n,); s."""
         self.releases: list[ReleaseRow] = []
         """Contacts that were let go."""
-        self._touches = TouchLog()
+        self._touches = ReleaseDetector()
         self.heating = 0.0
-        """Steepest minute of heat that pads told, over that of the warm-up; median over taxels."""
+        """Steepest minute of heat measured by pads, over that of the warm-up; median over taxels."""
         self._pads = PadFilter(heat.lags)
-        self._told: deque[tuple[float, FloatArray]] = deque()
+        self._heats: deque[tuple[float, FloatArray]] = deque()
         self._last_s: float | None = None
 
     def frame(self, seconds: float, counts: FloatArray) -> tuple[PressureFrame, SkinContacts]:
@@ -203,12 +203,12 @@ class PatchFollower:
 
     def _take_rate(self, seconds: float, heat: FloatArray) -> None:
         """Compare the heat of the last minute with the steepest one of the warm-up."""
-        if self._told and seconds - self._told[-1][0] < _RATE_STEP_S:
+        if self._heats and seconds - self._heats[-1][0] < _RATE_STEP_S:
             return
-        self._told.append((seconds, heat))
-        begun, before = self._told[0]
+        self._heats.append((seconds, heat))
+        begun, before = self._heats[0]
         if seconds - begun >= RATE_S:
-            self._told.popleft()
+            self._heats.popleft()
             known = self.reader.live & (self.heat.rates > 0.0)
             if known.any():
                 rate = np.abs(heat - before)[known] / (seconds - begun)
@@ -221,7 +221,7 @@ class PatchFollower:
         self.touched_s = np.maximum(self.touched_s + np.where(touched, passed, -passed), 0.0)
 
     def _let_go(self, release: ReleaseRow, touched: BoolArray, left: FloatArray) -> ReleaseRow:
-        """Take what is left on the taxels of a contact as their rest, if that was asked for and heat can explain it."""
+        """Take what is left on the taxels of a contact as their rest, if that is requested and heat explains it."""
         if not self.re_tare or release.re_tare != OFFERED:
             return release
         near = self.patch.surface.with_ring(touched)
@@ -267,7 +267,7 @@ class ContactLives:
 
     Contacts are assigned to those of the frames before so that they share as many taxels as possible; where they share
     none, by places up to `REACH_M` apart. Two contacts that become one go on as the one that shares more with it; the
-    other has merged into it. What comes off a contact is a new one that split from it: after a merger nobody can tell
+    other has merged into it. What comes off a contact is a new one that split from it: after a merger it is not known
     which of both it was.
     """
 
@@ -286,7 +286,7 @@ class ContactLives:
         Args:
             seconds: Its time, later than that of the frame before; s.
             places: Where its contacts are; shape (c, 3); m.
-            taxels: Which taxels feel each; none where nobody says; shape (c, n).
+            taxels: Which taxels feel each; none where that is not known; shape (c, n).
 
         Returns:
             Identities of the contacts; shape (c,).
@@ -311,7 +311,7 @@ class ContactLives:
     def _identity(
         self, seconds: float, known: list[_Trace], shared: FloatArray, owner: list[int | None], contact: int
     ) -> int:
-        """Number of a contact, which is born if nobody owns it."""
+        """Number of a contact, a new one if no trace is assigned."""
         row = owner[contact]
         if row is not None:
             identity = known[row].identity

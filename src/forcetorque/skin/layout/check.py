@@ -25,7 +25,7 @@ from forcetorque.skin.layout.finding import LayoutFindingRow, PatchShape, counte
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import PatchDescription
 
-_LOOKS: tuple[Callable[[PatchShape], Iterator[LayoutFindingRow]], ...] = (
+_CHECKS: tuple[Callable[[PatchShape], Iterator[LayoutFindingRow]], ...] = (
     representatives,
     duplicates,
     off_template,
@@ -43,7 +43,7 @@ def layout_findings(patch: PatchDescription) -> tuple[LayoutFindingRow, ...]:
         patch: Patch.
 
     Returns:
-        Findings; none where it is sound.
+        Findings; none where it is valid.
     """
     return shape_findings(shape_of(patch))
 
@@ -55,9 +55,9 @@ def shape_findings(shape: PatchShape) -> tuple[LayoutFindingRow, ...]:
         shape: Patch.
 
     Returns:
-        Findings; none where it is sound.
+        Findings; none where it is valid.
     """
-    return tuple(finding for look in _LOOKS for finding in look(shape))
+    return tuple(finding for check in _CHECKS for finding in check(shape))
 
 
 _MOST = 6

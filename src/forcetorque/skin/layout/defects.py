@@ -108,8 +108,8 @@ def _misled(entries: IntArray, placed: BoolArray) -> IntArray:
     taxels = np.flatnonzero(placed & (entries >= 0))
     chosen = entries[taxels]
     inside = np.minimum(chosen, len(entries) - 1)
-    sound = (chosen < len(entries)) & placed[inside] & (entries[inside] == chosen)
-    return taxels[~sound]
+    valid = (chosen < len(entries)) & placed[inside] & (entries[inside] == chosen)
+    return taxels[~valid]
 
 
 def _finding(patch: PatchDescription, columns: IntArray, message: str, remedy: str) -> LayoutFindingRow:
@@ -124,7 +124,7 @@ def off_template(shape: PatchShape) -> Iterator[LayoutFindingRow]:
     """Find modules of twelve columns that do not have the ten taxels of the triangle where it has them.
 
     Args:
-        shape: Patch; of other skins, whose modules are not twelve columns each, nothing is asked.
+        shape: Patch; of other skins, whose modules are not twelve columns each, nothing is checked.
 
     Yields:
         A finding of those with other taxels, and one of those with taxels at other places.
@@ -166,7 +166,7 @@ def overlaps(shape: PatchShape) -> Iterator[LayoutFindingRow]:
     """Find modules whose centres are nearer than two triangles side by side can be.
 
     Args:
-        shape: Patch; of other skins, whose modules are not twelve columns each, nothing is asked.
+        shape: Patch; of other skins, whose modules are not twelve columns each, nothing is checked.
 
     Yields:
         One finding of them all.

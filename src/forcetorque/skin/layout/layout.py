@@ -20,8 +20,8 @@ UNIT_TOLERANCE = 1e-6
 class SkinLayout(ArrayRecord):
     """Where the taxels of a patch are, on which link, and which column of the counts is whose.
 
-    It is sound: no two taxels at one place, every normal of length 1. What is not can be looked at by
-    `forcetorque.skin.layout.formats`, and be told by `forcetorque skin check`.
+    It is valid: no two taxels at one place, every normal of length 1. What is not valid is read by
+    `forcetorque.skin.layout.formats` and described by `forcetorque skin check`.
     """
 
     name: str
@@ -46,7 +46,7 @@ class SkinLayout(ArrayRecord):
     def __post_init__(self) -> None:
         check_arrays(self)
         self._require_columns()
-        self._require_sound()
+        self._require_valid()
 
     def __len__(self) -> int:
         return len(self.taxels)
@@ -68,7 +68,7 @@ class SkinLayout(ArrayRecord):
         if len(both):
             raise ShapeError(f"patch {self.name!r}: column {both[0]}: expected a taxel or a thermal pad, got both")
 
-    def _require_sound(self) -> None:
+    def _require_valid(self) -> None:
         """Positions and normals are numbers, positions differ, normals have length 1."""
         for name, vectors in (("positions", self.positions), ("normals", self.normals)):
             self._refuse(~np.isfinite(vectors.sum(axis=1)), f"{name}: expected finite numbers", vectors)
@@ -93,7 +93,7 @@ UNIT_DIGITS = 2e-3
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PatchDescription(ArrayRecord):
-    """What a file says of a patch of skin, sound or not; `layout` is the sound form of it."""
+    """What a file says of a patch of skin, valid or not; `layout` is the valid form of it."""
 
     source: str
     """File."""
@@ -130,7 +130,7 @@ class PatchDescription(ArrayRecord):
         return len(self.taxels)
 
     def layout(self, normals: FloatArray | None = None) -> SkinLayout:
-        """Give the sound form; lengths of normals that are off by the rounding of the file are made 1.
+        """Give the valid form; lengths of normals that are off by the rounding of the file are made 1.
 
         Args:
             normals: Unit normals to use instead, such as those of `rebuilt_normals`; shape (n, 3).
@@ -139,7 +139,7 @@ class PatchDescription(ArrayRecord):
             The layout.
 
         Raises:
-            SkinError: If it is not sound.
+            SkinError: If it is not valid.
         """
         directions = self.unit_normals() if normals is None else normals
         return SkinLayout(

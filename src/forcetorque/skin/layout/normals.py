@@ -29,7 +29,7 @@ _FEWEST: Final = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TouchingPlanes(ArrayRecord):
+class TangentPlanes(ArrayRecord):
     """Planes that touch a surface."""
 
     centres: FloatArray = field(metadata=array("k", 3))
@@ -73,7 +73,7 @@ class TouchingPlanes(ArrayRecord):
         return constant / np.linalg.norm(constant)
 
 
-def module_planes(surface: SkinSurface, modules: IntArray) -> TouchingPlanes | None:
+def module_planes(surface: SkinSurface, modules: IntArray) -> TangentPlanes | None:
     """Find the planes of modules.
 
     Args:
@@ -95,10 +95,10 @@ def module_planes(surface: SkinSurface, modules: IntArray) -> TouchingPlanes | N
             return None
         outside = surface.vertex_normals[own == k].sum(axis=0) @ normal
         normals[k] = normal if outside >= 0.0 else -normal
-    return TouchingPlanes(centres=centres, normals=normals, weights=np.ones(len(numbers)), rough=normals[own])
+    return TangentPlanes(centres=centres, normals=normals, weights=np.ones(len(numbers)), rough=normals[own])
 
 
-def facet_planes(surface: SkinSurface) -> TouchingPlanes:
+def facet_planes(surface: SkinSurface) -> TangentPlanes:
     """Take the facets of a surface as planes.
 
     Args:
@@ -107,7 +107,7 @@ def facet_planes(surface: SkinSurface) -> TouchingPlanes:
     Returns:
         A plane for each facet, which counts by its area.
     """
-    return TouchingPlanes(
+    return TangentPlanes(
         centres=surface.positions[surface.triangles].mean(axis=1),
         normals=surface.facet_normals,
         weights=surface.facet_areas,

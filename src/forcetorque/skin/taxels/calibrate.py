@@ -144,23 +144,23 @@ def calibrate_skin(
     kept = CurveKind(curve)
     artefact = _artefact(contents, patches[0], logs, samples, curves[kept], kept, code_version, created)
     added = dict.fromkeys(sentence for content in contents for sentence in added_to(content.recording))
-    answer = _answer(artefact, logs, samples, curves, doubts=tuple(added))
-    return answer if warm_up is None else _with_warm_up(answer, warm_up, patches[0])
+    result = _result(artefact, logs, samples, curves, warnings=tuple(added))
+    return result if warm_up is None else _with_warm_up(result, warm_up, patches[0])
 
 
 def _with_warm_up(
-    answer: SkinCalibration, warm_up: Path | str | PatchExperiment, patch: ExperimentPatch
+    result: SkinCalibration, warm_up: Path | str | PatchExperiment, patch: ExperimentPatch
 ) -> SkinCalibration:
     """Add what a warm-up tells of the same patch."""
-    learned, doubts, inputs = learn_warm_up(warm_up, patch)
-    provenance = answer.calibration.provenance
+    learned, warnings, inputs = learn_warm_up(warm_up, patch)
+    provenance = result.calibration.provenance
     both = {**provenance.inputs_sha256, **inputs}
     changed = {"warm_up": learned, "provenance": provenance.model_copy(update={"inputs_sha256": both})}
-    return answer.model_copy(
+    return result.model_copy(
         update={
             "warm_up": warm_up_row(learned),
-            "calibration": answer.calibration.model_copy(update=changed),
-            "warnings": (*answer.warnings, *doubts),
+            "calibration": result.calibration.model_copy(update=changed),
+            "warnings": (*result.warnings, *warnings),
         }
     )
 
@@ -222,13 +222,13 @@ def _taxel(column: int, k: int, curve: TaxelCurve | None, samples: FittedSamples
     return calibrated_taxel(column, curve, samples.fall[:, k], samples.pressure, samples.unloading)
 
 
-def _answer(
+def _result(
     artefact: PatchCalibration,
     logs: Sequence[PatchRecording],
     samples: FittedSamples,
     curves: dict[CurveKind, list[TaxelCurve | None]],
     *,
-    doubts: tuple[str, ...],
+    warnings: tuple[str, ...],
 ) -> SkinCalibration:
     held_out, fitted = of_use(logs, Use.VALIDATION), of_use(logs, Use.CALIBRATION)[0]
     comparison = compare_curves(curves, held_out, samples.highest)
@@ -251,6 +251,6 @@ def _answer(
         picture=taxel_picture(fitted, recording_name(fitted), columns, curves, samples.highest),
         warnings=(
             *(() if held_out else ("no interval for validation: nothing says how good the curves are elsewhere",)),
-            *doubts,
+            *warnings,
         ),
     )

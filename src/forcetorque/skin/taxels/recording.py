@@ -251,13 +251,13 @@ def same_patch(experiments: Sequence[PatchExperiment], name: str | None) -> list
         same = (patch.name, patch.serial, patch.columns) == (first.name, first.serial, first.columns)
         if not same or not np.array_equal(patch.taxels, first.taxels):
             raise ExperimentError(
-                f"{experiment.file}: expected the patch {_words(first)} of {experiments[0].file}, got {_words(patch)}; "
-                "every patch has its own curves"
+                f"{experiment.file}: expected the patch {_description(first)} of {experiments[0].file}, got "
+                f"{_description(patch)}; every patch has its own curves"
             )
     return patches
 
 
-def _words(patch: ExperimentPatch) -> str:
+def _description(patch: ExperimentPatch) -> str:
     serial = "" if patch.serial is None else f" ({patch.serial})"
     return f"{patch.name!r}{serial} with {len(patch.taxels)} taxels in {patch.columns} columns"
 

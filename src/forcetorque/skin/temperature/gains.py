@@ -23,7 +23,7 @@ LEAST_SHARE: Final = 0.3
 """Change of a pad, over the median of all, below which it is dead: gains of pads differ by a quarter, not by that."""
 
 
-def sound_columns(counts: FloatArray) -> BoolArray:
+def valid_columns(counts: FloatArray) -> BoolArray:
     """Tell which columns are at no rail, nowhere jump or wrap, and are not noisy.
 
     Args:
@@ -46,7 +46,7 @@ def stuck_pads(counts: FloatArray) -> BoolArray:
         Whether each is; shape (t,).
     """
     change = np.ptp(counts, axis=0)
-    return ~sound_columns(counts) | ((change == 0.0) & (np.median(change) >= LEAST_CHANGE_COUNTS))
+    return ~valid_columns(counts) | ((change == 0.0) & (np.median(change) >= LEAST_CHANGE_COUNTS))
 
 
 def followed_pads(layout: SkinLayout, alive: BoolArray) -> BoolArray:
@@ -209,7 +209,7 @@ class HeatGains(ArrayRecord):
         return replace(self, follows=self.follows & ~dead)
 
     @property
-    def told(self) -> BoolArray:
+    def has_pad(self) -> BoolArray:
         """Taxels that follow a pad; shape (n,)."""
         return np.asarray(self.follows.any(axis=1))
 
@@ -254,7 +254,7 @@ def require_pads(layout: SkinLayout) -> None:
     if not len(layout.thermal_pads):
         raise SkinError(
             f"patch {layout.name!r}: thermal_pads: expected at least one, got none in its layout; without them heat "
-            "cannot be told from pressure"
+            "cannot be separated from pressure"
         )
 
 

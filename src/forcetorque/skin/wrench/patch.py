@@ -16,7 +16,7 @@ from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.surface import SkinSurface, edge_taxels, rim_strip, skin_surface
 from forcetorque.skin.wrench.elements import SkinElements, skin_elements
 from forcetorque.skin.wrench.operator import (
-    ForetoldPressures,
+    PredictedPressures,
     WrenchMethod,
     WrenchOperator,
     kriging_operator,
@@ -31,12 +31,12 @@ _KEPT: Final = 16
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SkinPatch:
-    """A patch, its surface, and how the wrench is told from its pressures."""
+    """A patch, its surface, and how the wrench is computed from its pressures."""
 
     layout: SkinLayout
     """Where the taxels are."""
     method: WrenchMethod
-    """How pressures between taxels are told."""
+    """How pressures are interpolated between taxels."""
     surface: SkinSurface
     """The surface through the taxels."""
     elements: SkinElements
@@ -61,7 +61,7 @@ class SkinPatch:
 
         Args:
             layout: Where the taxels are, with sound normals.
-            method: How pressures between taxels are told.
+            method: How pressures are interpolated between taxels.
             taxel_area_m2: Area of a taxel; the simple method needs it, no other takes it.
             plane: Places of the taxels in a drawing; the method of the thesis needs them, no other takes them; shape
                 (n, 2); m.
@@ -93,16 +93,16 @@ class SkinPatch:
             plane=None if plane is None else read_only(plane, name="plane", shape=(len(layout), 2)),
         )
 
-    def foretold(self, live: BoolArray) -> ForetoldPressures:
-        """Give what neighbours tell of each taxel, built and kept as operators are.
+    def predicted_pressures(self, live: BoolArray) -> PredictedPressures:
+        """Predict each taxel from its neighbours, built and kept as operators are.
 
         Args:
             live: Taxels that can be trusted, at least two; shape (n,).
 
         Returns:
-            Who tells whom.
+            Neighbours and their weights.
         """
-        return self._foretold_by_mask(live.tobytes())
+        return self._predicted_by_mask(live.tobytes())
 
     def operator(self, live: BoolArray | None = None) -> WrenchOperator:
         """Give the map from pressures to the wrench, built anew for every other mask of live taxels and then kept.
@@ -127,9 +127,9 @@ class SkinPatch:
         return lru_cache(maxsize=_KEPT)(lambda mask: self._built(np.frombuffer(mask, dtype=np.bool_)))
 
     @cached_property
-    def _foretold_by_mask(self) -> Callable[[bytes], ForetoldPressures]:
+    def _predicted_by_mask(self) -> Callable[[bytes], PredictedPressures]:
         return lru_cache(maxsize=_KEPT)(
-            lambda mask: ForetoldPressures.of(self.surface, np.frombuffer(mask, dtype=np.bool_))
+            lambda mask: PredictedPressures.of(self.surface, np.frombuffer(mask, dtype=np.bool_))
         )
 
     def _built(self, live: BoolArray) -> WrenchOperator:

@@ -268,11 +268,11 @@ HEATING: Final = 1.25
 """Heat that comes faster than in the warm-up by more is said: the limits of drift are told from its steepest minute."""
 
 
-def heat_warnings(looked: SkinFrames, rows: Sequence[SkinContactRow], *, has_pads: bool) -> tuple[str, ...]:
+def heat_warnings(frames: SkinFrames, rows: Sequence[SkinContactRow], *, has_pads: bool) -> tuple[str, ...]:
     """Say what heat makes doubtful.
 
     Args:
-        looked: Frames of a recording.
+        frames: Frames of a recording.
         rows: Its contacts.
         has_pads: Whether the patch has thermal pads.
 
@@ -280,33 +280,33 @@ def heat_warnings(looked: SkinFrames, rows: Sequence[SkinContactRow], *, has_pad
         Sentences.
     """
     hot = sum(row.drift_limit_N is not None and row.drift_limit_N > row.force_N for row in rows)
-    sentences = (
+    warnings = (
         (
-            has_pads and looked.rule is not HeatRule.LEARNED and len(rows) > 0,
+            has_pads and frames.rule is not HeatRule.LEARNED and len(rows) > 0,
             "no limit of drift is known: heat reads as force; `forcetorque skin calibrate --warm-up` learns how much",
         ),
         (
             hot > 0,
-            f"{hot} of {len(rows)} contacts lasted so long that heat through them, which no thermal pad tells, may be "
-            "all of their force; take rest anew where they are let go",
+            f"{hot} of {len(rows)} contacts lasted so long that heat through them, which no thermal pad measures, may "
+            "be all of their force; take rest anew where they are let go",
         ),
         (
-            looked.heating > HEATING,
-            f"heat came {looked.heating:.1f} times as fast as in the warm-up: limits of drift do not hold, and what "
-            "pads do not tell in time may read as contacts; learn from a warm-up that is as fast",
+            frames.heating > HEATING,
+            f"heat came {frames.heating:.1f} times as fast as in the warm-up: limits of drift do not hold, and what "
+            "pads do not measure in time may read as contacts; learn from a warm-up that is as fast",
         ),
         (
-            len(looked.dead_pads) > 0,
-            f"{len(looked.dead_pads)} thermal pads are dead in this recording: {_listed(looked)}",
+            len(frames.dead_pads) > 0,
+            f"{len(frames.dead_pads)} thermal pads are dead in this recording: {_listed(frames)}",
         ),
         (
-            len(looked.untold) > 0,
-            f"{len(looked.untold)} taxels are left out because no living thermal pad tells their heat",
+            len(frames.without_pad) > 0,
+            f"{len(frames.without_pad)} taxels are left out because no working thermal pad measures their heat",
         ),
     )
-    return tuple(sentence for holds, sentence in sentences if holds)
+    return tuple(warning for holds, warning in warnings if holds)
 
 
-def _listed(looked: SkinFrames, most: int = 8) -> str:
-    more = ", ..." if len(looked.dead_pads) > most else ""
-    return ", ".join(map(str, looked.dead_pads[:most])) + more
+def _listed(frames: SkinFrames, most: int = 8) -> str:
+    more = ", ..." if len(frames.dead_pads) > most else ""
+    return ", ".join(map(str, frames.dead_pads[:most])) + more
