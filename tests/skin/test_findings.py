@@ -252,5 +252,5 @@ def test_a_taxel_that_is_far_away_is_apart() -> None:
 def test_a_patch_in_millimetres_is_found() -> None:
     """No taxel has a neighbour then."""
     findings = layout_findings(replace(SOUND, positions=1e3 * SOUND.positions))
-    gap = next(finding for finding in findings if finding.defect is Defect.GAP)
+    gap = next(finding for finding in findings if finding.defect == Defect.GAP)
     assert gap.remedy.startswith("look whether positions are in m")
