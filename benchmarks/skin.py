@@ -143,7 +143,7 @@ class _Skin:
             start = time.perf_counter()
             patch = SkinPatch.of(self.layout)
             operator = patch.operator()
-            patch.foretold(operator.live)
+            patch.predicted_pressures(operator.live)
             taken.append(time.perf_counter() - start)
         return statistics.median(taken)
 

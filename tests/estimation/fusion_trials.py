@@ -18,7 +18,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.estimation.torque.covariance_fusion import Fusion, fuse
-from forcetorque.estimation.torque.motor import Friction, Motor, fit_friction, motor_source
+from forcetorque.estimation.torque.motor import Friction, drive_torque, fit_friction, motor_source
 from forcetorque.estimation.torque.source import TorqueSource, wrench_source
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
@@ -256,8 +256,8 @@ class Arm:
             column = motion.names.index(joint)
             motions = (motion.velocity[:, column], motion.acceleration[:, column])
             current = motor.current(torque[:, k], *motions, self.rng, rate_hz=RATE_HZ, friction_factor=factor)
-            known = Motor(joint=joint, torque_constant=motor.torque_constant, gear_ratio=motor.gear_ratio)
-            drive.append(known.drive_torque(current))
+            constant, ratio = motor.torque_constant, motor.gear_ratio
+            drive.append(drive_torque(joint, current, torque_constant=constant, gear_ratio=ratio))
         return np.stack(drive, axis=1)
 
     def _seen(self, motion: JointMotion) -> tuple[FloatArray, FloatArray]:

@@ -16,6 +16,7 @@ from typing import Final
 
 import numpy as np
 
+from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_models import corrections_of
@@ -62,7 +63,7 @@ def _trial(folder: Path, seed: int, faults: Faults) -> Trial:
     experiment = load_experiment(folder / FILE, Purpose.FORCES)
     (_, judged), _ = fuse_experiment(experiment, corrections_of(experiment, {}))
     fusion = judged.fusion
-    rows = np.searchsorted(experiment.clock_stream.stamp_ns, fusion.stamp_ns)
+    rows = np.searchsorted(clock_stream(experiment).stamp_ns, fusion.stamp_ns)
     truth = np.stack([simulation.torque(joint)[rows] for joint in DRIVEN], axis=1)
     told = {source.name: source.torque for source in judged.sources} | {"fused": fusion.torque}
     return Trial(

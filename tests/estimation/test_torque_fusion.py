@@ -120,7 +120,7 @@ def test_what_nobody_asked_for_is_none(arm: Path, fitted: Calibration) -> None:
     [
         ("torque_constant_Nm_per_A = 0.05\n", "", "expected torque_constant_Nm_per_A and a gear_ratio other than 0"),
         ("gear_ratio = 100.0\n", "", "expected torque_constant_Nm_per_A and a gear_ratio other than 0"),
-        ("gear_ratio = 100.0\n", "gear_ratio = 0.0\n", "no torque can be told from a motor without them"),
+        ("gear_ratio = 100.0\n", "gear_ratio = 0.0\n", "the torque cannot be computed from a motor without them"),
         ("gear_ratio = 100.0\n", 'gear_ratio = 100.0\nquantity = "pwm"\n', "expected torque_per_duty_Nm"),
     ],
 )

@@ -2,7 +2,7 @@
 """Objects of 0.2 to 3 kg on a simulated lower leg, and how well their wrenches are told.
 
 `python -m tests.skin.contact_trials` prints the figures of docs/skin/wrench.md: the layout is iCub's `right_leg_lower`,
-the truth and the taxels are simulated. Methods were chosen, and `SURPRISE_SHARE` and `SHAPE_SHARE` fitted, on contacts
+the truth and the taxels are simulated. Methods were chosen, and `RESIDUAL_SHARE` and `SHAPE_SHARE` fitted, on contacts
 of the first seed; figures are of the second.
 """
 
@@ -25,7 +25,7 @@ from forcetorque.skin.layout.normals import rebuilt_normals
 from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
 from forcetorque.skin.simulation.recordings import REFERENCE_PA, TaxelResponses, chamber_recording
 from forcetorque.skin.taxels.curve import CurveKind, fit_curve
-from forcetorque.skin.taxels.health import taxel_response
+from forcetorque.skin.taxels.fit import calibrated_taxel
 from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.taxels.recording import REST_SHARE, pressure_cycle
 from forcetorque.skin.wrench.operator import WrenchMethod
@@ -175,7 +175,9 @@ def chamber_table(taxels: TaxelResponses, rng: np.random.Generator, *, both_ways
         fit_curve(CurveKind.MONOTONE, cycle.fall[used, k], cycle.pressure[used], range_counts=float(cycle.top_fall[k]))
         for k in range(number)
     ]
-    worth = [taxel_response(curve, cycle.fall[:, k], cycle.pressure, cycle.unloading) for k, curve in enumerate(curves)]
+    worth = [
+        calibrated_taxel(k, curve, cycle.fall[:, k], cycle.pressure, cycle.unloading) for k, curve in enumerate(curves)
+    ]
     return PressureTable(
         patch="leg",
         columns=number,

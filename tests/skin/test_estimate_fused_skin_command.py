@@ -12,12 +12,14 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.estimation.skin_contacts import frames_of_patches
 from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.skin.experiment import force_patches
 from forcetorque.skin.wrench.wrench import PatchFrames
 from tests.app.outcome import Run
 from tests.robot.mechanics.simulated import Simulation
@@ -90,7 +92,7 @@ def test_any_two_sources_are_fused(
     assert tuple(source.name for source in judge.sources) == names
     assert not judge.fusion.conflict.is_there
     column = judge.fusion.joints.index("hip_pitch")
-    rows = np.searchsorted(experiment.clock_stream.stamp_ns, judge.fusion.stamp_ns)
+    rows = np.searchsorted(clock_stream(experiment).stamp_ns, judge.fusion.stamp_ns)
     error = judge.fusion.torque[:, column] - truth.torque("hip_pitch")[rows]
     assert np.sqrt(np.nanmean(error**2)) < ERROR_NM
 
@@ -132,6 +134,6 @@ def test_what_skin_lacks_as_a_source_is_asked_for(
 ) -> None:
     """By its key in the file, with the interval that it is about."""
     experiment = load_experiment(changed(sound[0], "lacking.toml", *changes), Purpose.FORCES)
-    own = [replace(frames, patch=patch) for frames, patch in zip(patches, experiment.force_patches, strict=True)]
+    own = [replace(frames, patch=patch) for frames, patch in zip(patches, force_patches(experiment), strict=True)]
     with pytest.raises(ForceTorqueError, match=words):
         fuse_experiment(experiment, corrections_of(experiment, {}), patches=own)

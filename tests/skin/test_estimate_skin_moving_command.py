@@ -11,6 +11,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from tests.app.outcome import Run
@@ -72,7 +73,7 @@ def test_without_the_motion_of_the_base_torques_are_wrong(leg: Leg) -> None:
     for joint in ("hip_roll", "hip_pitch"):
         errors = [
             span.estimates.torque(joint)
-            - leg[1].torque(joint)[np.searchsorted(experiment.clock_stream.stamp_ns, span.stamp_ns)]
+            - leg[1].torque(joint)[np.searchsorted(clock_stream(experiment).stamp_ns, span.stamp_ns)]
             for span in spans
         ]
         assert np.sqrt(np.mean(np.concatenate(errors) ** 2)) > WITHOUT_NM

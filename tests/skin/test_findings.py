@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.skin.layout.check import layout_findings
-from forcetorque.skin.layout.finding import Defect, LayoutFinding
+from forcetorque.skin.layout.finding import Defect, LayoutFindingRow
 from forcetorque.skin.layout.layout import PatchDescription
 from forcetorque.skin.layout.modules import MODULE_TAXELS, placed_pads
 from tests.scenes.patches import HEAD_LINES, collapsed, cylinder_patch, moved_module, without_modules
@@ -37,9 +37,9 @@ def _entries(patch: PatchDescription, column: int, entry: int) -> PatchDescripti
     return replace(patch, representatives=entries)
 
 
-def _only(patch: PatchDescription, defect: Defect) -> LayoutFinding:
+def _only(patch: PatchDescription, defect: Defect) -> LayoutFindingRow:
     (finding,) = layout_findings(patch)
-    assert finding.defect is defect
+    assert finding.defect == defect
     return finding
 
 
@@ -70,9 +70,9 @@ def test_taxels_at_one_place_are_found() -> None:
     found = {finding.defect: finding for finding in layout_findings(replace(SOUND, positions=positions))}
     # a module with a taxel elsewhere is off the template too
     assert set(found) == {Defect.DUPLICATE, Defect.TEMPLATE}
-    assert found[Defect.DUPLICATE].taxels.tolist() == [12, 13]
-    assert found[Defect.DUPLICATE].lines.tolist() == [HEAD_LINES + 13, HEAD_LINES + 14]
-    assert found[Defect.DUPLICATE].modules.tolist() == [1]
+    assert list(found[Defect.DUPLICATE].taxels) == [12, 13]
+    assert list(found[Defect.DUPLICATE].lines) == [HEAD_LINES + 13, HEAD_LINES + 14]
+    assert list(found[Defect.DUPLICATE].modules) == [1]
     assert "2 taxels share 1 place: 209 distinct places of 210" in found[Defect.DUPLICATE].message
 
 
@@ -81,7 +81,7 @@ def test_taxels_at_one_place_are_found_alone_where_no_template_speaks() -> None:
     other = replace(SOUND, modules=SOUND.modules + 100, representatives=None)
     positions = other.positions.copy()
     positions[11] = positions[10]
-    assert _only(replace(other, positions=positions), Defect.DUPLICATE).taxels.tolist() == [12, 13]
+    assert _only(replace(other, positions=positions), Defect.DUPLICATE).taxels == (12, 13)
 
 
 def test_a_module_whose_taxels_are_at_its_centre_is_found() -> None:
@@ -107,7 +107,7 @@ def test_wrong_normals_are_found_alone(defect: Defect) -> None:
     """On the taxels that have them, with how many there are."""
     change, taxels, message = NORMALS[defect]
     finding = _only(_normals(SOUND, change), defect)
-    assert finding.taxels.tolist() == taxels
+    assert list(finding.taxels) == taxels
     assert message in finding.message
 
 
@@ -159,8 +159,8 @@ def test_rows_against_their_entries_are_found_alone(name: str) -> None:
     """Each way in which a row and its entry of `taxel2Repr` contradict each other."""
     patch, columns, message = ENTRIES[name]
     finding = _only(patch, Defect.REPRESENTATIVES)
-    assert finding.taxels.tolist() == columns
-    assert finding.lines.tolist() == [HEAD_LINES + 1 + column for column in columns]
+    assert list(finding.taxels) == columns
+    assert list(finding.lines) == [HEAD_LINES + 1 + column for column in columns]
     assert message in finding.message
 
 
@@ -179,7 +179,7 @@ def test_a_module_off_the_template_is_found_alone() -> None:
     positions = SOUND.positions.copy()
     positions[own] += 0.1 * (positions[own] - positions[own].mean(axis=0))
     finding = _only(replace(SOUND, positions=positions), Defect.TEMPLATE)
-    assert finding.modules.tolist() == [8]
+    assert list(finding.modules) == [8]
     assert "taxels of 1 module are off the triangle, at the worst by 0.8 mm (root" in finding.message
     flat = _flat()
     mirrored = flat.positions.copy()
@@ -205,7 +205,7 @@ def test_a_module_of_other_taxels_is_found_alone() -> None:
     )
     finding = _only(nine, Defect.TEMPLATE)
     assert finding.message == "1 module of 9 taxels, which are not the ten of the triangle"
-    assert finding.modules.tolist() == [1]
+    assert list(finding.modules) == [1]
 
 
 def test_modules_on_each_other_are_found_alone() -> None:
@@ -213,7 +213,7 @@ def test_modules_on_each_other_are_found_alone() -> None:
     flat = _flat()
     centres = [flat.positions[flat.modules == module].mean(axis=0) for module in (0, 2)]
     finding = _only(moved_module(flat, 0, centres[1] - centres[0] + [0.0, 0.005, 0.0]), Defect.OVERLAP)
-    assert finding.modules.tolist() == [0, 2]
+    assert list(finding.modules) == [0, 2]
     assert "0 and 2 (5.0 mm)" in finding.message
 
 
@@ -221,7 +221,7 @@ def test_a_piece_apart_is_found_alone() -> None:
     """Without the middle row the patch falls in two; the smaller piece is named."""
     patch = without_modules(cylinder_patch(across=7, along=4), *range(7, 14))
     finding = _only(patch, Defect.GAP)
-    assert finding.modules.tolist() == list(range(7))
+    assert list(finding.modules) == list(range(7))
     assert finding.message == "70 taxels in 1 piece are more than 15 mm from the other 140"
 
 
@@ -229,7 +229,7 @@ def test_a_hole_is_found_alone() -> None:
     """A module missing in the middle; the taxels around it are named."""
     finding = _only(without_modules(WIDE, 22), Defect.GAP)
     assert finding.message.startswith("1 hole, ")
-    assert {13, 21, 23} & set(finding.modules.tolist())
+    assert {13, 21, 23} & set(finding.modules)
 
 
 def test_two_holes_of_one_size_are_two() -> None:
@@ -245,12 +245,12 @@ def test_a_taxel_that_is_far_away_is_apart() -> None:
     positions = SOUND.positions.copy()
     positions[40] = [9e6, 0.0, 0.0]
     found = {finding.defect: finding for finding in layout_findings(replace(SOUND, positions=positions))}
-    assert found[Defect.GAP].taxels.tolist() == [48]
+    assert list(found[Defect.GAP].taxels) == [48]
     assert Defect.TEMPLATE in found
 
 
 def test_a_patch_in_millimetres_is_found() -> None:
     """No taxel has a neighbour then."""
     findings = layout_findings(replace(SOUND, positions=1e3 * SOUND.positions))
-    gap = next(finding for finding in findings if finding.defect is Defect.GAP)
+    gap = next(finding for finding in findings if finding.defect == Defect.GAP)
     assert gap.remedy.startswith("look whether positions are in m")

@@ -111,15 +111,14 @@ def test_heat_through_the_contact_is_bounded_and_not_hidden(table: PressureTable
     assert release.time_s == pytest.approx(311.0, abs=2.0)
     assert release.held_s == pytest.approx(300.0, abs=3.0)
     assert release.left_N == pytest.approx(errors[305.0], rel=0.2)
-    assert release.may_be_heat
-    assert not release.re_tared
+    assert release.re_tare == "offered"
     assert _forces(told, 315.0, 325.0).min() > 0.3 * TRUE_N
 
 
 def test_rest_is_taken_anew_where_that_is_asked_for(table: PressureTable, learned: HeatGains) -> None:
     """Nothing is left after the release, and the limit begins anew."""
     follower, told = _followed(table, learned, HAND, re_tare=True)
-    assert [release.re_tared for release in follower.releases] == [True]
+    assert [release.re_tare for release in follower.releases] == ["done"]
     assert _forces(told, 315.0, 325.0).max() < 0.1 * TRUE_N
     assert follower.touched_s.max() < 30.0
 
@@ -128,5 +127,5 @@ def test_what_heat_cannot_explain_is_not_taken_as_rest(table: PressureTable, lea
     """With a rate near nothing, what is left must be something that touches."""
     slow = replace(learned, rates=1e-3 * learned.rates)
     follower, told = _followed(table, slow, HAND, re_tare=True)
-    assert [release.may_be_heat for release in follower.releases] == [False]
+    assert [release.re_tare for release in follower.releases] == ["no"]
     assert _forces(told, 315.0, 325.0).min() > 0.3 * TRUE_N

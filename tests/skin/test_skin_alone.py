@@ -15,7 +15,7 @@ from forcetorque.recording.recording import Use
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
-from forcetorque.skin.experiment import BESIDE_M, ROOT, is_skin_alone, links_side_by_side
+from forcetorque.skin.experiment import BESIDE_M, ROOT, force_patches, is_skin_alone, links_side_by_side
 from tests.scenes.skin_alone import EVENTS, FRAMES, write_events
 from tests.scenes.touched import write_table, write_touched
 
@@ -48,7 +48,7 @@ def test_a_patch_is_on_the_link_of_its_layout(tmp_path: Path) -> None:
     file.write_text(file.read_text().replace("[[interval]]", 'table = "shank.json"\n\n[[interval]]'), encoding="utf-8")
     experiment = load_experiment(file, Purpose.DISPLAY)
     assert tuple(experiment.model.links) == (ROOT, "shank")
-    assert [patch.link for patch in experiment.force_patches] == ["shank"]
+    assert [patch.link for patch in force_patches(experiment)] == ["shank"]
 
 
 def test_what_is_about_neither_sensors_nor_skin_is_refused(tmp_path: Path) -> None:

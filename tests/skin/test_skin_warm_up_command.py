@@ -73,7 +73,7 @@ def test_a_re_tare_is_offered_on_release(run: Run, shank: WarmShank) -> None:
     offered = run(*HAND)
     assert "offered" in offered.out
     assert "--re-tare takes what was left as rest" in " ".join(offered.out.split())
-    assert any("heat through them, which no thermal pad tells" in line for line in offered.log)
+    assert any("heat through them, which no thermal pad measures" in line for line in offered.log)
     (release,) = run(*HAND, "--re-tare", "--format", "json").result()["releases"]
     assert release["re_tare"] == "done"
     assert 0.0 < release["left_N"] <= release["drift_limit_N"]
@@ -131,7 +131,7 @@ def test_dead_pads_are_named(run: Run, shank: WarmShank) -> None:
     own = shank.layout.taxels[shank.layout.modules == shank.layout.thermal_modules[0]]
     assert ended.result()["left_out"] == own.tolist()
     assert any(f"2 thermal pads are dead in this recording: {pads}" in line for line in ended.log)
-    assert any("10 taxels are left out because no living thermal pad tells" in line for line in ended.log)
+    assert any("10 taxels are left out because no working thermal pad measures" in line for line in ended.log)
     counts[:, shank.layout.thermal_pads] = 255.0
     write_log(Path(), "none", with_counts(recording, counts))
     assert (

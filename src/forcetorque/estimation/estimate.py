@@ -43,10 +43,10 @@ def narrowed(
     Args:
         question: Everything that is wanted.
         available: Joints whose motion is known.
-        required: Contacts that somebody asked for by name.
+        required: Contacts requested by name.
 
     Returns:
-        What can be answered, and what was left out, in words.
+        What can be estimated, and descriptions of what was left out.
 
     Raises:
         ExperimentError: If a required contact would be left out.
@@ -60,15 +60,15 @@ def narrowed(
             kept += inside
             solved.append(part.name)
             continue
-        asked = [contact.name for contact in inside if contact.name in required]
-        if asked:
+        refused = [contact.name for contact in inside if contact.name in required]
+        if refused:
             raise ExperimentError(
-                f"contact {asked[0]!r}: its sub-model {part.name!r} cannot be solved, {_words(missing)}"
+                f"contact {refused[0]!r}: its sub-model {part.name!r} cannot be solved, {_missing_joints(missing)}"
             )
         known = [contact for contact in inside if contact.type is ContactType.KNOWN]
         kept += known
         names = ", ".join(contact.name for contact in inside if contact not in known) or "none"
-        left_out.append(f"sub-model {part.name} with its contacts ({names}): {_words(missing)}")
+        left_out.append(f"sub-model {part.name} with its contacts ({names}): {_missing_joints(missing)}")
     torques = [joint for joint in question.torques if not _missing_for_torque(question, available, kept, joint)]
     dropped = [joint for joint in question.torques if joint not in torques]
     if dropped:
@@ -77,14 +77,14 @@ def narrowed(
     for sensor in question.expected:
         missing = _missing(question, available, expected=(sensor,))
         if missing:
-            left_out.append(f"expected readings of {sensor}: {_words(missing)}")
+            left_out.append(f"expected readings of {sensor}: {_missing_joints(missing)}")
         else:
             expected.append(sensor)
     contacts = tuple(contact for contact in question.contacts if contact in kept)
-    answerable = replace(
+    solvable = replace(
         question, contacts=contacts, equations=tuple(solved), torques=tuple(torques), expected=tuple(expected)
     )
-    return answerable, left_out
+    return solvable, left_out
 
 
 def _missing_for_torque(question: Question, available: Collection[str], kept: list[Contact], joint: str) -> list[str]:
@@ -107,7 +107,7 @@ def _missing(
     return [joint for joint in required_joints_of(part) if joint not in available]
 
 
-def _words(missing: list[str]) -> str:
+def _missing_joints(missing: list[str]) -> str:
     return f"no stream holds the joint(s) {', '.join(missing)}"
 
 
@@ -361,15 +361,15 @@ def _over(
     progress: Callable[[int], None] | None,
     patches: Sequence[PatchFrames],
 ) -> IntervalEstimates:
-    asked = IntervalQuestion.of(experiment, interval, samples, named, length_scale=length_scale, patches=patches)
-    question, joints, skin, inside = asked.question, asked.joints, asked.skin, samples.inside
-    measured = asked.measured(corrections)
-    estimates = asked.estimates(measured, progress=progress)
+    problem = IntervalQuestion.of(experiment, interval, samples, named, length_scale=length_scale, patches=patches)
+    question, joints, skin, inside = problem.question, problem.joints, problem.skin, samples.inside
+    measured = problem.measured(corrections)
+    estimates = problem.estimates(measured, progress=progress)
     answer = None
     if patches:
         uncertainty = uncertainty_of(experiment, corrections, skin, measured, label=interval.label)
         answer = estimate_with_covariance(
-            question, joints, asked.root, measured=measured, known=asked.known, uncertainty=uncertainty
+            question, joints, problem.root, measured=measured, known=problem.known, uncertainty=uncertainty
         )
         estimates = with_skin(estimates, answer)
     return IntervalEstimates(
@@ -377,7 +377,7 @@ def _over(
         stamp_ns=samples.stamp_ns[inside],
         measured=Wrenches(names=measured.names, values=measured.values[inside]),
         estimates=_smoothed(estimates, samples),
-        left_out=asked.left_out,
+        left_out=problem.left_out,
         ambiguous=indistinguishable(question, JointMotion.at_rest(joints.names, joints.position[inside])),
         applied=dict(_applied(experiment, corrections, interval, samples)),
         skin=tuple(source.of_samples(inside) for source in skin),

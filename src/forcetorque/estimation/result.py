@@ -13,7 +13,7 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import sample_statistics
 from forcetorque.estimation.estimate import IntervalEstimates
-from forcetorque.estimation.samples_file import EstimatedSpan, write_estimates
+from forcetorque.estimation.samples_file import write_estimates
 from forcetorque.estimation.torque.experiment_fusion import IntervalFusion, TorqueFusion, summarise_fusion
 from forcetorque.estimation.torque.motor import Friction
 from forcetorque.experiment.additions import with_recording_notes
@@ -63,20 +63,20 @@ def skin_rows(span: IntervalEstimates) -> Iterator[SkinContactSummary]:
             continue
         name = source.contact.name
         force, sd = (values[there][:, :3] for values in (span.uncertain.contact(name), span.uncertain.contact_sd(name)))
-        told = np.isfinite(force).all(axis=1)
+        determined = np.isfinite(force).all(axis=1)
         yield SkinContactSummary(
             interval=span.interval.label,
             contact=name,
             identities=tuple(np.unique(source.identity[there]).tolist()),
             samples=int(there.sum()),
             push_mean_N=float(np.linalg.norm(source.wrench[there, :3], axis=1).mean()),
-            force_mean_N=float(np.linalg.norm(force[told], axis=1).mean()) if told.any() else None,
-            force_sd_N=float(np.sqrt((sd[told] ** 2).sum(axis=1).mean())) if told.any() else None,
+            force_mean_N=float(np.linalg.norm(force[determined], axis=1).mean()) if determined.any() else None,
+            force_sd_N=float(np.sqrt((sd[determined] ** 2).sum(axis=1).mean())) if determined.any() else None,
             beyond_range=int(source.beyond_range[there].sum()),
         )
 
 
-def skin_doubts(span: IntervalEstimates, exact: tuple[str, ...], resting: tuple[str, ...]) -> Iterator[str]:
+def skin_warnings(span: IntervalEstimates, exact: tuple[str, ...], resting: tuple[str, ...]) -> Iterator[str]:
     """Say what makes estimates with skin doubtful.
 
     Args:
@@ -151,7 +151,7 @@ class SubModelSummary(Row):
     residual_moment_mean_Nm: Annotated[float | None, Shown("residual", "N m", digits=3)]
     """Mean norm of the moment that they leave unexplained."""
     ambiguous: tuple[tuple[str, ...], ...]
-    """Groups of unknowns that cannot be told apart."""
+    """Groups of unknowns that cannot be determined apart."""
 
 
 class EstimatedRecording(Row):
@@ -324,9 +324,7 @@ def summarise_estimates(
         FormatError: If the name of the file ends otherwise.
     """
     if file is not None:
-        fused = {one.interval.label: one for one in fusions}
-        tables = [_for_table(experiment, span, fused.get(span.interval.label)) for span in spans]
-        write_estimates(file, tables, experiment.model)
+        write_estimates(file, experiment, spans, fusions)
     fusion = summarise_fusion(experiment, list(fusions), frictions) if fusions else None
     left_out = tuple(dict.fromkeys(sentence for span in spans for sentence in span.left_out))
     validity = tuple(_outside(corrections, spans))
@@ -343,7 +341,7 @@ def summarise_estimates(
         skin=tuple(row for span in spans for row in skin_rows(span)),
         warnings=(
             *sentences(validity),
-            *_doubts(corrections, spans),
+            *_warnings(corrections, spans),
             *(f"left out: {sentence}" for sentence in left_out),
             *(() if fusion is None else fusion.warnings()),
         ),
@@ -358,37 +356,19 @@ def _outside(corrections: Mapping[str, Correction], spans: Sequence[IntervalEsti
             )
 
 
-def _doubts(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[str]:
+def _warnings(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[str]:
     exact = tuple(
         name for name, one in corrections.items() if one.calibration is None or one.calibration.posterior is None
     )
     resting = tuple(name for name, one in corrections.items() if one.calibration is None and one.removes_offset)
     for span in spans:
-        yield from skin_doubts(span, exact, resting)
+        yield from skin_warnings(span, exact, resting)
     for sensor, one in corrections.items():
         if not one.removes_offset:
             yield (
                 f"{sensor}: no offset removed, so that its forces hold whatever offset the sensor has; see --offset, "
                 "from Python offset"
             )
-
-
-def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalFusion | None) -> EstimatedSpan:
-    return EstimatedSpan(
-        label=span.interval.label,
-        stamp_ns=span.stamp_ns,
-        time_s=seconds_since(span.stamp_ns, experiment.recording.start_ns),
-        measured=span.measured,
-        estimates=span.estimates,
-        outside={
-            sensor: np.ma.masked_array(applied.outside, mask=~applied.known) for sensor, applied in span.applied.items()
-        },
-        fused_joints=() if fused is None else fused.fusion.joints,
-        torques={} if fused is None else dict(fused.columns()),
-        uncertain=span.uncertain,
-        centres={source.contact.name: source.centre for source in span.skin},
-        identities={source.contact.name: source.identity for source in span.skin},
-    )
 
 
 def _contacts(span: IntervalEstimates) -> Iterator[ContactSummary]:

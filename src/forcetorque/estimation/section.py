@@ -44,7 +44,7 @@ class MotorTable(Table):
         if getattr(self, key) is None or self.gear_ratio in (None, 0.0) or getattr(self, other) is not None:
             message = (
                 f"motor of joint {self.joint!r}: expected {key} and a gear_ratio other than 0 with the quantity "
-                f"{self.quantity}, and no {other}; no torque can be told from a motor without them"
+                f"{self.quantity}, and no {other}; the torque cannot be computed from a motor without them"
             )
             raise PydanticCustomError("motor_constant", "{message}", {"message": message})
         return self
@@ -110,7 +110,7 @@ MOTORS: Section[tuple[MotorTable, ...], tuple[MotorTable, ...]] = Section(
     key="motor",
     type=tuple[MotorTable, ...],
     default=(),
-    description="Motors whose current or PWM tells joint torques, for `estimate --fuse`.",
+    description="Motors whose current or PWM gives joint torques, for `estimate --fuse`.",
     read=_checked,
     empty=(),
 )

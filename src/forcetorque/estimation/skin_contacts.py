@@ -77,7 +77,7 @@ class SkinSource:
             covariance = covariance + slanted @ slanted.transpose(0, 2, 1)
         return noise_share * covariance, square_root((1.0 - noise_share) * covariance)
 
-    def on_the_way_to(self, later: SkinSource) -> SkinSource:
+    def with_change_until(self, later: SkinSource) -> SkinSource:
         """Count what changes until the next frame among the errors: a sample may be anywhere between both.
 
         Args:
@@ -264,15 +264,15 @@ def sources_at(experiment: Experiment, patches: Sequence[PatchFrames], at_ns: In
 
 def _sources(experiment: Experiment, frames: PatchFrames, at_ns: IntArray) -> Iterator[SkinSource]:
     patch, start_ns = frames.patch, experiment.recording.start_ns
-    frame_ns = start_ns + np.array([np.rint(1e9 * middle) for middle, _, _ in frames.looked], dtype=np.int64)
+    frame_ns = start_ns + np.array([np.rint(1e9 * middle) for middle, _, _ in frames.read.frames], dtype=np.int64)
     oldest_s = OLDEST_S if patch.oldest_s is None else patch.oldest_s
     rows = frames_before(frame_ns, at_ns, patch=patch.name, oldest_s=oldest_s)
     link = frames.skin.layout.frame if patch.link is None else patch.link
-    contacts = [contacts for _, _, contacts in frames.looked]
+    contacts = [contacts for _, _, contacts in frames.read.frames]
     both = np.concatenate([rows, np.minimum(rows + 1, len(contacts) - 1)])
     now = np.arange(len(both)) < len(rows)
     for source in skin_sources(patch.name, link, contacts, both, friction=patch.friction):
-        yield source.of_samples(now).on_the_way_to(source.of_samples(~now))
+        yield source.of_samples(now).with_change_until(source.of_samples(~now))
 
 
 def uncertainty_of(

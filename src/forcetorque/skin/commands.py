@@ -43,16 +43,16 @@ def check(
 
     refuse_figure(figure)
     start_logging().info("reading %s", layout)
-    answer = check_skin(layout)
+    result = check_skin(layout)
     if figure is not None:
         from forcetorque.base.output_file import write_bytes_atomically
         from forcetorque.results.figures import png_bytes
         from forcetorque.skin.figures import skin_layout_figure
 
-        write_bytes_atomically(figure, png_bytes(skin_layout_figure(answer.positions, answer.normals)))
-        answer = answer.model_copy(update={"figure": str(figure)})
-    show(answer, output_format)
-    stop_at_failures(answer.findings)
+        write_bytes_atomically(figure, png_bytes(skin_layout_figure(result.positions, result.normals)))
+        result = result.model_copy(update={"figure": str(figure)})
+    show(result, output_format)
+    stop_at_failures(result.findings)
 
 
 class CurveChoice(StrEnum):
@@ -76,11 +76,11 @@ def calibrate(
     ] = CurveChoice.MONOTONE,
     highest: Annotated[
         float | None,
-        typer.Option("--highest-kpa", help="Highest pressure above rest to fit; higher ones only judge. Default: all."),
+        typer.Option("--highest-kpa", help="Highest pressure above rest to fit; higher ones validate. Default: all."),
     ] = None,
     warm_up: Annotated[
         Path | None,
-        typer.Option("--warm-up", help="Experiment file of a warm-up without contact, to tell heat from pressure."),
+        typer.Option("--warm-up", help="Experiment file of a warm-up without contact, to separate heat from pressure."),
     ] = None,
     table: Annotated[
         Path | None, typer.Option("--table", help="CSV of the pressure of every taxel at 0 to 255 counts below rest.")
@@ -114,7 +114,7 @@ def calibrate(
     for content in contents:
         for finding in content.recording.findings:
             log.warning("%s: %s: %s", content.file, finding.stream, finding.message)
-    answer = calibrate_skin(
+    result = calibrate_skin(
         contents,
         code_version=version("forcetorque"),
         created=created_now(),
@@ -123,29 +123,29 @@ def calibrate(
         highest_pa=None if highest is None else 1e3 * highest,
         warm_up=warm_up,
     )
-    answer.calibration.save(output)
+    result.calibration.save(output)
     if table is not None:
-        write_pressure_table(table, answer.calibration.table())
-    answer = answer.model_copy(update={"file": str(output)})
+        write_pressure_table(table, result.calibration.table())
+    result = result.model_copy(update={"file": str(output)})
     if figure is not None:
-        answer = _with_taxel_figure(answer, figure)
+        result = _with_taxel_figure(result, figure)
     if output.name == "-":
-        show_warnings(answer)
+        show_warnings(result)
     else:
-        show(answer, output_format)
+        show(result, output_format)
 
 
-def _with_taxel_figure(answer: SkinCalibration, figure: Path) -> SkinCalibration:
+def _with_taxel_figure(result: SkinCalibration, figure: Path) -> SkinCalibration:
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.results.figures import png_bytes
     from forcetorque.skin.figures import taxel_figure
 
-    write_bytes_atomically(figure, png_bytes(taxel_figure(answer.picture)))
-    return answer.model_copy(update={"figure": str(figure)})
+    write_bytes_atomically(figure, png_bytes(taxel_figure(result.picture)))
+    return result.model_copy(update={"figure": str(figure)})
 
 
 class HeatChoice(StrEnum):
-    """How heat is taken out of readings."""
+    """How heat is compensated."""
 
     LEARNED = "learned"
     FIRMWARE = "firmware"
@@ -153,7 +153,7 @@ class HeatChoice(StrEnum):
 
 
 class MethodChoice(StrEnum):
-    """How pressures between taxels are told."""
+    """How pressures are interpolated between taxels."""
 
     KRIGING = "kriging"
     LINEAR = "linear"
@@ -166,7 +166,7 @@ def wrench(
     table: Annotated[Path, typer.Option("--table", help="Calibration of the taxels, of `skin calibrate` (JSON).")],
     patch: Annotated[str | None, typer.Option("--patch", help="Name of the patch. Default: the only one.")] = None,
     method: Annotated[
-        MethodChoice, typer.Option("--method", help="How pressures between taxels are told.")
+        MethodChoice, typer.Option("--method", help="How pressures are interpolated between taxels.")
     ] = MethodChoice.KRIGING,
     taxel_area: Annotated[
         float | None,
@@ -218,17 +218,17 @@ def wrench(
         temperature=None if temperature is None else temperature.value,
         re_tare=re_tare,
     )
-    answer = skin_wrench(experiment, table, patch=patch, choice=choice)
-    show(answer if figure is None else _with_wrench_figure(answer, figure), output_format)
+    result = skin_wrench(experiment, table, patch=patch, choice=choice)
+    show(result if figure is None else _with_wrench_figure(result, figure), output_format)
 
 
-def _with_wrench_figure(answer: SkinWrench, figure: Path) -> SkinWrench:
+def _with_wrench_figure(result: SkinWrench, figure: Path) -> SkinWrench:
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.results.figures import png_bytes
     from forcetorque.skin.figures import skin_wrench_figure
 
-    write_bytes_atomically(figure, png_bytes(skin_wrench_figure(answer.picture)))
-    return answer.model_copy(update={"figure": str(figure)})
+    write_bytes_atomically(figure, png_bytes(skin_wrench_figure(result.picture)))
+    return result.model_copy(update={"figure": str(figure)})
 
 
 skin = typer.Typer(

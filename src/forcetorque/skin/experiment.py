@@ -37,7 +37,7 @@ class Patch(Table):
     pressure: Text | None = None
     """Stream with the `pressure` of the chamber or bag that it was calibrated in."""
     serial: Text | None = None
-    """Serial number, or another mark that tells it from patches of the same name."""
+    """Serial number, or another mark that distinguishes it from patches of the same name."""
     layout: Path | None = None
     """File that says where its taxels are; every column of the counts is one if left out."""
     link: Text | None = None
@@ -45,7 +45,7 @@ class Patch(Table):
     table: Path | None = None
     """Calibration of its taxels, as `forcetorque skin calibrate` writes it; where it is stated, contacts are shown."""
     friction: Annotated[float, Field(ge=0.0)] | None = None
-    """Coefficient that bounds the tangential force, which skin does not feel; without one nothing is known of it."""
+    """Coefficient that bounds the tangential force, which skin does not measure; without one it is unknown."""
     oldest_s: Positive | None = None
     """How much older than a pose the frame of pressures that belongs to it may be; s."""
 
@@ -109,7 +109,7 @@ class PatchExperiment:
             The patch.
 
         Raises:
-            ExperimentError: If there is none of that name, or nobody says which of several.
+            ExperimentError: If there is none of that name, or no name is given and there are several.
         """
         known = [patch.name for patch in self.patches]
         if name is None and len(known) > 1:
@@ -289,7 +289,7 @@ def _of_events(recording: Recording) -> Iterator[str]:
 
 
 def links_side_by_side(links: Iterable[str]) -> RobotModel:
-    """Make a model of links that nothing is known of.
+    """Make a model of links without a robot.
 
     Args:
         links: Their names.

@@ -4,13 +4,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import lru_cache
-from typing import Final
+from functools import cached_property, lru_cache
+from typing import Any, Final, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, read_only
 from forcetorque.base.errors import SkinError
+
+_Array = TypeVar("_Array", bound=npt.NDArray[Any])
 
 LONGEST_EDGE_M: Final = 0.015
 """Longest edge between neighbours: twice the pitch of a module, less than a gap that a missing module leaves."""
@@ -24,7 +27,7 @@ which diagonal is taken, and a layout that is turned would get another surface."
 _SAME_LENGTH_M: Final = 1e-9
 """Difference between lengths that is rounding."""
 _PATCHES: Final = 16
-"""Patches whose triangles are remembered: normals and pressures ask for them, with every hint at an outer side, and
+"""Patches whose triangles are remembered: normals and pressures need them, with every hint at an outer side, and
 every recording again."""
 
 
@@ -126,14 +129,14 @@ def _is_free(positions: FloatArray, edge: tuple[int, int], corner: int, corners:
 
 
 _FLAT: Final = 0.02
-"""Mean outward cosine below which a surface does not tell by its shape which side is out."""
+"""Mean outward cosine below which a surface does not show by its shape which side is out."""
 
 
 def outward_triangles(positions: FloatArray, triangles: IntArray, outward: FloatArray | None) -> IntArray:
     """Turn triangles so that their corners run counterclockwise where they are seen from outside.
 
-    Neighbours are turned alike; which way, every connected piece is told by rough directions, or by its shape: a piece
-    of skin bulges outwards.
+    Neighbours are turned alike. Rough directions decide which way for every connected piece, or its shape: a piece of
+    skin bulges outwards.
 
     Args:
         positions: Points; shape (n, 3); m.
@@ -145,7 +148,7 @@ def outward_triangles(positions: FloatArray, triangles: IntArray, outward: Float
         The triangles, turned; shape (m, 3).
 
     Raises:
-        SkinError: If the surface has only one side, or neither directions nor shape tell which one is outer.
+        SkinError: If the surface has only one side, or neither directions nor shape determine which one is outer.
     """
     turned, pieces = _turned_alike(triangles)
     corners = positions[turned]
@@ -161,8 +164,8 @@ def outward_triangles(positions: FloatArray, triangles: IntArray, outward: Float
         cosine = agreement[own].sum() / full[own].sum() if full[own].any() else 0.0
         if not abs(cosine) > _FLAT:
             raise SkinError(
-                f"outward: expected directions that tell the outer side of the skin about taxel {turned[own][0, 0]}, "
-                f"got a mean cosine of {cosine:.3f}; state rough outward directions of the taxels"
+                f"outward: expected directions that determine the outer side of the skin about taxel "
+                f"{turned[own][0, 0]}, got a mean cosine of {cosine:.3f}; state rough outward directions of the taxels"
             )
         if cosine < 0.0:
             turned[own] = turned[own][:, ::-1]
@@ -215,50 +218,60 @@ def _runs_against(one: IntArray, other: IntArray) -> bool:
     return any((other[k], other[k - 1]) in forward for k in range(3))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SkinSurface:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SkinSurface(ArrayRecord):
     """Taxels and the triangles between them, in the frame of the link."""
 
-    positions: FloatArray
+    positions: FloatArray = field(metadata=array("n", 3))
     """Taxels; shape (n, 3); m."""
-    triangles: IntArray
+    triangles: IntArray = field(metadata=array("m", 3, dtype="int"))
     """Taxels at the corners of each facet, counterclockwise seen from outside; shape (m, 3)."""
-    edges: IntArray = field(init=False)
-    """Pairs of neighbours, the smaller number first; shape (e, 2)."""
-    neighbours: IntArray = field(init=False)
-    """Neighbours of each taxel, filled up with the taxel itself; shape (n, d), where d is the most that one has."""
-    boundary: IntArray = field(init=False)
-    """Edges of one facet only, in its direction, so that the skin is on their left; shape (b, 2)."""
-    facet_areas: FloatArray = field(init=False)
-    """Areas; shape (m,); m²."""
-    facet_normals: FloatArray = field(init=False)
-    """Outward unit normals; shape (m, 3)."""
-    vertex_normals: FloatArray = field(init=False)
-    """Outward unit normals of the taxels, means of their facets by area; zero for one without facet; shape (n, 3)."""
-
-    def __post_init__(self) -> None:
-        positions = read_only(self.positions, name="positions", shape=(None, 3))
-        triangles = read_only_integers(self.triangles, name="triangles", shape=(None, 3))
-        corners = positions[triangles]
-        doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        sums = np.zeros_like(positions)
-        np.add.at(sums, triangles.ravel(), np.repeat(doubled, 3, axis=0))
-        edges, boundary = _edges(triangles, len(positions))
-        for name, array in (
-            ("positions", positions),
-            ("triangles", triangles),
-            ("edges", edges),
-            ("neighbours", _neighbours(edges, len(positions))),
-            ("boundary", boundary),
-            ("facet_areas", np.linalg.norm(doubled, axis=1) / 2.0),
-            ("facet_normals", _unit(doubled)),
-            ("vertex_normals", _unit(sums)),
-        ):
-            array.setflags(write=False)
-            object.__setattr__(self, name, array)
 
     def __len__(self) -> int:
         return len(self.positions)
+
+    @cached_property
+    def edges(self) -> IntArray:
+        """Pairs of neighbours, the smaller number first; shape (e, 2); read-only."""
+        return self._edges_and_boundary[0]
+
+    @cached_property
+    def boundary(self) -> IntArray:
+        """Edges of one facet only, in its direction, so that the skin is on their left; shape (b, 2); read-only."""
+        return self._edges_and_boundary[1]
+
+    @cached_property
+    def neighbours(self) -> IntArray:
+        """Neighbours of each taxel, filled up with the taxel itself; shape (n, d), d the most of one; read-only."""
+        return _read_only(_neighbours(self.edges, len(self)))
+
+    @cached_property
+    def facet_areas(self) -> FloatArray:
+        """Areas; shape (m,); m²; read-only."""
+        return _read_only(np.linalg.norm(self._doubled_areas, axis=1) / 2.0)
+
+    @cached_property
+    def facet_normals(self) -> FloatArray:
+        """Outward unit normals; shape (m, 3); read-only."""
+        return _read_only(_unit(self._doubled_areas))
+
+    @cached_property
+    def vertex_normals(self) -> FloatArray:
+        """Outward unit normals of the taxels, area-weighted means of their facets; 0 without facet; shape (n, 3)."""
+        sums = np.zeros_like(self.positions)
+        np.add.at(sums, self.triangles.ravel(), np.repeat(self._doubled_areas, 3, axis=0))
+        return _read_only(_unit(sums))
+
+    @cached_property
+    def _edges_and_boundary(self) -> tuple[IntArray, IntArray]:
+        edges, boundary = _edges(self.triangles, len(self))
+        return _read_only(edges), _read_only(boundary)
+
+    @cached_property
+    def _doubled_areas(self) -> FloatArray:
+        """Outward normal of each facet, twice as long as its area; shape (m, 3); m²."""
+        corners = self.positions[self.triangles]
+        return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
     @property
     def area(self) -> float:
@@ -294,7 +307,7 @@ def skin_surface(
         The surface; taxels farther than an edge from all others stay without facet.
 
     Raises:
-        SkinError: If two taxels share a position, no three taxels are neighbours, or it is open which side is outer.
+        SkinError: If two taxels share a position, no three taxels are neighbours, or the outer side is undetermined.
     """
     points = read_only(positions, name="positions", shape=(None, 3))
     hints = None if outward is None else read_only(outward, name="outward", shape=(len(points), 3))
@@ -312,6 +325,11 @@ def skin_surface(
             "and no triangle between them; positions are in m"
         )
     return SkinSurface(positions=points, triangles=outward_triangles(points, triangles, hints))
+
+
+def _read_only(values: _Array) -> _Array:
+    values.setflags(write=False)
+    return values
 
 
 def _edges(triangles: IntArray, count: int) -> tuple[IntArray, IntArray]:
@@ -373,14 +391,14 @@ _LONGEST_MITRE: Final = 2.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Rim:
+class Rim(ArrayRecord):
     """Facets outside the boundary of a surface."""
 
-    positions: FloatArray
+    positions: FloatArray = field(metadata=array("k", 3))
     """Outer points; shape (k, 3); m."""
-    taxels: IntArray
+    taxels: IntArray = field(metadata=array("k", dtype="int"))
     """Taxel from which each outer point was taken outwards; shape (k,)."""
-    triangles: IntArray
+    triangles: IntArray = field(metadata=array("m", 3, dtype="int"))
     """Corners, counterclockwise seen from outside: a taxel below n, an outer point from n on; shape (m, 3)."""
 
 

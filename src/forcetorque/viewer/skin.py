@@ -126,9 +126,9 @@ def _period_s(experiment: PatchExperiment, patch: ExperimentPatch) -> float:
 
 def _patch(name: str, link: str, frames: PatchFrames, hold_s: float, block: Block) -> SkinPatch:
     surface = frames.skin.surface
-    middles = np.array([middle for middle, _, _ in frames.looked])
-    pressure = np.array([np.where(c.contact >= 0, frame.pressures, 0.0) for _, frame, c in frames.looked])
-    contacts = [contacts for _, _, contacts in frames.looked]
+    middles = np.array([middle for middle, _, _ in frames.read.frames])
+    pressure = np.array([np.where(c.contact >= 0, frame.pressures, 0.0) for _, frame, c in frames.read.frames])
+    contacts = [contacts for _, _, contacts in frames.read.frames]
     return SkinPatch(
         name=name,
         link=link,

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError, FitError
-from forcetorque.estimation.torque.motor import Friction, Motor, fit_friction, friction_terms, motor_source
+from forcetorque.estimation.torque.motor import Friction, drive_torque, fit_friction, friction_terms, motor_source
 from forcetorque.simulation.imu_and_motor import SimulatedMotor
 
 RATE_HZ = 50.0
@@ -35,7 +35,7 @@ def _fitted(seed: int, motor: SimulatedMotor = MOTOR, offset: float = 0.0) -> Fr
     velocity, acceleration = _motion(rng)
     torque = 2.0 * np.sin(np.arange(len(velocity)) / 70.0)
     current = motor.current(torque, velocity, acceleration, rng, rate_hz=RATE_HZ)
-    drive = Motor(joint="knee", torque_constant=0.05, gear_ratio=100.0).drive_torque(current)
+    drive = drive_torque("knee", current, torque_constant=0.05, gear_ratio=100.0)
     trusted = torque + 0.02 * rng.standard_normal(len(torque)) + offset * rng.standard_normal()
     return fit_friction(
         "knee",
@@ -119,7 +119,7 @@ def test_an_error_of_the_trusted_torque_comes_back_from_the_motors() -> None:
 def test_a_motor_without_constant_is_refused(field: str, value: float) -> None:
     """Nothing can be told from its current."""
     with pytest.raises(EstimationError, match=f"motor of joint 'knee': {field}: expected a number other than 0"):
-        replace(Motor(joint="knee", torque_constant=0.05, gear_ratio=100.0), **{field: value})
+        drive_torque("knee", np.ones(1), **{"torque_constant": 0.05, "gear_ratio": 100.0, field: value})
 
 
 def test_motions_that_do_not_tell_friction_are_refused() -> None:

@@ -70,7 +70,7 @@ def test_what_is_called_a_thermal_pad_is_none_of_the_taxels(file: Path) -> None:
     assert 6 not in patch.taxels
     assert 6 in patch.thermal_pads
     (finding,) = layout_findings(patch)
-    assert finding.taxels.tolist() == [6]
+    assert list(finding.taxels) == [6]
 
 
 def test_what_is_not_sound_leads_to_the_command(file: Path) -> None:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from forcetorque.base.errors import FitError
 from forcetorque.skin.taxels.curve import CurveKind, fit_curve
-from forcetorque.skin.taxels.health import taxel_response
+from forcetorque.skin.taxels.fit import calibrated_taxel
 
 FALL = np.arange(0.0, 61.0)
 EXACT = 1e-6
@@ -81,7 +81,7 @@ def test_hysteresis_and_error_are_told_apart() -> None:
     unloading = np.arange(8000) >= 4000
     fall = pressure / 2e3 + np.where(unloading, 2.0, 0.0)
     curve = fit_curve(CurveKind.LINE, fall[:4000], pressure[:4000], range_counts=50.0)
-    response = taxel_response(curve, fall, pressure, unloading)
+    response = calibrated_taxel(0, curve, fall, pressure, unloading)
     assert response.hysteresis_pa == pytest.approx(4e3, rel=1e-6)
     assert response.hysteresis_share == pytest.approx(2.0 / 50.0, rel=1e-6)
     assert response.error_pa < EXACT * 1e5

@@ -38,11 +38,11 @@ def test_learned_gains_are_averaged_over_living_pads() -> None:
     fall, sd = gains.fall(np.array([3.0, 8.0]))
     np.testing.assert_allclose(fall, [5.0, 0.0])
     np.testing.assert_allclose(sd, [(0.3 + 1.6) / 2.0, 0.0])
-    assert gains.told.tolist() == [True, False]
+    assert gains.has_pad.tolist() == [True, False]
     np.testing.assert_array_equal(gains.rates, [0.02, np.nan])
     one = gains.without(np.array([True, False]))
     np.testing.assert_allclose(one.fall(np.array([255.0, 8.0]))[0], [4.0, 0.0])
-    assert not gains.without(np.array([True, True])).told.any()
+    assert not gains.without(np.array([True, True])).has_pad.any()
 
 
 def test_stuck_pads_are_told_only_where_others_change() -> None:

@@ -88,8 +88,8 @@ def test_a_sick_taxel_has_no_gain() -> None:
     counts[3000:, LAYOUT.taxels[8]] = 255.0
     learned = _learned(counts)
     assert learned.taxels[8].gains == ()
-    assert not HeatGains.learned(learned.taxels).told[8]
-    assert HeatGains.learned(learned.taxels).told.sum() == len(LAYOUT) - 1
+    assert not HeatGains.learned(learned.taxels).has_pad[8]
+    assert HeatGains.learned(learned.taxels).has_pad.sum() == len(LAYOUT) - 1
 
 
 def test_a_contact_is_refused_with_taxel_and_time() -> None:

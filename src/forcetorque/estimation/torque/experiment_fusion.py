@@ -174,8 +174,8 @@ def fuse_experiment(
     Raises:
         ExperimentError: If the file lacks what a source needs, or there is only one source.
     """
-    asked = experiment if contacts is None else replace(experiment, contacts=tuple(contacts))
-    sources = TorqueSources(asked, corrections, patches)
+    analysed = experiment if contacts is None else replace(experiment, contacts=tuple(contacts))
+    sources = TorqueSources(analysed, corrections, patches)
     fusions = []
     for interval in experiment.recording.intervals:
         if interval.use is Use.IGNORE:
@@ -270,12 +270,12 @@ MOST_JOINTS: Final = 6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Piece:
+class _IntervalTorques:
     """Torques of one interval."""
 
     stamp_ns: IntArray
     joints: tuple[str, ...]
-    told: Mapping[str, tuple[FloatArray, FloatArray | None]]
+    torques: Mapping[str, tuple[FloatArray, FloatArray | None]]
     """Torques and their standard deviations by source; shape (n, joints) each; N m."""
 
 
@@ -318,7 +318,7 @@ def torque_picture(
         for joint in dict.fromkeys(joint for piece in pieces for joint in piece.joints)
         if experiment.model.joints[joint].type is not JointType.PRISMATIC
     ]
-    sources = dict.fromkeys(source for piece in pieces for source in piece.told)
+    sources = dict.fromkeys(source for piece in pieces for source in piece.torques)
     torques = {source: _joined(pieces, rotary, source, 0) for source in sources}
     changes = {joint: _change([values[:, k] for values in torques.values()]) for k, joint in enumerate(rotary)}
     known = [joint for joint in rotary if np.isfinite(changes[joint])]
@@ -340,30 +340,30 @@ def torque_picture(
     )
 
 
-def _of_fusion(one: IntervalFusion) -> _Piece:
-    told = {source.name: (source.torque, _deviation(source.covariance)) for source in one.sources}
-    told[FUSED] = (one.fusion.torque, _deviation(one.fusion.covariance))
-    return _Piece(stamp_ns=one.fusion.stamp_ns, joints=one.fusion.joints, told=told)
+def _of_fusion(one: IntervalFusion) -> _IntervalTorques:
+    torques = {source.name: (source.torque, _deviation(source.covariance)) for source in one.sources}
+    torques[FUSED] = (one.fusion.torque, _deviation(one.fusion.covariance))
+    return _IntervalTorques(stamp_ns=one.fusion.stamp_ns, joints=one.fusion.joints, torques=torques)
 
 
-def _of_estimates(experiment: Experiment, span: IntervalEstimates) -> _Piece:
+def _of_estimates(experiment: Experiment, span: IntervalEstimates) -> _IntervalTorques:
     there = {"sensors": experiment.sensors, "skin": force_patches(experiment)}
     name = " and ".join(what for what, some in there.items() if some)
     deviation = None if span.uncertain is None else span.uncertain.torque_sd
-    told = {name: (span.estimates.torques, deviation)}
-    return _Piece(stamp_ns=span.stamp_ns, joints=span.estimates.layout.joints, told=told)
+    torques = {name: (span.estimates.torques, deviation)}
+    return _IntervalTorques(stamp_ns=span.stamp_ns, joints=span.estimates.layout.joints, torques=torques)
 
 
 def _deviation(covariance: FloatArray) -> FloatArray:
     return np.sqrt(np.einsum("njj->nj", covariance))
 
 
-def _joined(pieces: Sequence[_Piece], joints: Sequence[str], source: str, which: int) -> FloatArray:
+def _joined(pieces: Sequence[_IntervalTorques], joints: Sequence[str], source: str, which: int) -> FloatArray:
     """Torques (0) or deviations (1) of a source over all intervals, with a gap after each; shape (n, joints); N m."""
     blocks = []
     for piece in pieces:
         block = np.full((len(piece.stamp_ns) + 1, len(joints)), np.nan)
-        values = piece.told[source][which] if source in piece.told else None
+        values = piece.torques[source][which] if source in piece.torques else None
         for column, joint in enumerate(joints):
             if values is not None and joint in piece.joints:
                 block[:-1, column] = values[:, piece.joints.index(joint)]

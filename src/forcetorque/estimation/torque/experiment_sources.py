@@ -14,7 +14,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.section import FUSION, MOTORS, FusionTable
 from forcetorque.estimation.skin_contacts import SkinSource, frames_of_patches, sources_at
-from forcetorque.estimation.torque.motor import Friction, Motor, fit_friction, motor_source
+from forcetorque.estimation.torque.motor import Friction, drive_torque, fit_friction, motor_source
 from forcetorque.estimation.torque.source import TorqueSource, wrench_source
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in
@@ -125,8 +125,8 @@ class TorqueSources:
         rows, _ = pick_samples(experiment.recording, source, interval)
         at_ns = source.stamp_ns[rows]
         skin = sources_at(experiment, self.patches, at_ns)
-        asked = [ft for ft, there in ((True, experiment.sensors), (False, self._feels(interval))) if there]
-        needed = [joint for ft in asked for joint in required_joints_of(self._question(interval, skin, ft=ft))]
+        choices = [ft for ft, there in ((True, experiment.sensors), (False, self._feels(interval))) if there]
+        needed = [joint for ft in choices for joint in required_joints_of(self._question(interval, skin, ft=ft))]
         joints, root = robot_motion_at(
             experiment.recording,
             experiment.model,
@@ -164,7 +164,7 @@ class TorqueSources:
             contacts=tuple(contacts),
             torques=self.joints or moving_joints(tree),
             torque_sum=TorqueSum.SUB_MODEL,
-            # more unknowns than equations are no reason to refuse: torques that hang on them are left to other sources
+            # more unknowns than equations are allowed: torques that depend on them are left to other sources
             minimum_norm=MinimumNorm(length_scale=1.0),
         )
 
@@ -251,8 +251,8 @@ class TorqueSources:
             stream, signal = recording.joint_signals(motor.quantity)[motor.joint]
             require_overlap(clock_stream(self.experiment), stream)
             reading = interpolate(stream, signal.column(motor.joint)[:, None], motion.stamp_ns)[:, 0]
-            drive = Motor(joint=motor.joint, torque_constant=motor.torque_constant, gear_ratio=motor.gear_ratio or 0.0)
-            columns.append(drive.drive_torque(reading))
+            constant, ratio = motor.torque_constant, motor.gear_ratio or 0.0
+            columns.append(drive_torque(motor.joint, reading, torque_constant=constant, gear_ratio=ratio))
         return np.stack(columns, axis=1)
 
     def _frictions(self) -> tuple[Friction, ...]:
@@ -291,7 +291,7 @@ class TorqueSources:
             return self._skin(motion)
         raise ExperimentError(
             f"interval {motion.interval.label!r}: expected [[sensor]], [[patch]] with a table or a known [[contact]], "
-            "which tell the torques that friction of motors is fitted to, got none"
+            "which give the torques that friction of motors is fitted to, got none"
         )
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array
 from forcetorque.base.errors import EstimationError, FitError
 from forcetorque.estimation.torque.source import TorqueSource
 from forcetorque.estimation.uncertain.uncertainty import square_root
@@ -27,7 +27,7 @@ _LEAST_SHARE = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Friction:
+class Friction(ArrayRecord):
     """Friction of one joint: `coulomb sign(v) + viscous v + inertia a + offset`, in the direction of motion.
 
     No Stribeck effect, and no friction that grows with the load. At standstill friction is anything up to Coulomb's.
@@ -35,10 +35,10 @@ class Friction:
 
     joint: str
     """Name of the joint."""
-    coefficients: FloatArray
+    coefficients: FloatArray = field(metadata=array(4))
     """Coulomb friction, N m; viscous friction, N m s/rad; inertia of the rotor seen from the joint, kg m2; offset of
     the motor's reading, N m; shape (4,). Of a prismatic joint N, N s/m, kg, N."""
-    covariance: FloatArray
+    covariance: FloatArray = field(metadata=array(4, 4))
     """Covariance of the coefficients; shape (4, 4)."""
     variance: float
     """Of what the model leaves unexplained in a sample; (N m)^2."""
@@ -46,13 +46,9 @@ class Friction:
     """Time over which that repeats itself; s."""
     standstill: float
     """Speed below which nothing is said; rad/s, m/s."""
-    shared: FloatArray = field(default_factory=lambda: np.zeros((4, 0)))
+    shared: FloatArray = field(default_factory=lambda: np.zeros((4, 0)), metadata=array(4, None))
     """By how much one standard deviation of each of s errors that the trusted source shares with others moves the
     coefficients; part of their covariance; shape (4, s)."""
-
-    def __post_init__(self) -> None:
-        for key, shape in (("coefficients", (4,)), ("covariance", (4, 4)), ("shared", (4, None))):
-            object.__setattr__(self, key, read_only(getattr(self, key), name=key, shape=shape))
 
     def moves(self, velocity: FloatArray) -> BoolArray:
         """Tell where the joint moves fast enough.
@@ -199,36 +195,28 @@ def _require_both_ways(joint: str, velocity: FloatArray, standstill: float) -> N
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Motor:
-    """The drive of one joint."""
+def drive_torque(joint: str, reading: FloatArray, *, torque_constant: float, gear_ratio: float) -> FloatArray:
+    """Give the torque of a motor as its joint would have it without friction.
 
-    joint: str
-    """Name of the joint."""
-    torque_constant: float
-    """Torque of the motor per ampere, or per whole PWM duty; N m/A, N m."""
-    gear_ratio: float
-    """Turns of the motor per turn of the joint; negative where it turns the other way."""
+    Args:
+        joint: Name of the joint.
+        reading: Currents, or PWM duties; shape (n,); A, 1.
+        torque_constant: Torque of the motor per ampere, or per whole PWM duty; N m/A, N m.
+        gear_ratio: Turns of the motor per turn of the joint; negative where it turns the other way.
 
-    def __post_init__(self) -> None:
-        for name in ("torque_constant", "gear_ratio"):
-            value = getattr(self, name)
-            if not np.isfinite(value) or value == 0.0:
-                raise EstimationError(
-                    f"motor of joint {self.joint!r}: {name}: expected a number other than 0, got {value}; "
-                    "no torque can be told from a motor without it"
-                )
+    Returns:
+        Torques along +q; shape (n,); N m.
 
-    def drive_torque(self, reading: FloatArray) -> FloatArray:
-        """Give the torque of the motor as the joint would have it without friction.
-
-        Args:
-            reading: Currents, or PWM duties; shape (n,); A, 1.
-
-        Returns:
-            Torques along +q; shape (n,); N m.
-        """
-        return self.torque_constant * self.gear_ratio * np.asarray(reading)
+    Raises:
+        EstimationError: If a factor is 0 or not finite.
+    """
+    for name, value in (("torque_constant", torque_constant), ("gear_ratio", gear_ratio)):
+        if not np.isfinite(value) or value == 0.0:
+            raise EstimationError(
+                f"motor of joint {joint!r}: {name}: expected a number other than 0, got {value}; "
+                "the torque cannot be computed from a motor without it"
+            )
+    return torque_constant * gear_ratio * np.asarray(reading)
 
 
 def motor_source(

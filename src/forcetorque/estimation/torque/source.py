@@ -9,7 +9,7 @@ from typing import Final, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only, read_only_integers
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, names
 from forcetorque.base.errors import EstimationError
 from forcetorque.estimation.uncertain.estimate import estimate_determined
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty, square_root
@@ -19,7 +19,7 @@ from forcetorque.robot.motion import JointMotion, RootMotion
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TorqueSource:
+class TorqueSource(ArrayRecord):
     """Torques of one source over one interval: `torque = truth + lasting @ z + shared @ w + noise`.
 
     z and w are normal with variance 1. Noise averages out, what lasts does not: an offset, a motor constant, a friction
@@ -30,36 +30,28 @@ class TorqueSource:
 
     name: str
     """What it is called, such as `ft`."""
-    joints: tuple[str, ...]
+    joints: tuple[str, ...] = field(metadata=names("j"))
     """Names of j joints."""
-    stamp_ns: IntArray
+    stamp_ns: IntArray = field(metadata=array("n", dtype="int"))
     """Instants; increasing; shape (n,); ns."""
-    torque: FloatArray
+    torque: FloatArray = field(metadata=array("n", "j"))
     """Torques along +q, NaN where it says nothing; shape (n, j); N m, N where prismatic."""
-    noise: FloatArray
+    noise: FloatArray = field(metadata=array("n", "j", "j"))
     """Covariance of what differs from sample to sample; shape (n, j, j); (N m)^2."""
-    lasting: FloatArray
+    lasting: FloatArray = field(metadata=array("n", "j", None))
     """What one standard deviation of each of p independent errors that last the interval adds; shape (n, j, p); N m."""
     noise_time_s: float = 0.0
     """Time over which the noise repeats itself, the integral of its autocorrelation for times above 0; s."""
-    shared: FloatArray = field(default_factory=lambda: np.zeros((0, 0, 0)))
+    shared: FloatArray = field(default_factory=lambda: np.zeros((0, 0, 0)), metadata=array("n", "j", None))
     """What one standard deviation of each of s errors adds that last and that sources have in common; shape (n, j, s),
     with the same s errors in all sources that have any; none if left out; N m."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "joints", tuple(self.joints))
-        j = len(self.joints)
-        torque = read_only(self.torque, name=f"{self.name}: torque", shape=(None, j))
-        n = len(torque)
-        object.__setattr__(self, "torque", torque)
-        stamps = read_only_integers(self.stamp_ns, name=f"{self.name}: stamp_ns", shape=(n,))
-        object.__setattr__(self, "stamp_ns", stamps)
         if not np.size(self.shared):
-            object.__setattr__(self, "shared", np.zeros((n, j, 0)))
-        for key, shape in (("noise", (n, j, j)), ("lasting", (n, j, None)), ("shared", (n, j, None))):
-            object.__setattr__(self, key, read_only(getattr(self, key), name=f"{self.name}: {key}", shape=shape))
-        if not n or (np.diff(stamps) <= 0).any():
-            raise EstimationError(f"source {self.name!r}: expected instants that increase, got {n} that do not")
+            object.__setattr__(self, "shared", np.zeros((*np.shape(self.torque), 0)))
+        check_arrays(self)
+        if not len(self) or (np.diff(self.stamp_ns) <= 0).any():
+            raise EstimationError(f"source {self.name!r}: expected instants that increase, got {len(self)} that do not")
         if not 0.0 <= self.noise_time_s < np.inf:
             raise EstimationError(
                 f"source {self.name!r}: noise_time_s: expected at least 0 s, got {self.noise_time_s}; "

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import accumulate
 from typing import Final
 
@@ -31,7 +32,7 @@ class Affine:
     """Shape (n, r, m)."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Scene:
     """What acts on which body, and what the bodies need."""
 
@@ -119,14 +120,14 @@ class Scene:
     def _numbered(self, count: int) -> list[tuple[int, Actor]]:
         return list(enumerate(self.actors[:count]))
 
-    @property
+    @cached_property
     def _starts(self) -> list[tuple[int, int]]:
         """First column of each actor among unknowns and errors."""
         unknowns = accumulate((actor.free.shape[2] for actor in self.actors), initial=0)
         errors = accumulate((actor.errors.shape[2] for actor in self.actors), initial=0)
         return list(zip(unknowns, errors, strict=True))
 
-    @property
+    @cached_property
     def _width(self) -> tuple[int, int, int]:
         """Samples, unknowns, errors."""
         unknowns, errors = self._starts[-1]
@@ -143,7 +144,7 @@ def _stacked(blocks: Sequence[Affine], width: tuple[int, int, int]) -> Affine:
 
 
 _SEEN = 1e-6
-"""An answer does not depend on what cannot be told if less than this share of it does."""
+"""A result does not depend on undetermined directions if less than this share of it does."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -287,7 +288,7 @@ def undetermined_of(actors: Sequence[Actor], hidden: FloatArray) -> tuple[Undete
                 Undetermined(
                     contacts=tuple(actors[index].name for index in np.flatnonzero(pattern).tolist()),
                     samples=samples,
-                    directions=tuple(_words(actors, owner, vector, first) for vector in basis),
+                    directions=tuple(_description(actors, owner, vector, first) for vector in basis),
                 )
             )
     return tuple(results)
@@ -307,7 +308,7 @@ def _sparse_basis(projection: FloatArray) -> list[FloatArray]:
     return list(rows)
 
 
-def _words(actors: Sequence[Actor], owner: IntArray, vector: FloatArray, sample: int) -> str:
+def _description(actors: Sequence[Actor], owner: IntArray, vector: FloatArray, sample: int) -> str:
     """What a vector of unknowns does, scaled to a largest component of 1 N or 1 N m."""
     wrenches = {
         actor.name: actor.free[sample] @ vector[owner == k] for k, actor in enumerate(actors) if (owner == k).any()

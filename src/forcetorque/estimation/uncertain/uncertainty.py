@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, check_arrays, require_shape
 from forcetorque.base.errors import EstimationError, ShapeError
 from forcetorque.base.wrench import wrench_matrix
 from forcetorque.robot.contacts import Contact
@@ -21,24 +21,18 @@ slips in a direction that nobody knows: the most that friction allows, so a cont
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Tangents:
+class Tangents(ArrayRecord):
     """The tangential force at a known contact, which is not part of its wrench."""
 
-    maps: FloatArray
+    maps: FloatArray = field(metadata=array("n", 6, 2))
     """Wrench in the contact frame of 1 N along either tangent, 0 where nothing touches; shape (n, 6, 2); N/N, N m/N."""
-    sd_N: FloatArray | None = None
+    sd_N: FloatArray | None = field(default=None, metadata=array("n"))
     """Standard deviation about zero of each component; None where nothing is known of it; shape (n,); N."""
 
     def __post_init__(self) -> None:
-        maps = read_only(self.maps, name="tangents: maps", shape=(None, 6, 2))
-        object.__setattr__(self, "maps", maps)
-        if self.sd_N is not None:
-            sd = read_only(self.sd_N, name="tangents: sd_N", shape=(len(maps),))
-            if (sd < 0.0).any() or np.isinf(sd).any():
-                raise ShapeError(
-                    "tangents: sd_N: expected finite numbers of at least 0, or None where nothing is known"
-                )
-            object.__setattr__(self, "sd_N", sd)
+        check_arrays(self)
+        if self.sd_N is not None and ((self.sd_N < 0.0).any() or np.isinf(self.sd_N).any()):
+            raise ShapeError("tangents: sd_N: expected finite numbers of at least 0, or None where nothing is known")
 
     def of_samples(self, kept: slice | BoolArray) -> Tangents:
         """Keep some samples.

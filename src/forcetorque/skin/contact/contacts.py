@@ -74,8 +74,8 @@ def _add_ring(surface: SkinSurface, inside: BoolArray, contact: IntArray) -> Non
     contact[claimed[order]] = contact[claiming[order]]
 
 
-SURPRISE_SHARE: Final = 0.303
-"""Error of the pressure between taxels that one taxel stands for, over what its neighbours did not foretell of it."""
+RESIDUAL_SHARE: Final = 0.303
+"""Error of the pressure between taxels that one taxel stands for, over what its neighbours did not predict of it."""
 SHAPE_SHARE: Final = 0.031
 """Error of a wrench over its size that no taxel tells: edges that are sharper than a pad, the shape of the surface.
 
@@ -101,7 +101,7 @@ class SkinContacts:
     hysteresis_N: FloatArray
     """How much more the same load reads while it is taken off than while it is put on; shape (c,)."""
     drift_limit_N: FloatArray
-    """How much heat through the contact may add, which no thermal pad tells; NaN if not known; shape (c,)."""
+    """How much heat through the contact may add, which no thermal pad measures; NaN if not known; shape (c,)."""
     normal_force_N: FloatArray
     """Integral of the pressure, (7.12); shape (c,)."""
     area_m2: FloatArray
@@ -119,7 +119,7 @@ class SkinContacts:
     beyond_range: BoolArray
     """Whether a taxel reads more than it was calibrated for; shape (c,)."""
     identity: IntArray
-    """Number that each keeps from frame to frame (`ContactLives`); its place from 1 if nobody follows; shape (c,)."""
+    """Number that each keeps from frame to frame (`ContactLives`), or its index from 1; shape (c,)."""
 
     def __len__(self) -> int:
         return len(self.wrench)
@@ -253,9 +253,9 @@ def _covariance(
     if operator.method not in _INTERPOLATING or not len(wrench):
         return np.full((len(wrench), 6, 6), np.nan)
     taxels = groups.taxels
-    surprise = patch.foretold(frame.live).surprise(frame.pressures, taxels)
+    residual = patch.predicted_pressures(frame.live).residual(frame.pressures, taxels)
     # where neighbours are dead a taxel stands for more skin, and tells each bit of it less well
-    between = SURPRISE_SHARE * surprise * groups.areas / patch.operator().areas[taxels]
+    between = RESIDUAL_SHARE * residual * groups.areas / patch.operator().areas[taxels]
     scaled = groups.weights * np.sqrt(frame.sd_Pa[taxels] ** 2 + between**2)[:, None]
     squares = np.stack([own.T @ own for own in np.split(scaled, groups.starts[1:])])
     return squares + SHAPE_SHARE**2 * wrench[:, :, None] * wrench[:, None]

@@ -8,7 +8,15 @@ from typing import Final, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_last_axis, require_shape
+from forcetorque.base.arrays import (
+    ArrayRecord,
+    BoolArray,
+    FloatArray,
+    array,
+    check_arrays,
+    require_last_axis,
+    require_shape,
+)
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.taxels.patch_calibration import PressureTable
@@ -74,27 +82,25 @@ _FEWEST_AT_REST: Final = 10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PatchReader:
+class PatchReader(ArrayRecord):
     """What turns the counts of one patch, since it was last switched on, into pressures; n taxels."""
 
     table: PressureTable
     """Pressures by counts below rest."""
-    rest: FloatArray
+    rest: FloatArray = field(metadata=array("columns"))
     """Counts of a message at rest; shape (columns,)."""
-    noise: FloatArray
+    noise: FloatArray = field(metadata=array("columns"))
     """Standard deviation of one message from the next at rest, of each column; shape (columns,); counts."""
     rest_messages: int
     """Messages that `rest` is the mean of."""
-    live: BoolArray
+    live: BoolArray = field(metadata=array("n", dtype="bool"))
     """Taxels that can be trusted; shape (n,)."""
 
     def __post_init__(self) -> None:
-        live = np.array(self.live, dtype=np.bool_) & self.table.live
-        require_shape(live, name="live", shape=(len(self.table),))
-        live.setflags(write=False)
-        object.__setattr__(self, "live", live)
-        object.__setattr__(self, "rest", read_only(self.rest, name="rest", shape=(self.table.columns,)))
-        object.__setattr__(self, "noise", read_only(self.noise, name="noise", shape=(self.table.columns,)))
+        require_shape(np.asarray(self.rest), name="rest", shape=(self.table.columns,))
+        require_shape(np.asarray(self.live), name="live", shape=(len(self.table),))
+        object.__setattr__(self, "live", np.asarray(self.live, dtype=np.bool_) & self.table.live)
+        check_arrays(self)
 
     @classmethod
     def at_rest(cls, table: PressureTable, counts: FloatArray, *, live: BoolArray | None = None) -> Self:

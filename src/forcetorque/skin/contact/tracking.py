@@ -6,11 +6,13 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.table import Row, Shown
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import WAKING, PatchReader, PressureFrame
 from forcetorque.skin.temperature.gains import HeatGains, TaxelDrift
@@ -33,41 +35,29 @@ _JUST: Final = 1e-9
 """Less than the time between frames; s."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Release:
+OFFERED: Final = "offered"
+"""State of a release after which the rest may be taken again."""
+
+
+class ReleaseRow(Row):
     """A contact that was let go."""
 
-    time_s: float
-    """When it had settled; s."""
-    held_s: float
-    """For how long it was held; s."""
-    force_N: float
+    time_s: Annotated[float, Shown("time", "s", digits=1)]
+    """When it had settled, since the start of the recording."""
+    held_s: Annotated[float, Shown("held", "s", digits=1)]
+    """For how long it was held."""
+    force_N: Annotated[float, Shown("force", "N", digits=2)]
     """Force before."""
-    left_N: float
-    """Force that its taxels read after; heat, or what still touches them."""
-    drift_limit_N: float
-    """How much heat may have added by then; NaN if not known."""
-    touched: BoolArray
-    """Taxels that it touched; shape (n,)."""
-    re_tared: bool = False
-    """Whether what is left was taken as rest."""
-
-    @property
-    def may_be_heat(self) -> bool:
-        """Whether heat explains all that is left."""
-        return 0.0 < self.left_N <= self.drift_limit_N
-
-    def taken_as_rest(self) -> Release:
-        """Say that what is left was taken as rest.
-
-        Returns:
-            The same release.
-        """
-        return replace(self, re_tared=True)
+    left_N: Annotated[float, Shown("left", "N", digits=2)]
+    """Force that its taxels read after."""
+    drift_limit_N: Annotated[float | None, Shown("drift limit", "N", digits=1)]
+    """How much of that heat may be."""
+    re_tare: Annotated[str, Shown("re-tare")]
+    """`offered` where heat explains all that is left, `done` where that was taken as rest, else `no`."""
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
-class _Touch:
+class _HeldContact:
     """A contact that is followed from frame to frame; force and limit are those of all contacts on its taxels."""
 
     begun_s: float
@@ -82,7 +72,7 @@ class _Touch:
         while len(self.course) > _FEWEST and self.course[0][0] < seconds - WITHIN_S:
             self.course.popleft()
 
-    def release(self) -> Release | None:
+    def release(self) -> ReleaseRow | None:
         """Tell whether it was let go and has settled."""
         times, forces, limits = np.array(self.course).T
         settled = times > min(times[-1] - SETTLED_S, times[-2:][0] - _JUST)
@@ -91,23 +81,24 @@ class _Touch:
         steady = len(now) < len(forces) and np.ptp(now) <= SETTLED_SHARE * before
         if not steady or now.mean() > (1.0 - RELEASED_SHARE) * before:
             return None
-        return Release(
+        left, limit = float(now.mean()), float(limits[-1])
+        return ReleaseRow(
             time_s=float(times[-1]),
             held_s=float(times[-1]) - self.begun_s,
             force_N=before,
-            left_N=float(now.mean()),
-            drift_limit_N=float(limits[-1]),
-            touched=self.touched,
+            left_N=left,
+            drift_limit_N=finite_or_none(limit),
+            re_tare=OFFERED if 0.0 < left <= limit else "no",
         )
 
 
-class TouchLog:
+class ReleaseDetector:
     """Follows contacts, and says which are let go."""
 
     def __init__(self) -> None:
-        self._touches: list[_Touch] = []
+        self._touches: list[_HeldContact] = []
 
-    def released(self, seconds: float, contacts: SkinContacts) -> Iterator[Release]:
+    def released(self, seconds: float, contacts: SkinContacts) -> Iterator[tuple[ReleaseRow, BoolArray]]:
         """Add a frame.
 
         Args:
@@ -115,13 +106,13 @@ class TouchLog:
             contacts: Its contacts.
 
         Yields:
-            Contacts that were let go and have settled.
+            Contacts that were let go and have settled, and the taxels that each touched; shape (n,).
         """
         for number in range(len(contacts)):
             own = contacts.contact == number
             known = next((touch for touch in self._touches if (touch.touched & own).any()), None)
             if known is None:
-                self._touches.append(_Touch(begun_s=seconds, touched=own))
+                self._touches.append(_HeldContact(begun_s=seconds, touched=own))
             else:
                 known.touched = known.touched | own
         for touch in list(self._touches):
@@ -130,7 +121,7 @@ class TouchLog:
             if release is not None:
                 self._touches.remove(touch)
                 if release.force_N > 0.0:
-                    yield release
+                    yield release, touch.touched
 
 
 BASELINE_S: Final = 30.0
@@ -147,7 +138,7 @@ class PatchFollower:
 
     Pads tell heat from inside, by their gains and lags. What these leave is a baseline of every taxel, which follows it
     while it is idle, and is frozen in a contact and one ring around it, so that no contact is eaten. Heat that comes
-    through a contact is told by neither: it is bounded by the time for which each taxel has been touched, times the
+    through a contact is measured by neither: it is bounded by the time for which each taxel has been touched, times the
     steepest rate of the warm-up, and what pads left unexplained there. A taxel that is let go cools as slowly as it was
     heated.
     """
@@ -169,13 +160,13 @@ class PatchFollower:
         """Fall that neither pressure nor pads explain; shape (n,); counts."""
         self.touched_s: FloatArray = np.zeros(len(patch.layout))
         """Time for which each taxel has been touched; shape (n,); s."""
-        self.releases: list[Release] = []
+        self.releases: list[ReleaseRow] = []
         """Contacts that were let go."""
-        self._touches = TouchLog()
+        self._touches = ReleaseDetector()
         self.heating = 0.0
-        """Steepest minute of heat that pads told, over that of the warm-up; median over taxels."""
+        """Steepest minute of heat measured by pads, over that of the warm-up; median over taxels."""
         self._pads = PadFilter(heat.lags)
-        self._told: deque[tuple[float, FloatArray]] = deque()
+        self._heats: deque[tuple[float, FloatArray]] = deque()
         self._last_s: float | None = None
 
     def frame(self, seconds: float, counts: FloatArray) -> tuple[PressureFrame, SkinContacts]:
@@ -199,8 +190,8 @@ class PatchFollower:
         contacts = find_contacts(self.patch, frame)
         left = self.reader.table.fall(message, self.reader.rest) - drift.fall
         self._keep(passed, contacts.contact >= 0, left)
-        for release in self._touches.released(seconds, contacts):
-            self.releases.append(self._let_go(release, left))
+        for release, touched in self._touches.released(seconds, contacts):
+            self.releases.append(self._let_go(release, touched, left))
         return frame, contacts
 
     def _heat(self, passed: float, message: FloatArray, number: int) -> tuple[FloatArray, FloatArray]:
@@ -212,12 +203,12 @@ class PatchFollower:
 
     def _take_rate(self, seconds: float, heat: FloatArray) -> None:
         """Compare the heat of the last minute with the steepest one of the warm-up."""
-        if self._told and seconds - self._told[-1][0] < _RATE_STEP_S:
+        if self._heats and seconds - self._heats[-1][0] < _RATE_STEP_S:
             return
-        self._told.append((seconds, heat))
-        begun, before = self._told[0]
+        self._heats.append((seconds, heat))
+        begun, before = self._heats[0]
         if seconds - begun >= RATE_S:
-            self._told.popleft()
+            self._heats.popleft()
             known = self.reader.live & (self.heat.rates > 0.0)
             if known.any():
                 rate = np.abs(heat - before)[known] / (seconds - begun)
@@ -229,14 +220,14 @@ class PatchFollower:
         self.baseline[idle] += (1.0 - np.exp(-passed / BASELINE_S)) * left[idle]
         self.touched_s = np.maximum(self.touched_s + np.where(touched, passed, -passed), 0.0)
 
-    def _let_go(self, release: Release, left: FloatArray) -> Release:
-        """Take what is left on the taxels of a contact as their rest, if that was asked for and heat can explain it."""
-        if not (self.re_tare and release.may_be_heat):
+    def _let_go(self, release: ReleaseRow, touched: BoolArray, left: FloatArray) -> ReleaseRow:
+        """Take what is left on the taxels of a contact as their rest, if that is requested and heat explains it."""
+        if not self.re_tare or release.re_tare != OFFERED:
             return release
-        near = self.patch.surface.with_ring(release.touched)
+        near = self.patch.surface.with_ring(touched)
         self.baseline[near] += left[near]
         self.touched_s[near] = 0.0
-        return release.taken_as_rest()
+        return release.model_copy(update={"re_tare": "done"})
 
 
 REACH_M: Final = 0.02
@@ -276,7 +267,7 @@ class ContactLives:
 
     Contacts are assigned to those of the frames before so that they share as many taxels as possible; where they share
     none, by places up to `REACH_M` apart. Two contacts that become one go on as the one that shares more with it; the
-    other has merged into it. What comes off a contact is a new one that split from it: after a merger nobody can tell
+    other has merged into it. What comes off a contact is a new one that split from it: after a merger it is not known
     which of both it was.
     """
 
@@ -295,7 +286,7 @@ class ContactLives:
         Args:
             seconds: Its time, later than that of the frame before; s.
             places: Where its contacts are; shape (c, 3); m.
-            taxels: Which taxels feel each; none where nobody says; shape (c, n).
+            taxels: Which taxels feel each; none where that is not known; shape (c, n).
 
         Returns:
             Identities of the contacts; shape (c,).
@@ -320,7 +311,7 @@ class ContactLives:
     def _identity(
         self, seconds: float, known: list[_Trace], shared: FloatArray, owner: list[int | None], contact: int
     ) -> int:
-        """Number of a contact, which is born if nobody owns it."""
+        """Number of a contact, a new one if no trace is assigned."""
         row = owner[contact]
         if row is not None:
             identity = known[row].identity

@@ -11,11 +11,8 @@ from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.results.result import Result
-from forcetorque.results.table import Row, Shown, Table
+from forcetorque.results.table import Table
 from forcetorque.skin.layout.defects import (
-    FACETED_DEG,
-    NEAREST_CENTRES_M,
-    OBLIQUE_DEG,
     duplicates,
     gaps,
     normal_directions,
@@ -24,11 +21,11 @@ from forcetorque.skin.layout.defects import (
     overlaps,
     representatives,
 )
-from forcetorque.skin.layout.finding import Defect, LayoutFinding, PatchShape, counted, shape_of
+from forcetorque.skin.layout.finding import LayoutFindingRow, PatchShape, counted, shape_of
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import PatchDescription
 
-_LOOKS: tuple[Callable[[PatchShape], Iterator[LayoutFinding]], ...] = (
+_CHECKS: tuple[Callable[[PatchShape], Iterator[LayoutFindingRow]], ...] = (
     representatives,
     duplicates,
     off_template,
@@ -39,72 +36,32 @@ _LOOKS: tuple[Callable[[PatchShape], Iterator[LayoutFinding]], ...] = (
 )
 
 
-def layout_findings(patch: PatchDescription) -> tuple[LayoutFinding, ...]:
+def layout_findings(patch: PatchDescription) -> tuple[LayoutFindingRow, ...]:
     """Look for everything that may be wrong with a layout.
 
     Args:
         patch: Patch.
 
     Returns:
-        Findings; none where it is sound.
+        Findings; none where it is valid.
     """
     return shape_findings(shape_of(patch))
 
 
-def shape_findings(shape: PatchShape) -> tuple[LayoutFinding, ...]:
+def shape_findings(shape: PatchShape) -> tuple[LayoutFindingRow, ...]:
     """Look for everything that may be wrong with a layout whose shape is known.
 
     Args:
         shape: Patch.
 
     Returns:
-        Findings; none where it is sound.
+        Findings; none where it is valid.
     """
-    return tuple(finding for look in _LOOKS for finding in look(shape))
-
-
-__all__ = [
-    "FACETED_DEG",
-    "NEAREST_CENTRES_M",
-    "OBLIQUE_DEG",
-    "Defect",
-    "LayoutFinding",
-    "PatchShape",
-    "counted",
-    "layout_findings",
-    "shape_findings",
-    "shape_of",
-]
+    return tuple(finding for check in _CHECKS for finding in check(shape))
 
 
 _MOST = 6
-"""Stretches of numbers that a table has; JSON and CSV have all numbers."""
-
-
-class LayoutFindingRow(Row):
-    """One finding."""
-
-    defect: Annotated[str, Shown("finding")]
-    """What is wrong."""
-    taxels: tuple[int, ...]
-    """Columns of the taxels that have it; none where it is of the whole file."""
-    lines: tuple[int, ...]
-    """Lines of the file that state these taxels."""
-    modules: tuple[int, ...]
-    """Modules that have it."""
-    message: str
-    """What was found."""
-    remedy: str
-    """What to do."""
-
-    def flat(self) -> dict[str, object]:
-        """Give the row as one line of a table, with a cell for each list of numbers.
-
-        Returns:
-            Values by key.
-        """
-        lists = {name: " ".join(map(str, getattr(self, name))) for name in ("taxels", "lines", "modules")}
-        return {"defect": self.defect, **lists, "message": self.message, "remedy": self.remedy}
+"""Ranges of numbers that a table shows; JSON and CSV have all numbers."""
 
 
 class SkinCheck(Result):
@@ -146,7 +103,7 @@ class SkinCheck(Result):
                 caption=self.source,
                 headings=("finding", "taxels", "which", "modules"),
                 rows=tuple(
-                    (row.defect, str(len(row.taxels)), _stretches(row.taxels), _stretches(row.modules))
+                    (row.defect, str(len(row.taxels)), _ranges(row.taxels), _ranges(row.modules))
                     for row in self.findings
                 ),
             )
@@ -199,30 +156,19 @@ def check_patch(patch: PatchDescription) -> SkinCheck:
         taxels=len(patch),
         modules=len(set(patch.modules.tolist())),
         thermal_pads=len(patch.thermal_pads),
-        findings=tuple(_row(finding) for finding in shape_findings(shape)),
+        findings=shape_findings(shape),
         positions=patch.positions,
         normals={name: values for name, values in normals.items() if values is not None},
     )
 
 
-def _row(finding: LayoutFinding) -> LayoutFindingRow:
-    return LayoutFindingRow(
-        defect=finding.defect,
-        taxels=tuple(finding.taxels.tolist()),
-        lines=tuple(finding.lines.tolist()),
-        modules=tuple(finding.modules.tolist()),
-        message=finding.message,
-        remedy=finding.remedy,
-    )
-
-
-def _stretches(numbers: tuple[int, ...]) -> str:
-    """Whole numbers in words, such as `0-5, 7`."""
-    stretches: list[list[int]] = []
+def _ranges(numbers: tuple[int, ...]) -> str:
+    """Whole numbers as text, such as `0-5, 7`."""
+    ranges: list[list[int]] = []
     for number in sorted(set(numbers)):
-        if stretches and number == stretches[-1][1] + 1:
-            stretches[-1][1] = number
+        if ranges and number == ranges[-1][1] + 1:
+            ranges[-1][1] = number
         else:
-            stretches.append([number, number])
-    words = [f"{first}" if first == last else f"{first}-{last}" for first, last in stretches]
-    return ", ".join(words[:_MOST]) + (", ..." if len(words) > _MOST else "")
+            ranges.append([number, number])
+    texts = [f"{first}" if first == last else f"{first}-{last}" for first, last in ranges]
+    return ", ".join(texts[:_MOST]) + (", ..." if len(texts) > _MOST else "")

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.skin.layout.finding import Defect, LayoutFinding, PatchShape, Side, counted, finding_of
+from forcetorque.skin.layout.finding import Defect, LayoutFindingRow, PatchShape, Side, counted, finding_of
 from forcetorque.skin.layout.layout import UNIT_DIGITS, PatchDescription
 from forcetorque.skin.layout.modules import (
     MODULE_CENTRE,
@@ -22,7 +22,7 @@ from forcetorque.skin.layout.modules import (
 from forcetorque.skin.surface import LONGEST_EDGE_M, SkinSurface
 
 
-def duplicates(shape: PatchShape) -> Iterator[LayoutFinding]:
+def duplicates(shape: PatchShape) -> Iterator[LayoutFindingRow]:
     """Find taxels that have the position of another one.
 
     Args:
@@ -48,7 +48,7 @@ _THERMAL = -2
 """Entry of a thermal pad; -1 is a missing taxel."""
 
 
-def representatives(shape: PatchShape) -> Iterator[LayoutFinding]:
+def representatives(shape: PatchShape) -> Iterator[LayoutFindingRow]:
     """Find what rows and `taxel2Repr` say differently.
 
     Args:
@@ -108,11 +108,11 @@ def _misled(entries: IntArray, placed: BoolArray) -> IntArray:
     taxels = np.flatnonzero(placed & (entries >= 0))
     chosen = entries[taxels]
     inside = np.minimum(chosen, len(entries) - 1)
-    sound = (chosen < len(entries)) & placed[inside] & (entries[inside] == chosen)
-    return taxels[~sound]
+    valid = (chosen < len(entries)) & placed[inside] & (entries[inside] == chosen)
+    return taxels[~valid]
 
 
-def _finding(patch: PatchDescription, columns: IntArray, message: str, remedy: str) -> LayoutFinding:
+def _finding(patch: PatchDescription, columns: IntArray, message: str, remedy: str) -> LayoutFindingRow:
     return finding_of(patch, columns, defect=Defect.REPRESENTATIVES, message=message, remedy=remedy)
 
 
@@ -120,11 +120,11 @@ NEAREST_CENTRES_M = 0.8 * MODULE_SIDE_M / np.sqrt(3.0)
 """Distance of the centres of two modules that share a side, with room for what covers bend; m."""
 
 
-def off_template(shape: PatchShape) -> Iterator[LayoutFinding]:
+def off_template(shape: PatchShape) -> Iterator[LayoutFindingRow]:
     """Find modules of twelve columns that do not have the ten taxels of the triangle where it has them.
 
     Args:
-        shape: Patch; of other skins, whose modules are not twelve columns each, nothing is asked.
+        shape: Patch; of other skins, whose modules are not twelve columns each, nothing is checked.
 
     Yields:
         A finding of those with other taxels, and one of those with taxels at other places.
@@ -162,11 +162,11 @@ def off_template(shape: PatchShape) -> Iterator[LayoutFinding]:
         )
 
 
-def overlaps(shape: PatchShape) -> Iterator[LayoutFinding]:
+def overlaps(shape: PatchShape) -> Iterator[LayoutFindingRow]:
     """Find modules whose centres are nearer than two triangles side by side can be.
 
     Args:
-        shape: Patch; of other skins, whose modules are not twelve columns each, nothing is asked.
+        shape: Patch; of other skins, whose modules are not twelve columns each, nothing is checked.
 
     Yields:
         One finding of them all.
@@ -196,7 +196,7 @@ REBUILD = "rebuild the normals from the positions (`rebuild_normals` of `read_la
 """What to do about wrong normals where positions are right."""
 
 
-def normal_lengths(shape: PatchShape) -> Iterator[LayoutFinding]:
+def normal_lengths(shape: PatchShape) -> Iterator[LayoutFindingRow]:
     """Find normals of length 0, and of another one than 1.
 
     Args:
@@ -238,7 +238,7 @@ _SAME = 1e-3
 """Difference of components of normals that are one; of the rounding of three digits."""
 
 
-def normal_directions(shape: PatchShape) -> Iterator[LayoutFinding]:
+def normal_directions(shape: PatchShape) -> Iterator[LayoutFindingRow]:
     """Find one direction for all taxels, directions into the link or across the surface, and one for each module.
 
     Args:
@@ -277,7 +277,7 @@ def _is_placeholder(unit: FloatArray, angle: FloatArray) -> bool:
     return bool(np.ptp(unit, axis=0).max() < _SAME and np.minimum(angle, 180.0 - angle).max() > OBLIQUE_DEG)
 
 
-def _placeholder(patch: PatchDescription, unit: FloatArray, stated: BoolArray, angle: FloatArray) -> LayoutFinding:
+def _placeholder(patch: PatchDescription, unit: FloatArray, stated: BoolArray, angle: FloatArray) -> LayoutFindingRow:
     direction = " ".join(f"{component:g}" for component in unit[stated][0].round(3) + 0.0)
     return finding_of(
         patch,
@@ -289,7 +289,7 @@ def _placeholder(patch: PatchDescription, unit: FloatArray, stated: BoolArray, a
     )
 
 
-def _off(patch: PatchDescription, off: BoolArray, defect: Defect, what: str, remedy: str) -> LayoutFinding:
+def _off(patch: PatchDescription, off: BoolArray, defect: Defect, what: str, remedy: str) -> LayoutFindingRow:
     message = f"{np.count_nonzero(off)} of {len(patch)} normals {what}"
     return finding_of(patch, patch.taxels[off], defect=defect, message=message, remedy=remedy)
 
@@ -302,7 +302,7 @@ def _remedy_of_inward(shape: PatchShape, inward: BoolArray, stated: BoolArray) -
     return f"reverse them, or {REBUILD}"
 
 
-def _faceted(patch: PatchDescription, unit: FloatArray, surface: FloatArray) -> Iterator[LayoutFinding]:
+def _faceted(patch: PatchDescription, unit: FloatArray, surface: FloatArray) -> Iterator[LayoutFindingRow]:
     """One normal for each module, where the normals of the surface turn within modules."""
     modules = np.unique(patch.modules)
     own = [patch.modules == module for module in modules]
@@ -330,7 +330,7 @@ LEAST_HOLE_M = 4.0 * LONGEST_EDGE_M
 _REMEDY = "look whether modules are missing there; pressure in a gap is not felt, and forces on it are too small"
 
 
-def gaps(shape: PatchShape) -> Iterator[LayoutFinding]:
+def gaps(shape: PatchShape) -> Iterator[LayoutFindingRow]:
     """Find pieces of a patch that are apart from the largest one, and holes in it.
 
     Args:

@@ -5,11 +5,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum, StrEnum, auto
+from typing import Annotated
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import SkinError
+from forcetorque.results.table import Row, Shown
 from forcetorque.skin.layout.layout import SAME_PLACE_M, PatchDescription
 from forcetorque.skin.layout.modules import outward_of_boards
 from forcetorque.skin.layout.normals import surface_normals
@@ -43,22 +45,30 @@ class Defect(StrEnum):
     """Taxels that nothing joins to the rest, and holes."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class LayoutFinding:
-    """One defect of a layout, and what has it."""
+class LayoutFindingRow(Row):
+    """One finding."""
 
-    defect: Defect
+    defect: Annotated[str, Shown("finding")]
     """What is wrong."""
-    taxels: IntArray
-    """Columns of the message that have it; shape (k,); empty where it is of the whole file."""
-    lines: IntArray
-    """Lines of the file that state them, where it has lines for them; shape (l,)."""
-    modules: IntArray
-    """Modules that have it, each once; shape (m,)."""
+    taxels: tuple[int, ...]
+    """Columns of the taxels that have it; none where it is of the whole file."""
+    lines: tuple[int, ...]
+    """Lines of the file that state these taxels."""
+    modules: tuple[int, ...]
+    """Modules that have it."""
     message: str
-    """What was found, with its size."""
+    """What was found."""
     remedy: str
     """What to do."""
+
+    def flat(self) -> dict[str, object]:
+        """Give the row as one line of a table, with a cell for each list of numbers.
+
+        Returns:
+            Values by key.
+        """
+        lists = {name: " ".join(map(str, getattr(self, name))) for name in ("taxels", "lines", "modules")}
+        return {"defect": self.defect, **lists, "message": self.message, "remedy": self.remedy}
 
 
 def counted(count: int, noun: str) -> str:
@@ -76,8 +86,8 @@ def counted(count: int, noun: str) -> str:
 
 def finding_of(
     patch: PatchDescription, columns: IntArray, *, defect: Defect, message: str, remedy: str
-) -> LayoutFinding:
-    """Tell a defect of some columns.
+) -> LayoutFindingRow:
+    """Describe a defect of some columns.
 
     Args:
         patch: Patch.
@@ -91,11 +101,11 @@ def finding_of(
     """
     inside = columns[columns < len(patch.lines)]
     lines = patch.lines[inside]
-    return LayoutFinding(
+    return LayoutFindingRow(
         defect=defect,
-        taxels=columns,
-        lines=lines[lines > 0],
-        modules=np.unique(patch.modules[np.isin(patch.taxels, columns)]),
+        taxels=tuple(columns.tolist()),
+        lines=tuple(lines[lines > 0].tolist()),
+        modules=tuple(np.unique(patch.modules[np.isin(patch.taxels, columns)]).tolist()),
         message=message,
         remedy=remedy,
     )

@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, check_arrays, require_shape
 from forcetorque.base.errors import ShapeError, SkinError
 
 SAME_PLACE_M = 1e-6
@@ -17,11 +17,11 @@ UNIT_TOLERANCE = 1e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SkinLayout:
+class SkinLayout(ArrayRecord):
     """Where the taxels of a patch are, on which link, and which column of the counts is whose.
 
-    It is sound: no two taxels at one place, every normal of length 1. What is not can be looked at by
-    `forcetorque.skin.layout.formats`, and be told by `forcetorque skin check`.
+    It is valid: no two taxels at one place, every normal of length 1. What is not valid is read by
+    `forcetorque.skin.layout.formats` and described by `forcetorque skin check`.
     """
 
     name: str
@@ -30,34 +30,23 @@ class SkinLayout:
     """Link frame in which positions and normals are given."""
     columns: int
     """Numbers in one message of counts; dummies and thermal pads included."""
-    taxels: IntArray
+    taxels: IntArray = field(metadata=array("n", dtype="int"))
     """Column of each pressure taxel, from 0 and increasing; shape (n,)."""
-    modules: IntArray
+    modules: IntArray = field(metadata=array("n", dtype="int"))
     """Module (triangle) that each taxel sits on; shape (n,)."""
-    positions: FloatArray
+    positions: FloatArray = field(metadata=array("n", 3))
     """Centres of the pads in `frame`; shape (n, 3); m."""
-    normals: FloatArray
+    normals: FloatArray = field(metadata=array("n", 3))
     """Unit normals in `frame`, out of the link; shape (n, 3)."""
-    thermal_pads: IntArray
+    thermal_pads: IntArray = field(metadata=array("t", dtype="int"))
     """Columns of the thermal pads, increasing; shape (t,)."""
-    thermal_modules: IntArray
+    thermal_modules: IntArray = field(metadata=array("t", dtype="int"))
     """Module that each thermal pad sits on; shape (t,)."""
 
     def __post_init__(self) -> None:
-        taxels = read_only_integers(self.taxels, name="taxels", shape=(None,))
-        pads = read_only_integers(self.thermal_pads, name="thermal_pads", shape=(None,))
-        arrays = {
-            "taxels": taxels,
-            "modules": read_only_integers(self.modules, name="modules", shape=taxels.shape),
-            "positions": read_only(self.positions, name="positions", shape=(len(taxels), 3)),
-            "normals": read_only(self.normals, name="normals", shape=(len(taxels), 3)),
-            "thermal_pads": pads,
-            "thermal_modules": read_only_integers(self.thermal_modules, name="thermal_modules", shape=pads.shape),
-        }
-        for name, array in arrays.items():
-            object.__setattr__(self, name, array)
+        check_arrays(self)
         self._require_columns()
-        self._require_sound()
+        self._require_valid()
 
     def __len__(self) -> int:
         return len(self.taxels)
@@ -79,7 +68,7 @@ class SkinLayout:
         if len(both):
             raise ShapeError(f"patch {self.name!r}: column {both[0]}: expected a taxel or a thermal pad, got both")
 
-    def _require_sound(self) -> None:
+    def _require_valid(self) -> None:
         """Positions and normals are numbers, positions differ, normals have length 1."""
         for name, vectors in (("positions", self.positions), ("normals", self.normals)):
             self._refuse(~np.isfinite(vectors.sum(axis=1)), f"{name}: expected finite numbers", vectors)
@@ -103,8 +92,8 @@ UNIT_DIGITS = 2e-3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PatchDescription:
-    """What a file says of a patch of skin, sound or not; `layout` is the sound form of it."""
+class PatchDescription(ArrayRecord):
+    """What a file says of a patch of skin, valid or not; `layout` is the valid form of it."""
 
     source: str
     """File."""
@@ -114,47 +103,34 @@ class PatchDescription:
     """Frame of positions and normals."""
     columns: int
     """Numbers in one message of counts; dummies and thermal pads included."""
-    lines: IntArray
+    lines: IntArray = field(metadata=array(None, dtype="int"))
     """Line of the file that states each column, from 1; 0 where none does; shape (columns,)."""
-    taxels: IntArray
+    taxels: IntArray = field(metadata=array("n", dtype="int"))
     """Column of each pressure taxel; shape (n,)."""
-    modules: IntArray
+    modules: IntArray = field(metadata=array("n", dtype="int"))
     """Module that each taxel sits on; shape (n,)."""
-    positions: FloatArray
+    positions: FloatArray = field(metadata=array("n", 3))
     """Centres of the pads; shape (n, 3); m."""
-    normals: FloatArray | None
+    normals: FloatArray | None = field(metadata=array("n", 3))
     """Normals as they are written; shape (n, 3); None if the form has none."""
-    thermal_pads: IntArray
+    thermal_pads: IntArray = field(metadata=array("t", dtype="int"))
     """Columns of the thermal pads; shape (t,)."""
-    thermal_modules: IntArray
+    thermal_modules: IntArray = field(metadata=array("t", dtype="int"))
     """Module that each thermal pad sits on; shape (t,)."""
-    representatives: IntArray | None = None
+    representatives: IntArray | None = field(default=None, metadata=array(None, dtype="int"))
     """Entry of `taxel2Repr` for each column, as many as are written; shape (k,); None if the form has none."""
-    placed: IntArray | None = None
+    placed: IntArray | None = field(default=None, metadata=array(None, dtype="int"))
     """Columns whose row in the file is a place, whatever they are; shape (k,); None for the taxels."""
 
     def __post_init__(self) -> None:
-        count, pads = len(self.taxels), len(self.thermal_pads)
-        for name, length in {
-            "lines": self.columns,
-            "taxels": count,
-            "modules": count,
-            "thermal_pads": pads,
-            "thermal_modules": pads,
-        }.items():
-            object.__setattr__(self, name, read_only_integers(getattr(self, name), name=name, shape=(length,)))
-        object.__setattr__(self, "positions", read_only(self.positions, name="positions", shape=(count, 3)))
-        if self.normals is not None:
-            object.__setattr__(self, "normals", read_only(self.normals, name="normals", shape=(count, 3)))
-        for name in ("representatives", "placed"):
-            if getattr(self, name) is not None:
-                object.__setattr__(self, name, read_only_integers(getattr(self, name), name=name, shape=(None,)))
+        check_arrays(self)
+        require_shape(self.lines, name="lines", shape=(self.columns,))
 
     def __len__(self) -> int:
         return len(self.taxels)
 
     def layout(self, normals: FloatArray | None = None) -> SkinLayout:
-        """Give the sound form; lengths of normals that are off by the rounding of the file are made 1.
+        """Give the valid form; lengths of normals that are off by the rounding of the file are made 1.
 
         Args:
             normals: Unit normals to use instead, such as those of `rebuilt_normals`; shape (n, 3).
@@ -163,7 +139,7 @@ class PatchDescription:
             The layout.
 
         Raises:
-            SkinError: If it is not sound.
+            SkinError: If it is not valid.
         """
         directions = self.unit_normals() if normals is None else normals
         return SkinLayout(

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import PatchDescription
 from forcetorque.skin.layout.modules import outward_of_boards
@@ -29,27 +29,17 @@ _FEWEST: Final = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TouchingPlanes:
+class TangentPlanes(ArrayRecord):
     """Planes that touch a surface."""
 
-    centres: FloatArray
+    centres: FloatArray = field(metadata=array("k", 3))
     """Where; shape (k, 3); m."""
-    normals: FloatArray
+    normals: FloatArray = field(metadata=array("k", 3))
     """Outward unit normals; shape (k, 3)."""
-    weights: FloatArray
+    weights: FloatArray = field(metadata=array("k"))
     """What each counts; shape (k,)."""
-    rough: FloatArray
+    rough: FloatArray = field(metadata=array("n", 3))
     """Rough normal of every taxel, from what is about it alone; shape (n, 3)."""
-
-    def __post_init__(self) -> None:
-        count = len(self.weights)
-        for name, shape in (
-            ("centres", (count, 3)),
-            ("normals", (count, 3)),
-            ("weights", (count,)),
-            ("rough", (None, 3)),
-        ):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=shape))
 
     def normal_at(self, point: FloatArray, rough: FloatArray) -> FloatArray:
         """Continue the normals of the planes to a point.
@@ -83,7 +73,7 @@ class TouchingPlanes:
         return constant / np.linalg.norm(constant)
 
 
-def module_planes(surface: SkinSurface, modules: IntArray) -> TouchingPlanes | None:
+def module_planes(surface: SkinSurface, modules: IntArray) -> TangentPlanes | None:
     """Find the planes of modules.
 
     Args:
@@ -105,10 +95,10 @@ def module_planes(surface: SkinSurface, modules: IntArray) -> TouchingPlanes | N
             return None
         outside = surface.vertex_normals[own == k].sum(axis=0) @ normal
         normals[k] = normal if outside >= 0.0 else -normal
-    return TouchingPlanes(centres=centres, normals=normals, weights=np.ones(len(numbers)), rough=normals[own])
+    return TangentPlanes(centres=centres, normals=normals, weights=np.ones(len(numbers)), rough=normals[own])
 
 
-def facet_planes(surface: SkinSurface) -> TouchingPlanes:
+def facet_planes(surface: SkinSurface) -> TangentPlanes:
     """Take the facets of a surface as planes.
 
     Args:
@@ -117,7 +107,7 @@ def facet_planes(surface: SkinSurface) -> TouchingPlanes:
     Returns:
         A plane for each facet, which counts by its area.
     """
-    return TouchingPlanes(
+    return TangentPlanes(
         centres=surface.positions[surface.triangles].mean(axis=1),
         normals=surface.facet_normals,
         weights=surface.facet_areas,

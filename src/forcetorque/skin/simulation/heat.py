@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field
 from typing import Final, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.recording.recording import Recording
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.contact import ContactTruth
@@ -23,20 +23,15 @@ _BESIDE_M: Final = 0.005
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class HeatResponses:
+class HeatResponses(ArrayRecord):
     """How the taxels and thermal pads of a patch answer to heat."""
 
-    taxels: FloatArray
+    taxels: FloatArray = field(metadata=array("n"))
     """Fall of each taxel by temperature; shape (n,); counts/K."""
-    pads: FloatArray
+    pads: FloatArray = field(metadata=array("t"))
     """Fall of each thermal pad; shape (t,); counts/K."""
-    pad_rest: FloatArray
+    pad_rest: FloatArray = field(metadata=array("t"))
     """Reading of each pad when cold; shape (t,); counts."""
-
-    def __post_init__(self) -> None:
-        for field in fields(self):
-            values = getattr(self, field.name)
-            object.__setattr__(self, field.name, read_only(values, name=field.name, shape=np.shape(values)))
 
     @classmethod
     def drawn(cls, layout: SkinLayout, rng: np.random.Generator) -> Self:
@@ -58,16 +53,13 @@ class HeatResponses:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MotorHeat:
+class MotorHeat(ArrayRecord):
     """Heat from inside, evenly on all of a patch, which its pads feel as its taxels do."""
 
     responses: HeatResponses
     """How taxels and pads answer."""
-    rise_K: FloatArray
+    rise_K: FloatArray = field(metadata=array(None))
     """Rise at each message; shape (k,)."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "rise_K", read_only(self.rise_K, name="rise_K", shape=(None,)))
 
     def pad_counts(self, rng: np.random.Generator) -> FloatArray:
         """Read the thermal pads.

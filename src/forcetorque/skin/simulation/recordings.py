@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array
 from forcetorque.base.errors import ShapeError, SkinError
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
@@ -33,24 +33,19 @@ NOISE_COUNTS: Final = 0.65
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TaxelResponses:
+class TaxelResponses(ArrayRecord):
     """Answers of n taxels, no two alike."""
 
-    rest: FloatArray
+    rest: FloatArray = field(metadata=array("n"))
     """Reading without load; shape (n,); counts."""
-    swing: FloatArray
+    swing: FloatArray = field(metadata=array("n"))
     """Fall at the reference pressure; shape (n,); counts."""
-    bend: FloatArray
+    bend: FloatArray = field(metadata=array("n"))
     """How much the curve flattens; 0 is a line; shape (n,)."""
-    hysteresis: FloatArray
+    hysteresis: FloatArray = field(metadata=array("n"))
     """Most that a reading lags behind when pressure is taken off, over the fall at its peak; shape (n,)."""
-    noise: FloatArray
+    noise: FloatArray = field(metadata=array("n"))
     """Standard deviation of white noise; shape (n,); counts."""
-
-    def __post_init__(self) -> None:
-        for field in fields(self):
-            values = read_only(getattr(self, field.name), name=field.name, shape=np.shape(self.rest))
-            object.__setattr__(self, field.name, values)
 
     @classmethod
     def drawn(cls, number: int, rng: np.random.Generator) -> Self:

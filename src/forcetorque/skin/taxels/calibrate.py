@@ -17,8 +17,7 @@ from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
-from forcetorque.skin.taxels.fit import FittedSamples, compare_curves, fitted_samples
-from forcetorque.skin.taxels.health import taxel_response
+from forcetorque.skin.taxels.fit import FittedSamples, calibrated_taxel, compare_curves, fitted_samples
 from forcetorque.skin.taxels.patch_calibration import CalibratedTaxel, PatchCalibration, PatchProvenance
 from forcetorque.skin.taxels.recording import PatchRecording, of_use, patch_recordings, same_patch
 from forcetorque.skin.taxels.result import (
@@ -145,23 +144,23 @@ def calibrate_skin(
     kept = CurveKind(curve)
     artefact = _artefact(contents, patches[0], logs, samples, curves[kept], kept, code_version, created)
     added = dict.fromkeys(sentence for content in contents for sentence in added_to(content.recording))
-    answer = _answer(artefact, logs, samples, curves, doubts=tuple(added))
-    return answer if warm_up is None else _with_warm_up(answer, warm_up, patches[0])
+    result = _result(artefact, logs, samples, curves, warnings=tuple(added))
+    return result if warm_up is None else _with_warm_up(result, warm_up, patches[0])
 
 
 def _with_warm_up(
-    answer: SkinCalibration, warm_up: Path | str | PatchExperiment, patch: ExperimentPatch
+    result: SkinCalibration, warm_up: Path | str | PatchExperiment, patch: ExperimentPatch
 ) -> SkinCalibration:
     """Add what a warm-up tells of the same patch."""
-    learned, doubts, inputs = learn_warm_up(warm_up, patch)
-    provenance = answer.calibration.provenance
+    learned, warnings, inputs = learn_warm_up(warm_up, patch)
+    provenance = result.calibration.provenance
     both = {**provenance.inputs_sha256, **inputs}
     changed = {"warm_up": learned, "provenance": provenance.model_copy(update={"inputs_sha256": both})}
-    return answer.model_copy(
+    return result.model_copy(
         update={
             "warm_up": warm_up_row(learned),
-            "calibration": answer.calibration.model_copy(update=changed),
-            "warnings": (*answer.warnings, *doubts),
+            "calibration": result.calibration.model_copy(update=changed),
+            "warnings": (*result.warnings, *warnings),
         }
     )
 
@@ -220,25 +219,16 @@ def _artefact(
 def _taxel(column: int, k: int, curve: TaxelCurve | None, samples: FittedSamples) -> CalibratedTaxel:
     if curve is None:
         return CalibratedTaxel(taxel=column, left_out=tuple(reason.value for reason in samples.ailments[k]))
-    response = taxel_response(curve, samples.fall[:, k], samples.pressure, samples.unloading)
-    return CalibratedTaxel(
-        taxel=column,
-        coefficients=curve.coefficients,
-        range_counts=curve.range_counts,
-        rmse_pa=response.rmse_pa,
-        error_pa=response.error_pa,
-        hysteresis_pa=response.hysteresis_pa,
-        hysteresis_share=response.hysteresis_share,
-    )
+    return calibrated_taxel(column, curve, samples.fall[:, k], samples.pressure, samples.unloading)
 
 
-def _answer(
+def _result(
     artefact: PatchCalibration,
     logs: Sequence[PatchRecording],
     samples: FittedSamples,
     curves: dict[CurveKind, list[TaxelCurve | None]],
     *,
-    doubts: tuple[str, ...],
+    warnings: tuple[str, ...],
 ) -> SkinCalibration:
     held_out, fitted = of_use(logs, Use.VALIDATION), of_use(logs, Use.CALIBRATION)[0]
     comparison = compare_curves(curves, held_out, samples.highest)
@@ -261,6 +251,6 @@ def _answer(
         picture=taxel_picture(fitted, recording_name(fitted), columns, curves, samples.highest),
         warnings=(
             *(() if held_out else ("no interval for validation: nothing says how good the curves are elsewhere",)),
-            *doubts,
+            *warnings,
         ),
     )

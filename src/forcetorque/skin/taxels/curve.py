@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
+from math import comb
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays
 from forcetorque.base.errors import FitError
-from forcetorque.skin.taxels import capacitor, monotone, polynomial
 
 
 class CurveKind(StrEnum):
@@ -26,34 +26,202 @@ class CurveKind(StrEnum):
     """Inverse of a flat capacitor on a spring, thesis (3.26)."""
 
 
+DEGREE = 5
+"""Degree of the Bernstein polynomials: as many coefficients as thesis (7.1) has, but one, as rest is no pressure."""
+
+_LEAST_RISE = 1e-3
+"""Each coefficient rises by at least this share of the mean rise: a curve that is nowhere flat has an inverse."""
+
+
+def _fit_monotone(share: FloatArray, pressure: FloatArray, weight: FloatArray) -> FloatArray:
+    """Fit a curve that rises everywhere: Bernstein polynomials with rising coefficients, then a line.
+
+    Bernstein polynomials whose coefficients rise have a sum that rises [1]. The range ends where the mean reading at
+    the highest pressure is, not at the largest count: beyond that, only samples are left whose noise took them there,
+    which bend the curve down. The line beyond it has the slope of the straight line through all samples.
+
+    Args:
+        share: Fall below rest as a share of the range; shape (n,).
+        pressure: Pressure; shape (n,); Pa.
+        weight: Root of the weight of every sample; shape (n,).
+
+    Returns:
+        Five Bernstein coefficients, the first of the six being 0, and the slope per range of the line; shape (6,); Pa.
+
+    References:
+        [1] G. G. Lorentz, Bernstein polynomials (1953), section 1.4.
+    """
+    from scipy.optimize import nnls
+
+    slope = _slope(share, pressure, weight)
+    beyond = np.maximum(share - 1.0, 0.0)
+    rises = _basis(share) @ np.tril(np.ones((DEGREE, DEGREE)))
+    least = _LEAST_RISE * slope / DEGREE
+    target = pressure - slope * beyond - least * rises.sum(axis=1)
+    steps, _ = nnls(rises * weight[:, None], target * weight)
+    return np.array([*np.cumsum(steps + least), slope])
+
+
+def _monotone_pressure(share: FloatArray, coefficients: FloatArray) -> FloatArray:
+    """Evaluate the curve; it is 0 above rest.
+
+    Args:
+        share: Fall below rest as a share of the range; shape (...).
+        coefficients: Of `_fit_monotone`; shape (6,); Pa.
+
+    Returns:
+        Pressure; shape (...); Pa.
+    """
+    return _basis(share) @ coefficients[:DEGREE] + coefficients[DEGREE] * np.maximum(share - 1.0, 0.0)
+
+
+def _basis(share: FloatArray) -> FloatArray:
+    """Bernstein polynomials but the first, which would be the pressure at rest; shape (..., 5)."""
+    u = np.clip(share, 0.0, 1.0)
+    powers = [comb(DEGREE, k) * u**k * (1.0 - u) ** (DEGREE - k) for k in range(1, DEGREE + 1)]
+    return np.asarray(np.stack(powers, axis=-1), dtype=np.float64)
+
+
+def _slope(share: FloatArray, pressure: FloatArray, weight: FloatArray) -> float:
+    """Slope of the straight line through all samples; it rises, as the taxel falls by more than it may not move."""
+    square = weight**2 / np.sum(weight**2)
+    centred = share - square @ share
+    slope = float(square @ (centred * pressure) / (square @ centred**2))
+    return max(slope, float(np.finfo(np.float64).tiny))
+
+
+_ORDER = 5
+"""Order of the polynomial of thesis (7.1)."""
+
+
+def _fit_fifth_order(share: FloatArray, pressure: FloatArray, weight: FloatArray) -> FloatArray:
+    """Fit thesis (7.1), in the fall below rest: in raw counts the powers would not be told apart.
+
+    Args:
+        share: Fall below rest as a share of the range; shape (n,).
+        pressure: Pressure; shape (n,); Pa.
+        weight: Root of the weight of every sample; shape (n,).
+
+    Returns:
+        Coefficients of the powers 0 to 5; shape (6,); Pa.
+    """
+    return _fit_powers(share, pressure, weight, _ORDER)
+
+
+def _fit_line(share: FloatArray, pressure: FloatArray, weight: FloatArray) -> FloatArray:
+    """Fit a straight line.
+
+    Args:
+        share: As of `_fit_fifth_order`.
+        pressure: As of `_fit_fifth_order`.
+        weight: As of `_fit_fifth_order`.
+
+    Returns:
+        Coefficients of the powers 0 and 1; shape (2,); Pa.
+    """
+    return _fit_powers(share, pressure, weight, 1)
+
+
+def _polynomial_pressure(share: FloatArray, coefficients: FloatArray) -> FloatArray:
+    """Evaluate a polynomial, as it is: neither held at 0 nor to its range.
+
+    Args:
+        share: Fall below rest as a share of the range; shape (...).
+        coefficients: Of the powers from 0 on; shape (k,); Pa.
+
+    Returns:
+        Pressure; shape (...); Pa.
+    """
+    return np.asarray(np.polynomial.polynomial.polyval(share, coefficients), dtype=np.float64)
+
+
+def _fit_powers(share: FloatArray, pressure: FloatArray, weight: FloatArray, order: int) -> FloatArray:
+    powers = np.vander(share, order + 1, increasing=True)
+    coefficients = np.linalg.lstsq(powers * weight[:, None], pressure * weight, rcond=None)[0]
+    return np.asarray(coefficients, dtype=np.float64)
+
+
+_ITERATIONS = 30
+"""Steps of the fit; it settles in less than ten."""
+_CONVERGED = 1e-10
+"""Change of the curvature at which it has."""
+
+
+def _fit_capacitor(share: FloatArray, pressure: FloatArray, weight: FloatArray) -> FloatArray:
+    """Fit the curve of a flat capacitor on a spring, thesis (3.26) with the sign of its derivation.
+
+    Thesis (3.26) is printed with the sign reversed: with `d = d0 - f / k` and `Ca = kappa eps0 A / d` the pressure is
+    `p = k (d0 - kappa eps0 A / Ca) / A`. Counts fall as the capacitance grows, so with `Ca` proportional to `1 + q u`,
+    `u` the fall below rest as a share of the range, it becomes `p = s u / (1 + q u)`: two numbers, and none at rest.
+    `q` is not below 0, as a capacitor cannot lose capacitance under pressure; at 0 the curve is a line.
+
+    Args:
+        share: Fall below rest as a share of the range; shape (n,).
+        pressure: Pressure; shape (n,); Pa.
+        weight: Root of the weight of every sample; shape (n,).
+
+    Returns:
+        `s` in Pa and `q`; shape (2,).
+    """
+    u = np.maximum(share, 0.0)
+    q = 0.0
+    for _ in range(_ITERATIONS):
+        # Gauss and Newton on p = s g(u, q); for a given q the best s is a ratio
+        g = u / (1.0 + q * u)
+        s = float((weight * g) @ (weight * pressure) / ((weight * g) @ (weight * g)))
+        slopes = np.column_stack([g, -s * g**2])
+        step = np.linalg.lstsq(slopes * weight[:, None], (pressure - s * g) * weight, rcond=None)[0]
+        before, q = q, max(0.0, q + float(step[1]))
+        if abs(q - before) < _CONVERGED:
+            break
+    g = u / (1.0 + q * u)
+    s = float((weight * g) @ (weight * pressure) / ((weight * g) @ (weight * g)))
+    return np.array([s, q])
+
+
+def _capacitor_pressure(share: FloatArray, coefficients: FloatArray) -> FloatArray:
+    """Evaluate the curve; it is 0 above rest.
+
+    Args:
+        share: Fall below rest as a share of the range; shape (...).
+        coefficients: Of `_fit_capacitor`; shape (2,).
+
+    Returns:
+        Pressure; shape (...); Pa.
+    """
+    s, q = coefficients
+    u = np.maximum(share, 0.0)
+    return s * u / (1.0 + q * u)
+
+
 _FITS = {
-    CurveKind.MONOTONE: monotone.fit,
-    CurveKind.LINE: polynomial.fit_line,
-    CurveKind.POLYNOMIAL: polynomial.fit_fifth_order,
-    CurveKind.CAPACITOR: capacitor.fit,
+    CurveKind.MONOTONE: _fit_monotone,
+    CurveKind.LINE: _fit_line,
+    CurveKind.POLYNOMIAL: _fit_fifth_order,
+    CurveKind.CAPACITOR: _fit_capacitor,
 }
 _PRESSURES = {
-    CurveKind.MONOTONE: monotone.pressure,
-    CurveKind.LINE: polynomial.pressure,
-    CurveKind.POLYNOMIAL: polynomial.pressure,
-    CurveKind.CAPACITOR: capacitor.pressure,
+    CurveKind.MONOTONE: _monotone_pressure,
+    CurveKind.LINE: _polynomial_pressure,
+    CurveKind.POLYNOMIAL: _polynomial_pressure,
+    CurveKind.CAPACITOR: _capacitor_pressure,
 }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TaxelCurve:
+class TaxelCurve(ArrayRecord):
     """Pressure of one taxel as a function of its fall below rest, which is scaled by the range."""
 
     kind: CurveKind
     """Form."""
-    coefficients: FloatArray
+    coefficients: FloatArray = field(metadata=array(None))
     """Numbers of the form; shape (k,), as many as it has; Pa for each of them, but the second of
     `capacitor`, which has no unit."""
     range_counts: float
     """Fall at the highest pressure that was fitted: beyond, the curve is extrapolated; counts."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "coefficients", read_only(self.coefficients, name="coefficients", shape=(None,)))
+        check_arrays(self)
         if not self.range_counts > 0.0:
             raise FitError(f"range_counts: expected a fall above 0 counts, got {self.range_counts:g}")
 

@@ -14,7 +14,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve, fit_curve
 from forcetorque.skin.taxels.health import Ailment
-from forcetorque.skin.taxels.patch_calibration import ROWS
+from forcetorque.skin.taxels.patch_calibration import ROWS, CalibratedTaxel
 from forcetorque.skin.taxels.recording import REST_SHARE, TOP_SHARE, PatchRecording
 from forcetorque.skin.taxels.result import CandidateRow, in_kPa, recording_name
 
@@ -241,3 +241,48 @@ def _row(kind: CurveKind, name: str, kept: HeldOutErrors, errors: HeldOutErrors,
 def _least(errors: Mapping[str, float | None]) -> str | None:
     known = {name: error for name, error in errors.items() if error is not None}
     return min(known, key=known.__getitem__) if known else None
+
+
+BINS = 20
+"""Levels of pressure at which loading and unloading are compared."""
+
+
+def calibrated_taxel(
+    taxel: int, curve: TaxelCurve, fall: FloatArray, pressure: FloatArray, unloading: BoolArray
+) -> CalibratedTaxel:
+    """Evaluate a curve on the samples that it was fitted to.
+
+    Args:
+        taxel: Column of the taxel.
+        curve: The curve.
+        fall: Counts below rest; shape (n,).
+        pressure: Pressure above that at rest; shape (n,); Pa.
+        unloading: Whether each sample was reached from above; shape (n,).
+
+    Returns:
+        The taxel with its curve, errors and hysteresis; no hysteresis where no level was loaded and unloaded.
+    """
+    reading = curve.pressure(fall)
+    highest = float(pressure.max())
+    level = np.clip((pressure / highest * BINS).astype(np.int64), 0, BINS - 1)
+    up, down = (_means(level, chosen, reading, fall, pressure) for chosen in (~unloading, unloading))
+    loaded, both = np.isfinite(up[0]), np.isfinite(up[0]) & np.isfinite(down[0])
+    error = (up[0] - up[2])[loaded]
+    # at one level loading and unloading have not quite the same mean pressure
+    lag = (down[0] - down[2] - up[0] + up[2])[both]
+    counts = (down[1] - up[1])[both] - (down[2] - up[2])[both] * curve.range_counts / highest
+    return CalibratedTaxel(
+        taxel=taxel,
+        coefficients=curve.coefficients,
+        range_counts=curve.range_counts,
+        rmse_pa=float(np.sqrt(np.mean((reading - pressure) ** 2))),
+        error_pa=float(np.sqrt(np.mean(error**2))),
+        hysteresis_pa=float(lag.mean()) if both.any() else 0.0,
+        hysteresis_share=float(counts.mean()) / curve.range_counts if both.any() else 0.0,
+    )
+
+
+def _means(level: np.ndarray, chosen: BoolArray, *values: FloatArray) -> tuple[FloatArray, ...]:
+    number = np.bincount(level[chosen], minlength=BINS)
+    with np.errstate(invalid="ignore"):
+        return tuple(np.bincount(level[chosen], weights=one[chosen], minlength=BINS) / number for one in values)

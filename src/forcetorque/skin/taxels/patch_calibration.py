@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import io
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
@@ -15,11 +15,12 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import (
     ArrayField,
+    ArrayRecord,
     BoolArray,
     FloatArray,
     IntArray,
-    read_only,
-    read_only_integers,
+    array,
+    check_arrays,
     require_last_axis,
 )
 from forcetorque.base.errors import FormatError, ShapeError, SkinError
@@ -34,7 +35,7 @@ ROWS = 256
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PressureTable:
+class PressureTable(ArrayRecord):
     """Pressure of every taxel of one patch by its counts below rest."""
 
     patch: str
@@ -43,35 +44,25 @@ class PressureTable:
     """Serial number of the patch, if it has one."""
     columns: int
     """Numbers in one message of counts."""
-    taxels: IntArray
+    taxels: IntArray = field(metadata=array("n", dtype="int"))
     """Column of each taxel, increasing; shape (n,)."""
-    live: BoolArray
+    live: BoolArray = field(metadata=array("n", dtype="bool"))
     """Whether the taxel has a table; shape (n,)."""
-    values: FloatArray
+    values: FloatArray = field(metadata=array(ROWS, "n"))
     """Pressure at 0 to 255 counts below rest; shape (256, n); Pa; 0 where the taxel is not live."""
-    range_counts: FloatArray
+    range_counts: FloatArray = field(metadata=array("n"))
     """Fall beyond which the table is extrapolated; shape (n,); counts."""
-    error: FloatArray
+    error: FloatArray = field(metadata=array("n"))
     """Standard deviation of the table while loading; shape (n,); Pa."""
-    hysteresis: FloatArray
+    hysteresis: FloatArray = field(metadata=array("n"))
     """How much more the same pressure reads while unloading; shape (n,); Pa."""
 
     def __post_init__(self) -> None:
-        taxels = read_only_integers(self.taxels, name="taxels", shape=(None,))
-        n = len(taxels)
-        live = np.array(self.live, dtype=bool)
-        live.setflags(write=False)
-        if live.shape != (n,):
-            raise ShapeError(f"live: expected shape ({n},), got {live.shape}")
-        if n and not 0 <= int(taxels.min()) <= int(taxels.max()) < self.columns:
+        check_arrays(self)
+        if len(self) and not 0 <= int(self.taxels.min()) <= int(self.taxels.max()) < self.columns:
             raise ShapeError(
-                f"taxels: expected columns of 0 to {self.columns - 1}, got {taxels.min()} to {taxels.max()}"
+                f"taxels: expected columns of 0 to {self.columns - 1}, got {self.taxels.min()} to {self.taxels.max()}"
             )
-        object.__setattr__(self, "taxels", taxels)
-        object.__setattr__(self, "live", live)
-        object.__setattr__(self, "values", read_only(self.values, name="values", shape=(ROWS, n)))
-        for name in ("range_counts", "error", "hysteresis"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(n,)))
 
     def __len__(self) -> int:
         return len(self.taxels)
@@ -93,8 +84,8 @@ class PressureTable:
         message = np.asarray(counts, dtype=np.float64)
         level = np.asarray(rest, dtype=np.float64)
         where = f"patch {self.patch!r}"
-        for name, array in (("counts", message), ("rest", level)):
-            require_last_axis(array, name=f"{where}: {name}", length=self.columns)
+        for name, values in (("counts", message), ("rest", level)):
+            require_last_axis(values, name=f"{where}: {name}", length=self.columns)
         chosen = message[..., self.taxels]
         require_counts(chosen, where=where)
         return level[self.taxels] - chosen

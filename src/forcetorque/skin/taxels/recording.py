@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, require_shape
 from forcetorque.base.errors import ExperimentError, SkinError
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.intervals import RecordedSpan
@@ -44,26 +44,19 @@ _SD_OF_MEDIAN = 1.2533
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PressureCycle:
+class PressureCycle(ArrayRecord):
     """Counts and pressure of one recording, both from their rest level in it."""
 
-    fall: FloatArray
+    fall: FloatArray = field(metadata=array("n", "c"))
     """Counts below rest; shape (n, c)."""
-    pressure: FloatArray
+    pressure: FloatArray = field(metadata=array("n"))
     """Pressure above that at rest; shape (n,); Pa."""
-    unloading: BoolArray
+    unloading: BoolArray = field(metadata=array("n", dtype="bool"))
     """Whether the pressure came down to a sample, and did not go up to it; shape (n,)."""
-    rest: FloatArray
+    rest: FloatArray = field(metadata=array("c"))
     """Rest level of each column; shape (c,); counts."""
     rest_pressure: float
     """Reading of the pressure at rest; Pa."""
-
-    def __post_init__(self) -> None:
-        n, c = self.fall.shape
-        require_shape(self.unloading, name="unloading", shape=(n,))
-        object.__setattr__(self, "fall", read_only(self.fall, name="fall", shape=(n, c)))
-        object.__setattr__(self, "pressure", read_only(self.pressure, name="pressure", shape=(n,)))
-        object.__setattr__(self, "rest", read_only(self.rest, name="rest", shape=(c,)))
 
     @property
     def highest(self) -> float:
@@ -258,13 +251,13 @@ def same_patch(experiments: Sequence[PatchExperiment], name: str | None) -> list
         same = (patch.name, patch.serial, patch.columns) == (first.name, first.serial, first.columns)
         if not same or not np.array_equal(patch.taxels, first.taxels):
             raise ExperimentError(
-                f"{experiment.file}: expected the patch {_words(first)} of {experiments[0].file}, got {_words(patch)}; "
-                "every patch has its own curves"
+                f"{experiment.file}: expected the patch {_description(first)} of {experiments[0].file}, got "
+                f"{_description(patch)}; every patch has its own curves"
             )
     return patches
 
 
-def _words(patch: ExperimentPatch) -> str:
+def _description(patch: ExperimentPatch) -> str:
     serial = "" if patch.serial is None else f" ({patch.serial})"
     return f"{patch.name!r}{serial} with {len(patch.taxels)} taxels in {patch.columns} columns"
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names
 from forcetorque.results.table import Row, Shown
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
 from forcetorque.skin.taxels.health import Ailment
@@ -168,33 +168,27 @@ _DRAWN = 10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TaxelPicture:
+class TaxelPicture(ArrayRecord):
     """A recording of pressure, and the curves of one taxel."""
 
     recording: str
     """Recording."""
-    seconds: FloatArray
+    seconds: FloatArray = field(metadata=array("n"))
     """Instants; shape (n,); s."""
-    pressure: FloatArray
+    pressure: FloatArray = field(metadata=array("n"))
     """Pressure above that at rest; shape (n,); Pa."""
-    fall: FloatArray
+    fall: FloatArray = field(metadata=array("n", "k"))
     """Counts below rest of sound taxels, spread over all; shape (n, k)."""
-    mean_fall: FloatArray
+    mean_fall: FloatArray = field(metadata=array("n"))
     """Mean over all sound taxels; shape (n,); counts."""
-    names: tuple[str, ...]
+    names: tuple[str, ...] = field(metadata=names("k"))
     """Names of the k taxels."""
     curves: Mapping[str, FloatArray]
     """Curves of the first of them at `levels`, by their forms; Pa."""
-    levels: FloatArray
+    levels: FloatArray = field(metadata=array(None))
     """Counts below rest at which they are given; shape (m,)."""
     highest: float
     """Highest fitted pressure; Pa."""
-
-    def __post_init__(self) -> None:
-        n, k = len(self.seconds), len(self.names)
-        shapes = {"seconds": (n,), "pressure": (n,), "fall": (n, k), "mean_fall": (n,), "levels": (None,)}
-        for name, shape in shapes.items():
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=shape))
 
 
 def taxel_picture(

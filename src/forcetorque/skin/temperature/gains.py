@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Final, Self
 
 import numpy as np
 from pydantic import Field
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array
 from forcetorque.base.errors import SkinError
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.skin.layout.layout import SkinLayout
@@ -23,7 +23,7 @@ LEAST_SHARE: Final = 0.3
 """Change of a pad, over the median of all, below which it is dead: gains of pads differ by a quarter, not by that."""
 
 
-def sound_columns(counts: FloatArray) -> BoolArray:
+def valid_columns(counts: FloatArray) -> BoolArray:
     """Tell which columns are at no rail, nowhere jump or wrap, and are not noisy.
 
     Args:
@@ -46,7 +46,7 @@ def stuck_pads(counts: FloatArray) -> BoolArray:
         Whether each is; shape (t,).
     """
     change = np.ptp(counts, axis=0)
-    return ~sound_columns(counts) | ((change == 0.0) & (np.median(change) >= LEAST_CHANGE_COUNTS))
+    return ~valid_columns(counts) | ((change == 0.0) & (np.median(change) >= LEAST_CHANGE_COUNTS))
 
 
 def followed_pads(layout: SkinLayout, alive: BoolArray) -> BoolArray:
@@ -123,35 +123,23 @@ class HeatRule(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class HeatGains:
+class HeatGains(ArrayRecord):
     """How n taxels follow t thermal pads."""
 
-    pads: IntArray
+    pads: IntArray = field(metadata=array("t", dtype="int"))
     """Columns of the pads; shape (t,)."""
-    follows: BoolArray
+    follows: BoolArray = field(metadata=array("n", "t", dtype="bool"))
     """Whether each taxel follows each pad; shape (n, t)."""
-    gains: FloatArray
+    gains: FloatArray = field(metadata=array("n", "t"))
     """Counts of the taxel by count of the pad; shape (n, t)."""
-    sd: FloatArray
+    sd: FloatArray = field(metadata=array("n", "t"))
     """Standard deviations of the gains; shape (n, t)."""
-    rates: FloatArray
+    rates: FloatArray = field(metadata=array("n"))
     """Steepest change by heat that was learned; NaN where none was; shape (n,); counts/s."""
-    lags: FloatArray
+    lags: FloatArray = field(metadata=array("t"))
     """Lag of each pad behind its taxels, negative where it leads; shape (t,); s."""
-    unexplained: FloatArray
+    unexplained: FloatArray = field(metadata=array("n"))
     """Most that pads, followed as they come, left of each taxel beyond noise; shape (n,); counts."""
-
-    def __post_init__(self) -> None:
-        follows = np.array(self.follows, dtype=np.bool_)
-        require_shape(follows, name="follows", shape=(None, len(self.pads)))
-        follows.setflags(write=False)
-        object.__setattr__(self, "follows", follows)
-        object.__setattr__(self, "pads", read_only_integers(self.pads, name="pads", shape=(None,)))
-        for name in ("gains", "sd"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=follows.shape))
-        for name in ("rates", "unexplained"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=follows.shape[:1]))
-        object.__setattr__(self, "lags", read_only(self.lags, name="lags", shape=follows.shape[1:]))
 
     @classmethod
     def of_firmware(cls, layout: SkinLayout) -> Self:
@@ -221,7 +209,7 @@ class HeatGains:
         return replace(self, follows=self.follows & ~dead)
 
     @property
-    def told(self) -> BoolArray:
+    def has_pad(self) -> BoolArray:
         """Taxels that follow a pad; shape (n,)."""
         return np.asarray(self.follows.any(axis=1))
 
@@ -266,21 +254,17 @@ def require_pads(layout: SkinLayout) -> None:
     if not len(layout.thermal_pads):
         raise SkinError(
             f"patch {layout.name!r}: thermal_pads: expected at least one, got none in its layout; without them heat "
-            "cannot be told from pressure"
+            "cannot be separated from pressure"
         )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TaxelDrift:
+class TaxelDrift(ArrayRecord):
     """Fall of n taxels that is known to be no pressure, and how much more may be none."""
 
-    fall: FloatArray
+    fall: FloatArray = field(metadata=array("n"))
     """Counts below rest that are no pressure; shape (n,)."""
-    sd: FloatArray
+    sd: FloatArray = field(metadata=array("n"))
     """Standard deviation of that; shape (n,); counts."""
-    limit: FloatArray
+    limit: FloatArray = field(metadata=array("n"))
     """Further counts that heat through a contact may add, which no pad tells; NaN if not known; shape (n,)."""
-
-    def __post_init__(self) -> None:
-        for name in ("fall", "sd", "limit"):
-            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(len(self.fall),)))

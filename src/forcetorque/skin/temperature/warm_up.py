@@ -28,7 +28,7 @@ from forcetorque.skin.temperature.gains import (
     WarmUp,
     followed_pads,
     require_pads,
-    sound_columns,
+    valid_columns,
 )
 from forcetorque.skin.temperature.pad_lags import PadFilter, lagged, means_of, pad_lags
 from forcetorque.skin.wrench.frames import patch_messages
@@ -77,13 +77,13 @@ def fit_warm_up(experiment: str, seconds: FloatArray, counts: FloatArray, layout
         )
     instants, means = _block_means(seconds, counts)
     alive = _living_pads(layout, counts, means)
-    sound = sound_columns(counts[:, layout.taxels])
-    _refuse_steps(layout.taxels, instants, np.where(sound, means[:, layout.taxels], 0.0))
+    valid = valid_columns(counts[:, layout.taxels])
+    _refuse_steps(layout.taxels, instants, np.where(valid, means[:, layout.taxels], 0.0))
     follows = followed_pads(layout, alive)
     taxels, pads = means[:, layout.taxels], means[:, layout.thermal_pads]
     lags = np.zeros(len(alive))
     lags[alive] = pad_lags(
-        instants, taxels, pads[:, alive], (follows & sound[:, None])[:, alive], averaged=_SMOOTH_BLOCKS
+        instants, taxels, pads[:, alive], (follows & valid[:, None])[:, alive], averaged=_SMOOTH_BLOCKS
     )
     late = {lag: means_of(lagged(instants, taxels, max(lag, 0.0)), _SMOOTH_BLOCKS) for lag in np.unique(lags).tolist()}
     held = np.stack([lagged(instants, pad, max(-lag, 0.0)) for pad, lag in zip(pads.T, lags, strict=True)], axis=1)
@@ -101,7 +101,7 @@ def fit_warm_up(experiment: str, seconds: FloatArray, counts: FloatArray, layout
             layout.thermal_pads[own],
             lags[own],
         )
-        if sound[k]
+        if valid[k]
         else None
         for k, own in enumerate(follows)
     ]
@@ -132,21 +132,21 @@ def _change(means: FloatArray) -> FloatArray:
 
 
 def _living_pads(layout: SkinLayout, counts: FloatArray, means: FloatArray) -> BoolArray:
-    """Thermal pads that are sound and follow the heat; shape (t,)."""
-    sound = sound_columns(counts[:, layout.thermal_pads])
-    if not sound.any():
+    """Thermal pads that are valid and follow the heat; shape (t,)."""
+    valid = valid_columns(counts[:, layout.thermal_pads])
+    if not valid.any():
         raise SkinError(
-            f"thermal pads: expected one that is alive, got none of {len(sound)}: all are at a rail, jump or are "
+            f"thermal pads: expected one that is alive, got none of {len(valid)}: all are at a rail, jump or are "
             "noisy; look at the columns of the pads, and at the cable of the board"
         )
     change = _change(means[:, layout.thermal_pads])
-    usual = float(np.median(change[sound]))
+    usual = float(np.median(change[valid]))
     if usual < LEAST_CHANGE_COUNTS:
         raise SkinError(
             f"thermal pads: expected to change by at least {LEAST_CHANGE_COUNTS:g} counts, got {usual:.1f} (the median "
-            f"of {int(sound.sum())}): they never warm; record from a cold start until the motors are warm"
+            f"of {int(valid.sum())}): they never warm; record from a cold start until the motors are warm"
         )
-    return sound & (change >= LEAST_SHARE * usual)
+    return valid & (change >= LEAST_SHARE * usual)
 
 
 def _refuse_steps(columns: IntArray, instants: FloatArray, taxels: FloatArray) -> None:
@@ -191,10 +191,10 @@ def _with_unexplained(
         gains.fall(pads.follow(time, row))[0] for time, row in zip(passed.tolist(), means[:, gains.pads], strict=True)
     ]
     left = means_of(taxels - np.array(followed), _SMOOTH_BLOCKS)
-    left = np.where(gains.told, left - left[0], 0.0)
+    left = np.where(gains.has_pad, left - left[0], 0.0)
     # a lag leaves the same share of the change of all taxels of a pad; their mean has less noise than each
-    change = np.where(gains.told, np.ptp(np.array(followed), axis=0), 1.0)
-    alike = (gains.follows[:, None] == gains.follows[None]).all(axis=2) & gains.told
+    change = np.where(gains.has_pad, np.ptp(np.array(followed), axis=0), 1.0)
+    alike = (gains.follows[:, None] == gains.follows[None]).all(axis=2) & gains.has_pad
     shared = (left / change) @ (alike / np.maximum(alike.sum(axis=1, keepdims=True), 1)).T * change
     worst = np.maximum(_beyond_noise(left), _beyond_noise(shared))
     if np.count_nonzero(worst > UNEXPLAINED_COUNTS) >= _FEWEST:
@@ -317,7 +317,7 @@ def learn_warm_up(
     added = tuple(f"warm-up {content.name!r}: {sentence}" for sentence in added_to(content.recording))
     return (
         learned,
-        (*_doubts(learned, own), *added),
+        (*_warnings(learned, own), *added),
         {f"{content.name}: {k}": v for k, v in content.inputs_sha256.items()},
     )
 
@@ -335,36 +335,36 @@ def _warming(content: PatchExperiment, seconds: np.ndarray) -> np.ndarray:
     return chosen
 
 
-def _doubts(learned: WarmUp, patch: ExperimentPatch) -> tuple[str, ...]:
+def _warnings(learned: WarmUp, patch: ExperimentPatch) -> tuple[str, ...]:
     """What is missing of the gains."""
     without = [int(column) for column, heat in zip(patch.taxels, learned.taxels, strict=True) if not heat.gains]
-    sentences = []
+    warnings = []
     if learned.dead_pads:
-        sentences.append(
+        warnings.append(
             f"{len(learned.dead_pads)} thermal pads are dead ({_listed(learned.dead_pads)}): their taxels follow the "
             "other pad of the module, or those of the nearest module with one"
         )
     if without:
-        sentences.append(
-            f"{len(without)} taxels were not sound in the warm-up ({_listed(without)}): they have no gain, and are "
+        warnings.append(
+            f"{len(without)} taxels were not valid in the warm-up ({_listed(without)}): they have no gain, and are "
             "left out where heat is taken out by gains"
         )
     lags = HeatGains.learned(learned.taxels).lags
     if np.any(lags):
         late, early = int(np.count_nonzero(lags > 0.0)), int(np.count_nonzero(lags < 0.0))
-        sentences.append(
+        warnings.append(
             f"{late} of {len(lags)} thermal pads feel heat later than their taxels and {early} sooner, by "
             f"{np.median(lags):+.0f} s in the median: this is made up for once a trend is seen, not when heat begins"
         )
     unexplained = np.array([heat.unexplained_counts for heat in learned.taxels])
     many = int(np.count_nonzero(unexplained > UNEXPLAINED))
     if many > 1:
-        sentences.append(
+        warnings.append(
             f"thermal pads leave over {UNEXPLAINED:g} counts of {many} of {len(unexplained)} taxels unexplained when "
             f"heat comes, at most {unexplained.max():.1f}: less than {FASTER:g} times that wakes no taxel, and "
             f"heat that comes more than {FASTER:g} times as fast reads as contacts"
         )
-    return tuple(sentences)
+    return tuple(warnings)
 
 
 def _listed(columns: tuple[int, ...] | list[int], most: int = 8) -> str:

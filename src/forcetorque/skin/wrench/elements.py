@@ -13,12 +13,12 @@ References:
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array
 from forcetorque.base.pose import cross
 from forcetorque.skin.surface import Rim, SkinSurface
 
@@ -45,14 +45,14 @@ POINTS, WEIGHTS = _six_points()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SkinElements:
+class SkinElements(ArrayRecord):
     """Pieces of a patch and of the strip around it, with six points in each."""
 
-    taxels: IntArray
+    taxels: IntArray = field(metadata=array("m", 3, dtype="int"))
     """Taxel at each corner, for an outer point of the rim the one it belongs to; shape (m, 3)."""
-    positions: FloatArray
+    positions: FloatArray = field(metadata=array("m", 6, 3))
     """Points; shape (m, 6, 3); m."""
-    areas: FloatArray
+    areas: FloatArray = field(metadata=array("m", 6, 3))
     """Outward area vector that each point stands for; shape (m, 6, 3); m²."""
 
     @property

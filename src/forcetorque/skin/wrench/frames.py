@@ -14,14 +14,14 @@ from forcetorque.base.errors import SkinError, known_names
 from forcetorque.recording.alignment import seconds_since, usable_samples
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import PatchReader, PressureFrame
-from forcetorque.skin.contact.tracking import ContactLife, ContactLives, PatchFollower, Release
+from forcetorque.skin.contact.tracking import ContactLife, ContactLives, PatchFollower, ReleaseRow
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.taxels.health import FULL_COUNTS, Ailment, require_counts, taxel_ailments
 from forcetorque.skin.taxels.patch_calibration import PatchCalibration, PressureTable
 from forcetorque.skin.temperature.gains import HeatGains, HeatRule, TaxelDrift, stuck_pads
 from forcetorque.skin.wrench.patch import SkinPatch
 
-_SICK: Final = (Ailment.WRAPS, Ailment.RAILS, Ailment.NOISE)
+_EXCLUDING: Final = (Ailment.WRAPS, Ailment.RAILS, Ailment.NOISE)
 """What makes a taxel useless in a recording of contacts; jumps may be blows, and many are never touched."""
 MOST_LEFT_OUT: Final = 0.5
 """Share of taxels left out above which contacts between the others are missed, and a recording says nothing."""
@@ -82,7 +82,7 @@ def _refuse_beyond(patch: ExperimentPatch, counts: FloatArray, rows: IntArray) -
 
 
 def resting_reader(
-    table: PressureTable, seconds: FloatArray, counts: FloatArray, *, rest_s: float, told: BoolArray
+    table: PressureTable, seconds: FloatArray, counts: FloatArray, *, rest_s: float, has_pad: BoolArray
 ) -> PatchReader:
     """Take rest and noise from the beginning of a recording, and leave out taxels that are useless in it.
 
@@ -91,7 +91,7 @@ def resting_reader(
         seconds: Times of the messages; shape (k,); s.
         counts: Messages; shape (k, columns); counts.
         rest_s: Time at the beginning in which nothing touches the patch.
-        told: Taxels whose heat is known, or need not be; shape (n,).
+        has_pad: Taxels whose heat is known, or need not be; shape (n,).
 
     Returns:
         The reader.
@@ -104,14 +104,14 @@ def resting_reader(
     never_judged = np.full(len(table), np.inf)
     # noise is judged at rest: under a hand that moves every taxel is noisy
     reasons = zip(taxel_ailments(own, never_judged), taxel_ailments(own[resting], never_judged), strict=True)
-    sick = np.array([_is_sick(whole, rest) for whole, rest in reasons])
-    live = table.live & ~sick & told
+    excluded = np.array([_is_excluded(whole, rest) for whole, rest in reasons])
+    live = table.live & ~excluded & has_pad
     if np.count_nonzero(~live) > MOST_LEFT_OUT * len(live):
         raise SkinError(
             f"expected at least half of {len(live)} taxels to be live, got {np.count_nonzero(live)}: "
-            f"{np.count_nonzero(~table.live)} have no curve, {np.count_nonzero(sick)} are at a rail, wrap or are noisy "
-            f"here, {np.count_nonzero(~told)} follow no thermal pad; contacts between the others would be missed; "
-            "look at the cables of the boards, or calibrate again"
+            f"{np.count_nonzero(~table.live)} have no curve, {np.count_nonzero(excluded)} are at a rail, wrap or are "
+            f"noisy here, {np.count_nonzero(~has_pad)} follow no thermal pad; contacts between the others would be "
+            "missed; look at the cables of the boards, or calibrate again"
         )
     return PatchReader.at_rest(table, counts[resting], live=live)
 
@@ -168,8 +168,10 @@ def _short_noise(counts: FloatArray) -> FloatArray:
     return np.sqrt(np.mean(np.minimum(np.abs(np.diff(counts, axis=0)), 5.0) ** 2, axis=0) / 2.0)
 
 
-def _is_sick(whole: Sequence[Ailment], resting: Sequence[Ailment]) -> bool:
-    return any(one in _SICK for one in resting) or any(one in _SICK for one in whole if one is not Ailment.NOISE)
+def _is_excluded(whole: Sequence[Ailment], resting: Sequence[Ailment]) -> bool:
+    return any(one in _EXCLUDING for one in resting) or any(
+        one in _EXCLUDING for one in whole if one is not Ailment.NOISE
+    )
 
 
 REST_S: Final = 2.0
@@ -177,7 +179,7 @@ REST_S: Final = 2.0
 AVERAGED: Final = 10
 """Messages that are averaged to one frame."""
 
-Told = tuple[PressureFrame, SkinContacts]
+ReadFrame = tuple[PressureFrame, SkinContacts]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -206,11 +208,11 @@ class SkinFrames:
     """Time, pressures and contacts of every frame; s."""
     lives: tuple[ContactLife, ...]
     """Contacts from their first frame to their last."""
-    releases: tuple[Release, ...]
+    releases: tuple[ReleaseRow, ...]
     """Contacts that were let go, where heat is followed."""
     dead_pads: IntArray
     """Columns of thermal pads that are dead in this recording."""
-    untold: IntArray
+    without_pad: IntArray
     """Columns of taxels that follow no living pad, and are left out for it."""
     touched_at_rest: IntArray
     """Columns of taxels that something touched while rest was taken."""
@@ -243,11 +245,11 @@ def skin_frames(
     rule = _rule(calibration, chosen)
     heat, dead = _heat(skin, calibration, rule, counts)
     table = calibration.table()
-    told = np.ones(len(table), dtype=np.bool_) if heat is None else heat.told
-    reader = resting_reader(table, seconds, counts, rest_s=chosen.rest_s, told=told)
+    has_pad = np.ones(len(table), dtype=np.bool_) if heat is None else heat.has_pad
+    reader = resting_reader(table, seconds, counts, rest_s=chosen.rest_s, has_pad=has_pad)
     reader.require_layout(skin.layout)
     follower = None
-    read: Callable[[float, FloatArray], Told] = _plain(skin, reader, heat)
+    read: Callable[[float, FloatArray], ReadFrame] = _plain(skin, reader, heat)
     if heat is not None and rule is HeatRule.LEARNED:
         follower = PatchFollower(skin, reader, heat, re_tare=chosen.re_tare)
         read = follower.frame
@@ -263,14 +265,14 @@ def skin_frames(
         lives=lives.lives,
         releases=() if follower is None else tuple(follower.releases),
         dead_pads=dead,
-        untold=table.taxels[~told],
+        without_pad=table.taxels[~has_pad],
         touched_at_rest=touched_at_rest(reader, seconds, counts, rest_s=chosen.rest_s),
         stuck=stuck_taxels(reader, counts),
         heating=0.0 if follower is None else follower.heating,
     )
 
 
-def _followed(lives: ContactLives, seconds: float, frame: PressureFrame, contacts: SkinContacts) -> Told:
+def _followed(lives: ContactLives, seconds: float, frame: PressureFrame, contacts: SkinContacts) -> ReadFrame:
     """The contacts of a frame under the numbers that they had before."""
     own = contacts.active & (contacts.contact == np.arange(len(contacts))[:, None])
     identity = lives.follow(seconds, contacts.centre_of_pressure, own)
@@ -319,10 +321,10 @@ def _heat(
     return gains.without(dead), gains.pads[dead]
 
 
-def _plain(skin: SkinPatch, reader: PatchReader, heat: HeatGains | None) -> Callable[[float, FloatArray], Told]:
+def _plain(skin: SkinPatch, reader: PatchReader, heat: HeatGains | None) -> Callable[[float, FloatArray], ReadFrame]:
     """Every frame by itself, less what the pads tell at that time."""
 
-    def read(seconds: float, counts: FloatArray) -> Told:
+    def read(seconds: float, counts: FloatArray) -> ReadFrame:
         drift = None
         if heat is not None:
             fall, sd = heat.fall(reader.rest[heat.pads] - counts.mean(axis=0)[heat.pads])

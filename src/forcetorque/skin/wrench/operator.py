@@ -4,13 +4,21 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING, Final, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, require_last_axis, require_shape
+from forcetorque.base.arrays import (
+    ArrayRecord,
+    BoolArray,
+    FloatArray,
+    IntArray,
+    array,
+    require_last_axis,
+    require_shape,
+)
 from forcetorque.base.errors import SkinError
 from forcetorque.base.pose import cross
 from forcetorque.skin.layout.layout import SkinLayout
@@ -22,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class WrenchMethod(StrEnum):
-    """How pressures between taxels are told."""
+    """How pressures are interpolated between taxels."""
 
     SIMPLE = "simple"
     """Every taxel stands for the same stated area, (7.13)."""
@@ -35,7 +43,7 @@ class WrenchMethod(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class WrenchOperator:
+class WrenchOperator(ArrayRecord):
     """Linear map from pressures to a wrench on the link, in its frame and about its origin.
 
     The environment pushes on the skin against its outward normal n: f = -∫ p n dA, m = -∫ r x p n dA. That is (7.4) and
@@ -44,20 +52,12 @@ class WrenchOperator:
 
     method: WrenchMethod
     """Where the weights come from."""
-    live: BoolArray
+    live: BoolArray = field(metadata=array("n", dtype="bool"))
     """Taxels that count; shape (n,)."""
-    weights: FloatArray
+    weights: FloatArray = field(metadata=array(6, "n"))
     """Wrench by pressure; zero for dead taxels; shape (6, n); N/Pa, N m/Pa."""
-    areas: FloatArray
+    areas: FloatArray = field(metadata=array("n"))
     """Area that each taxel stands for, the weights of (7.12); zero for dead taxels; shape (n,); m²."""
-
-    def __post_init__(self) -> None:
-        live = np.array(self.live, dtype=np.bool_)
-        require_shape(live, name="live", shape=(None,))
-        live.setflags(write=False)
-        object.__setattr__(self, "live", live)
-        object.__setattr__(self, "weights", read_only(self.weights, name="weights", shape=(6, len(live))))
-        object.__setattr__(self, "areas", read_only(self.areas, name="areas", shape=live.shape))
 
     def wrench(self, pressures: FloatArray) -> FloatArray:
         """Give the wrench on the link.
@@ -89,12 +89,12 @@ class WrenchOperator:
 def summed_weights(
     positions: FloatArray, areas: FloatArray, taxels: IntArray, shares: FloatArray, count: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Sum what the pressure at points does to the link, as weights of the taxels that tell it.
+    """Sum what the pressure at points does to the link, as weights of the taxels that determine it.
 
     Args:
         positions: Points; shape (q, 3); m.
         areas: Outward area vectors; shape (q, 3); m².
-        taxels: Taxels that tell the pressure at each point; shape (q, k).
+        taxels: Taxels that determine the pressure at each point; shape (q, k).
         shares: By how much each does; shape (q, k).
         count: Number of taxels, n.
 
@@ -243,15 +243,15 @@ def _surface_at(centres: Delaunay, layout: SkinLayout, places: FloatArray) -> tu
 
 
 LENGTH_M: Final = 0.008
-"""Length over which pressures resemble each other; errors differ by less than 7 % from 6 to 20 mm."""
+"""Correlation length of the pressure; errors differ by less than 7 % from 6 to 20 mm."""
 NEIGHBOURS: Final = 24
-"""Taxels that tell the pressure in one piece of skin: three rings about it."""
+"""Taxels that determine the pressure in one piece of skin: three rings about it."""
 _SAME_LENGTH_M: Final = 1e-9
 """Difference between distances that is rounding: a layout that is turned has the same neighbours."""
 
 
 def kriging_operator(surface: SkinSurface, elements: SkinElements, live: BoolArray) -> WrenchOperator:
-    """Foretell the pressure at every point of the skin from the live taxels about it.
+    """Predict the pressure at every point of the skin from the live taxels about it.
 
     Args:
         surface: Where the taxels are.
@@ -295,7 +295,7 @@ def nearest(positions: FloatArray, places: FloatArray, number: int) -> IntArray:
 
 
 def kriging_shares(taxels: FloatArray, points: FloatArray) -> FloatArray:
-    """By how much each taxel tells the pressure at points, when the mean of the field is not known.
+    """Weights of taxels in the pressure at points, when the mean of the field is not known.
 
     Args:
         taxels: Taxels about each of m places; shape (m, k, 3); m.
@@ -320,13 +320,13 @@ def _matern(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ForetoldPressures:
+class PredictedPressures(ArrayRecord):
     """The pressure of each taxel as its live neighbours have it."""
 
-    neighbours: IntArray
+    neighbours: IntArray = field(metadata=array("n", "k", dtype="int"))
     """Live taxels about each, itself left out; shape (n, k)."""
-    shares: FloatArray
-    """By how much each tells it; shape (n, k)."""
+    shares: FloatArray = field(metadata=array("n", "k"))
+    """Weight of each; shape (n, k)."""
 
     @classmethod
     def of(cls, surface: SkinSurface, live: BoolArray) -> Self:
@@ -337,7 +337,7 @@ class ForetoldPressures:
             live: Taxels that count; shape (n,).
 
         Returns:
-            Who tells whom.
+            Neighbours and their weights.
         """
         known = np.flatnonzero(live)
         number = min(NEIGHBOURS, len(known) - 1)
@@ -348,15 +348,15 @@ class ForetoldPressures:
         shares = kriging_shares(surface.positions[neighbours], surface.positions[:, None])[:, 0]
         return cls(neighbours=neighbours, shares=shares)
 
-    def surprise(self, pressures: FloatArray, taxels: IntArray) -> FloatArray:
-        """Give what taxels read beyond what their neighbours foretell.
+    def residual(self, pressures: FloatArray, taxels: IntArray) -> FloatArray:
+        """Give what taxels read beyond what their neighbours predict.
 
         Args:
             pressures: Pressure on each taxel of the patch; shape (n,); Pa.
             taxels: Some of them; shape (t,).
 
         Returns:
-            Surprise at each of those; shape (t,); Pa.
+            Residual at each of those; shape (t,); Pa.
         """
-        foretold = np.einsum("tk,tk->t", pressures[self.neighbours[taxels]], self.shares[taxels])
-        return pressures[taxels] - foretold
+        predicted = np.einsum("tk,tk->t", pressures[self.neighbours[taxels]], self.shares[taxels])
+        return pressures[taxels] - predicted

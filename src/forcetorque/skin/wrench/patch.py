@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Final, Self, TypeVar
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Final, Self
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.surface import SkinSurface, edge_taxels, rim_strip, skin_surface
 from forcetorque.skin.wrench.elements import SkinElements, skin_elements
 from forcetorque.skin.wrench.operator import (
-    ForetoldPressures,
+    PredictedPressures,
     WrenchMethod,
     WrenchOperator,
     kriging_operator,
@@ -24,19 +25,18 @@ from forcetorque.skin.wrench.operator import (
     thesis_operator,
 )
 
-_Built = TypeVar("_Built")
 _KEPT: Final = 16
 """Operators that are kept: masks of live taxels change now and then, not from frame to frame."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class SkinPatch:
-    """A patch, its surface, and how the wrench is told from its pressures."""
+    """A patch, its surface, and how the wrench is computed from its pressures."""
 
     layout: SkinLayout
     """Where the taxels are."""
     method: WrenchMethod
-    """How pressures between taxels are told."""
+    """How pressures are interpolated between taxels."""
     surface: SkinSurface
     """The surface through the taxels."""
     elements: SkinElements
@@ -47,8 +47,6 @@ class SkinPatch:
     """Area of a taxel, for the simple method."""
     plane: FloatArray | None = None
     """Places of the taxels in a drawing, for the method of the thesis; shape (n, 2); m."""
-    _operators: dict[bytes, WrenchOperator] = field(default_factory=dict, repr=False)
-    _foretold: dict[bytes, ForetoldPressures] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(
@@ -63,7 +61,7 @@ class SkinPatch:
 
         Args:
             layout: Where the taxels are, with sound normals.
-            method: How pressures between taxels are told.
+            method: How pressures are interpolated between taxels.
             taxel_area_m2: Area of a taxel; the simple method needs it, no other takes it.
             plane: Places of the taxels in a drawing; the method of the thesis needs them, no other takes them; shape
                 (n, 2); m.
@@ -95,16 +93,16 @@ class SkinPatch:
             plane=None if plane is None else read_only(plane, name="plane", shape=(len(layout), 2)),
         )
 
-    def foretold(self, live: BoolArray) -> ForetoldPressures:
-        """Give what neighbours tell of each taxel, built and kept as operators are.
+    def predicted_pressures(self, live: BoolArray) -> PredictedPressures:
+        """Predict each taxel from its neighbours, built and kept as operators are.
 
         Args:
             live: Taxels that can be trusted, at least two; shape (n,).
 
         Returns:
-            Who tells whom.
+            Neighbours and their weights.
         """
-        return _kept(self._foretold, live, lambda: ForetoldPressures.of(self.surface, live))
+        return self._predicted_by_mask(live.tobytes())
 
     def operator(self, live: BoolArray | None = None) -> WrenchOperator:
         """Give the map from pressures to the wrench, built anew for every other mask of live taxels and then kept.
@@ -122,7 +120,17 @@ class SkinPatch:
         require_shape(mask, name="live", shape=(len(self.layout),))
         if not mask.any():
             raise SkinError(f"patch {self.layout.name!r}: live: expected a taxel that can be trusted, got none")
-        return _kept(self._operators, mask, lambda: self._built(mask))
+        return self._operator_by_mask(mask.tobytes())
+
+    @cached_property
+    def _operator_by_mask(self) -> Callable[[bytes], WrenchOperator]:
+        return lru_cache(maxsize=_KEPT)(lambda mask: self._built(np.frombuffer(mask, dtype=np.bool_)))
+
+    @cached_property
+    def _predicted_by_mask(self) -> Callable[[bytes], PredictedPressures]:
+        return lru_cache(maxsize=_KEPT)(
+            lambda mask: PredictedPressures.of(self.surface, np.frombuffer(mask, dtype=np.bool_))
+        )
 
     def _built(self, live: BoolArray) -> WrenchOperator:
         if self.taxel_area_m2 is not None:
@@ -131,13 +139,3 @@ class SkinPatch:
             return thesis_operator(self.layout, live, plane=self.plane)
         build = linear_operator if self.method is WrenchMethod.LINEAR else kriging_operator
         return build(self.surface, self.elements, live)
-
-
-def _kept(kept: dict[bytes, _Built], mask: BoolArray, build: Callable[[], _Built]) -> _Built:
-    """What belongs to a mask, from what is kept or built and kept; the oldest makes room."""
-    key = mask.tobytes()
-    if key not in kept:
-        while len(kept) >= _KEPT:
-            kept.pop(next(iter(kept)))
-        kept[key] = build()
-    return kept[key]

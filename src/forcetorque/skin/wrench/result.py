@@ -17,7 +17,7 @@ from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import AxisValues, FloatOrNull, Row, Shown, WrenchValues
 from forcetorque.skin.contact.contacts import SkinContacts, lobes
 from forcetorque.skin.contact.pressure_frame import PressureFrame
-from forcetorque.skin.contact.tracking import ContactLife, Release, followed_places
+from forcetorque.skin.contact.tracking import ContactLife, followed_places
 from forcetorque.skin.temperature.gains import HeatRule
 from forcetorque.skin.wrench.frames import SkinFrames
 from forcetorque.skin.wrench.patch import SkinPatch
@@ -264,54 +264,15 @@ def _summary(stream: Stream, start_ns: int) -> tuple[SkinEventRow, SkinEventPict
     return row, SkinEventPicture(stream=stream.name, seconds=seconds, heuristic=heuristic)
 
 
-OFFERED: Final = "offered"
-"""Said of a release after which rest may be taken anew."""
 HEATING: Final = 1.25
 """Heat that comes faster than in the warm-up by more is said: the limits of drift are told from its steepest minute."""
 
 
-class ReleaseRow(Row):
-    """A contact that was let go."""
-
-    time_s: Annotated[float, Shown("time", "s", digits=1)]
-    """When it had settled, since the start of the recording."""
-    held_s: Annotated[float, Shown("held", "s", digits=1)]
-    """For how long it was held."""
-    force_N: Annotated[float, Shown("force", "N", digits=2)]
-    """Force before."""
-    left_N: Annotated[float, Shown("left", "N", digits=2)]
-    """Force that its taxels read after."""
-    drift_limit_N: Annotated[float | None, Shown("drift limit", "N", digits=1)]
-    """How much of that heat may be."""
-    re_tare: Annotated[str, Shown("re-tare")]
-    """`offered` where heat explains all that is left, `done` where that was taken as rest, else `no`."""
-
-
-def release_row(release: Release) -> ReleaseRow:
-    """Write a release down.
-
-    Args:
-        release: The release.
-
-    Returns:
-        Its row.
-    """
-    offered = OFFERED if release.may_be_heat else "no"
-    return ReleaseRow(
-        time_s=release.time_s,
-        held_s=release.held_s,
-        force_N=release.force_N,
-        left_N=release.left_N,
-        drift_limit_N=finite_or_none(release.drift_limit_N),
-        re_tare="done" if release.re_tared else offered,
-    )
-
-
-def heat_warnings(looked: SkinFrames, rows: Sequence[SkinContactRow], *, has_pads: bool) -> tuple[str, ...]:
+def heat_warnings(frames: SkinFrames, rows: Sequence[SkinContactRow], *, has_pads: bool) -> tuple[str, ...]:
     """Say what heat makes doubtful.
 
     Args:
-        looked: Frames of a recording.
+        frames: Frames of a recording.
         rows: Its contacts.
         has_pads: Whether the patch has thermal pads.
 
@@ -319,33 +280,33 @@ def heat_warnings(looked: SkinFrames, rows: Sequence[SkinContactRow], *, has_pad
         Sentences.
     """
     hot = sum(row.drift_limit_N is not None and row.drift_limit_N > row.force_N for row in rows)
-    sentences = (
+    warnings = (
         (
-            has_pads and looked.rule is not HeatRule.LEARNED and len(rows) > 0,
+            has_pads and frames.rule is not HeatRule.LEARNED and len(rows) > 0,
             "no limit of drift is known: heat reads as force; `forcetorque skin calibrate --warm-up` learns how much",
         ),
         (
             hot > 0,
-            f"{hot} of {len(rows)} contacts lasted so long that heat through them, which no thermal pad tells, may be "
-            "all of their force; take rest anew where they are let go",
+            f"{hot} of {len(rows)} contacts lasted so long that heat through them, which no thermal pad measures, may "
+            "be all of their force; take rest anew where they are let go",
         ),
         (
-            looked.heating > HEATING,
-            f"heat came {looked.heating:.1f} times as fast as in the warm-up: limits of drift do not hold, and what "
-            "pads do not tell in time may read as contacts; learn from a warm-up that is as fast",
+            frames.heating > HEATING,
+            f"heat came {frames.heating:.1f} times as fast as in the warm-up: limits of drift do not hold, and what "
+            "pads do not measure in time may read as contacts; learn from a warm-up that is as fast",
         ),
         (
-            len(looked.dead_pads) > 0,
-            f"{len(looked.dead_pads)} thermal pads are dead in this recording: {_listed(looked)}",
+            len(frames.dead_pads) > 0,
+            f"{len(frames.dead_pads)} thermal pads are dead in this recording: {_listed(frames)}",
         ),
         (
-            len(looked.untold) > 0,
-            f"{len(looked.untold)} taxels are left out because no living thermal pad tells their heat",
+            len(frames.without_pad) > 0,
+            f"{len(frames.without_pad)} taxels are left out because no working thermal pad measures their heat",
         ),
     )
-    return tuple(sentence for holds, sentence in sentences if holds)
+    return tuple(warning for holds, warning in warnings if holds)
 
 
-def _listed(looked: SkinFrames, most: int = 8) -> str:
-    more = ", ..." if len(looked.dead_pads) > most else ""
-    return ", ".join(map(str, looked.dead_pads[:most])) + more
+def _listed(frames: SkinFrames, most: int = 8) -> str:
+    more = ", ..." if len(frames.dead_pads) > most else ""
+    return ", ".join(map(str, frames.dead_pads[:most])) + more

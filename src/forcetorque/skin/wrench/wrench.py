@@ -19,6 +19,7 @@ from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import PressureFrame
+from forcetorque.skin.contact.tracking import OFFERED, ReleaseRow
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import SkinLayout
@@ -29,21 +30,18 @@ from forcetorque.skin.wrench.frames import FrameChoice, SkinFrames, patch_messag
 from forcetorque.skin.wrench.operator import WrenchMethod
 from forcetorque.skin.wrench.patch import SkinPatch
 from forcetorque.skin.wrench.result import (
-    OFFERED,
     ContactLifeRow,
-    ReleaseRow,
     SkinContactRow,
     SkinWrenchPicture,
     contact_rows,
     heat_warnings,
     life_rows,
-    release_row,
 )
 
 
 @dataclass(frozen=True, kw_only=True)
 class WrenchChoice(FrameChoice):
-    """How the wrench is told, and of which messages."""
+    """How the wrench is computed, and from which messages."""
 
     method: str = WrenchMethod.KRIGING
     """One of `WrenchMethod`."""
@@ -116,7 +114,7 @@ class SkinWrench(Result):
     link: str
     """Frame of the wrenches: they are about its origin."""
     method: str
-    """How pressures between taxels are told."""
+    """How pressures are interpolated between taxels."""
     temperature: str
     """How heat was taken out of readings."""
     taxels: int
@@ -124,7 +122,7 @@ class SkinWrench(Result):
     left_out: tuple[int, ...]
     """Columns of taxels without a table, or useless in this recording."""
     frames: int
-    """Means of messages that were looked at."""
+    """Means of messages that were evaluated."""
     touched: int
     """How many of them have a contact."""
     averaged: int
@@ -145,10 +143,10 @@ class SkinWrench(Result):
     """Forces over time and a field of pressure, for figures."""
 
     def blocks(self) -> Iterator[Table | str]:
-        """Give the first contacts, and sentences about all.
+        """Give the first contacts, and warnings about all.
 
         Yields:
-            A table and sentences.
+            A table and warnings.
         """
         if self.contacts:
             yield table_of(self.contacts[:_SHOWN], f"{self.patch}: contacts, force ± standard deviation")
@@ -193,14 +191,14 @@ def skin_wrench(
         experiment: Experiment file with the patch, or what was read of it.
         calibration: Calibration of its taxels, or its file.
         patch: Name of the patch; None for the only one.
-        choice: How the wrench is told; by kriging if None.
+        choice: How the wrench is computed; by kriging if None.
 
     Returns:
         Every contact of every frame.
     """
     content = load_patches(experiment) if isinstance(experiment, (Path, str)) else experiment
     chosen = WrenchChoice() if choice is None else choice
-    return _answer(content, patch_frames(content, calibration, patch=patch, choice=chosen), chosen)
+    return _result(content, patch_frames(content, calibration, patch=patch, choice=chosen), chosen)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -213,11 +211,6 @@ class PatchFrames:
     """Its surface and wrenches."""
     read: SkinFrames
     """Its frames, and what they were read by."""
-
-    @property
-    def looked(self) -> tuple[tuple[float, PressureFrame, SkinContacts], ...]:
-        """Time in the middle of each mean of messages, s since the start of the recording; pressures and contacts."""
-        return self.read.frames
 
 
 def patch_frames(
@@ -233,7 +226,7 @@ def patch_frames(
         content: Experiment with the patch.
         calibration: Calibration of its taxels, or its file.
         patch: Name of the patch; None for the only one.
-        choice: How the wrench is told; by kriging if None.
+        choice: How the wrench is computed; by kriging if None.
 
     Returns:
         Pressures and contacts of every mean of messages.
@@ -254,35 +247,34 @@ def patch_frames(
     return PatchFrames(patch=own, skin=skin, read=frames)
 
 
-def _answer(content: PatchExperiment, frames: PatchFrames, chosen: WrenchChoice) -> SkinWrench:
-    own, skin, looked = frames.patch, frames.skin, frames.read
-    if not looked.frames:
+def _result(content: PatchExperiment, frames: PatchFrames, chosen: WrenchChoice) -> SkinWrench:
+    own, skin, read = frames.patch, frames.skin, frames.read
+    if not read.frames:
         raise SkinError(f"{content.file}: patch {own.name!r}: expected {chosen.averaged} messages or more, got fewer")
-    seconds = np.array([middle for middle, _, _ in looked.frames])
-    force = np.array([np.linalg.norm(contacts.wrench[:, :3].sum(axis=0)) for _, _, contacts in looked.frames])
-    touched = np.array([len(contacts) > 0 for _, _, contacts in looked.frames])
-    rows = [row for middle, frame, contacts in looked.frames for row in contact_rows(skin, frame, contacts, middle)]
-    releases = tuple(map(release_row, looked.releases))
+    seconds = np.array([middle for middle, _, _ in read.frames])
+    force = np.array([np.linalg.norm(contacts.wrench[:, :3].sum(axis=0)) for _, _, contacts in read.frames])
+    touched = np.array([len(contacts) > 0 for _, _, contacts in read.frames])
+    rows = [row for middle, frame, contacts in read.frames for row in contact_rows(skin, frame, contacts, middle)]
     return SkinWrench(
         experiment=content.name,
         patch=own.name,
         link=own.link or skin.layout.frame,
         method=skin.method.value,
-        temperature=looked.rule.value,
+        temperature=read.rule.value,
         taxels=len(skin.layout),
-        left_out=tuple(skin.layout.taxels[~looked.reader.live].tolist()),
-        frames=len(looked.frames),
+        left_out=tuple(skin.layout.taxels[~read.reader.live].tolist()),
+        frames=len(read.frames),
         touched=int(touched.sum()),
         averaged=chosen.averaged,
         largest_force_N=float(force.max()),
         mean_force_N=float(force[touched].mean()) if touched.any() else 0.0,
         contacts=tuple(rows),
-        lives=life_rows(looked.lives, rows),
-        releases=releases,
-        picture=_picture(own.name, skin, seconds, force, looked.frames, chosen),
+        lives=life_rows(read.lives, rows),
+        releases=read.releases,
+        picture=_picture(own.name, skin, seconds, force, read.frames, chosen),
         warnings=(
-            *_warnings(rows, looked, chosen),
-            *heat_warnings(looked, rows, has_pads=len(skin.layout.thermal_pads) > 0),
+            *_warnings(rows, read, chosen),
+            *heat_warnings(read, rows, has_pads=len(skin.layout.thermal_pads) > 0),
             *added_to(content.recording),
         ),
     )
@@ -293,15 +285,15 @@ def _picture(
     skin: SkinPatch,
     seconds: FloatArray,
     force: FloatArray,
-    looked: Sequence[tuple[float, PressureFrame, SkinContacts]],
+    read: Sequence[tuple[float, PressureFrame, SkinContacts]],
     chosen: WrenchChoice,
 ) -> SkinWrenchPicture:
     strongest = int(force.argmax())
-    normal_force = np.array([contacts.normal_force_N.sum() for _, _, contacts in looked])
+    normal_force = np.array([contacts.normal_force_N.sum() for _, _, contacts in read])
     forces = {f"{skin.method}: norm of the force": force, f"{skin.method}: integral of the pressure": normal_force}
     if chosen.taxel_area_mm2 is not None and skin.method is not WrenchMethod.SIMPLE:
         simple = SkinPatch.of(skin.layout, WrenchMethod.SIMPLE, taxel_area_m2=1e-6 * chosen.taxel_area_mm2)
-        simple_force = [find_contacts(simple, frame).wrench[:, :3].sum(axis=0) for _, frame, _ in looked]
+        simple_force = [find_contacts(simple, frame).wrench[:, :3].sum(axis=0) for _, frame, _ in read]
         forces[f"simple, {chosen.taxel_area_mm2:g} mm2: norm of the force"] = np.linalg.norm(simple_force, axis=1)
     return SkinWrenchPicture(
         patch=name,
@@ -309,20 +301,20 @@ def _picture(
         forces=forces,
         places=unrolled(skin.surface),
         triangles=skin.surface.triangles,
-        pressures=np.where(looked[strongest][2].contact >= 0, looked[strongest][1].pressures, 0.0),
+        pressures=np.where(read[strongest][2].contact >= 0, read[strongest][1].pressures, 0.0),
         pressed_s=float(seconds[strongest]),
     )
 
 
-def _warnings(rows: Sequence[SkinContactRow], looked: SkinFrames, chosen: WrenchChoice) -> tuple[str, ...]:
-    """What makes contacts doubtful."""
+def _warnings(rows: Sequence[SkinContactRow], read: SkinFrames, chosen: WrenchChoice) -> tuple[str, ...]:
+    """What limits the accuracy of contacts."""
     beyond = sum(row.beyond_range for row in rows)
     at_edge = sum(row.edge_share > 0.1 for row in rows)
     several = sum(row.lobes > 1 for row in rows)
-    live, touched = looked.reader.live, looked.touched_at_rest
+    live, touched = read.reader.live, read.touched_at_rest
     dead = int((~live).sum())
     many = dead > MANY_LEFT_OUT * len(live)
-    sentences = (
+    warnings = (
         (
             beyond,
             f"{beyond} of {len(rows)} contacts press a taxel beyond what it was calibrated for",
@@ -333,9 +325,9 @@ def _warnings(rows: Sequence[SkinContactRow], looked: SkinFrames, chosen: Wrench
         ),
         (several, f"{several} of {len(rows)} contacts have several hills of pressure: they may be contacts that touch"),
         (
-            len(looked.stuck),
-            f"{len(looked.stuck)} taxels send one number in all messages while others are noisy, the first in column "
-            f"{looked.stuck[0] if len(looked.stuck) else None}: they feel nothing, and forces on them are missed",
+            len(read.stuck),
+            f"{len(read.stuck)} taxels send one number in all messages while others are noisy, the first in column "
+            f"{read.stuck[0] if len(read.stuck) else None}: they feel nothing, and forces on them are missed",
         ),
         (
             len(touched),
@@ -348,8 +340,8 @@ def _warnings(rows: Sequence[SkinContactRow], looked: SkinFrames, chosen: Wrench
             + (
                 f"over {100.0 * MANY_LEFT_OUT:g} %: forces are too low, and small contacts are missed"
                 if many
-                else "what they would read is told by those around them"
+                else "their pressure is interpolated from the taxels around them"
             ),
         ),
     )
-    return tuple(sentence for number, sentence in sentences if number)
+    return tuple(warning for number, warning in warnings if number)

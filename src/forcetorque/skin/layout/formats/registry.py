@@ -47,7 +47,7 @@ class LayoutFormat(Protocol):
             text: Its content.
 
         Returns:
-            What it says, sound or not.
+            What it says, valid or not.
         """
 
 
@@ -58,11 +58,11 @@ LAYOUT_FORMATS: tuple[LayoutFormat, ...] = (
     TaxelArrayMessage(),
     UrdfFrames(),
 )
-"""Forms of layouts, all of which are asked whether they know a file."""
+"""Forms of layouts, of which exactly one must recognise a file."""
 
 
 def describe_patch(path: Path | str) -> PatchDescription:
-    """Read what a file of any known form says of a patch, sound or not.
+    """Read what a file of any known form says of a patch, valid or not.
 
     Args:
         path: File.
@@ -100,7 +100,7 @@ def _require_near(patch: PatchDescription) -> None:
 
 
 def read_layout(path: Path | str, *, rebuild_normals: bool = False, outward: FloatArray | None = None) -> SkinLayout:
-    """Read the layout of a patch, which must be sound.
+    """Read the layout of a patch, which must be valid.
 
     Args:
         path: File of any known form.
@@ -111,7 +111,7 @@ def read_layout(path: Path | str, *, rebuild_normals: bool = False, outward: Flo
         The layout.
 
     Raises:
-        SkinError: If it is not sound; `forcetorque skin check` says more.
+        SkinError: If it is not valid; `forcetorque skin check` lists the defects.
     """
     patch = describe_patch(path)
     try:
