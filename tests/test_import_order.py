@@ -105,6 +105,37 @@ def test_a_circle_of_needs_is_noticed() -> None:
         TopologicalSorter(circle).prepare()
 
 
+def _module_graph(root: Path) -> dict[str, set[str]]:
+    """Modules, but packages themselves, that each module imports: also for types only, and inside functions."""
+    name_of = {path: ".".join(path.relative_to(root.parent).with_suffix("").parts) for path in root.rglob("*.py")}
+    modules = {name for path, name in name_of.items() if path.name != "__init__.py"}
+    graph: dict[str, set[str]] = {name: set() for name in modules}
+    for path, name in name_of.items():
+        if name in modules:
+            for node in _nodes(path):
+                if isinstance(node, ast.ImportFrom) and node.module:
+                    graph[name] |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)} & modules
+            graph[name].discard(name)
+    return graph
+
+
+def test_modules_import_each_other_in_no_circle() -> None:
+    """Types included."""
+    graph = _module_graph(ROOT)
+    assert len(graph) > 300
+    assert len(list(TopologicalSorter(graph).static_order())) == len(graph)
+
+
+def test_a_circle_of_modules_is_noticed(tmp_path: Path) -> None:
+    """Negative control: one for types only closes it."""
+    (tmp_path / "library").mkdir()
+    (tmp_path / "library" / "one.py").write_text("from library.two import Two\n", encoding="utf-8")
+    text = "if TYPE_CHECKING:\n    from library.one import One\n"
+    (tmp_path / "library" / "two.py").write_text(text, encoding="utf-8")
+    with pytest.raises(CycleError):
+        TopologicalSorter(_module_graph(tmp_path / "library")).prepare()
+
+
 def test_a_forbidden_import_is_noticed() -> None:
     """Negative control: kernel upward, between capabilities, and to the top."""
     assert _violations("recording/stream.py", {"base", "calibration"}) == {"calibration"}

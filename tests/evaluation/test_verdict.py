@@ -14,8 +14,7 @@ from forcetorque.calibration.summary import LearntDirection
 from forcetorque.evaluation.evaluation import CandidateErrors
 from forcetorque.evaluation.load_cases.validation_evidence import PriorComparison
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.report.assessment import Assessment
-from forcetorque.report.verdict import verdict
+from forcetorque.report.assessment import Assessment, verdict
 
 BETTER: Judgement = "better"
 WORSE: Judgement = "worse"

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from forcetorque.evaluation.load_cases.verdict import Reason
+from forcetorque.report.assessment import VerdictLine
 from forcetorque.report.decision import NextSteps
 from forcetorque.report.decision_page import decision_page
-from forcetorque.report.verdict import VerdictLine
 from forcetorque.results.document.content import Block, List, Verdict
 from tests.report.drawing import use_of
 from tests.scenes.calibrations import make_calibration

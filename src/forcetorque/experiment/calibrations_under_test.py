@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -16,12 +16,7 @@ from forcetorque.base.noise.means import mean_error
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.validation_offset import Offset, mean_offset
-from forcetorque.recording.alignment import seconds_since
-from forcetorque.recording.recording import Use
 from forcetorque.results.table import Row, Shown
-
-if TYPE_CHECKING:
-    from forcetorque.experiment.sensor_run import SensorRun
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -196,27 +191,17 @@ class JudgedRow(Row):
     """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
 
 
-def judged_candidates(run: SensorRun, calibrations: Mapping[str, Calibration]) -> tuple[JudgedCandidate, ...]:
+def judged_candidates(calibrations: Mapping[str, Calibration]) -> tuple[JudgedCandidate, ...]:
     """Decide by what a judged sensor is read in turn.
 
     The prior of a calibration has the offset that the calibration carries for it, that of the fitted data.
 
     Args:
-        run: The sensor.
-        calibrations: Its calibrations by name; without any it is read by the prior of the experiment, or the logged
-            wrench, with the offset that the calibration intervals give.
+        calibrations: Its calibrations by name, at least one; they may be applied to it.
 
     Returns:
         The candidates, priors first; a prior that several calibrations share comes once.
-
-    Raises:
-        SerialNumberError: If a calibration is of another sensor.
-        ExperimentError: If a calibration may not be applied, or raw counts have neither calibration nor prior.
     """
-    if not calibrations:
-        return (JudgedCandidate(name=PRIOR, correction=run.uncalibrated(), prior=None),)
-    for name, calibration in calibrations.items():
-        run.require_fit(name, calibration)
     priors: list[JudgedCandidate] = []
     fitted: list[JudgedCandidate] = []
     for name, calibration in calibrations.items():
@@ -230,30 +215,6 @@ def judged_candidates(run: SensorRun, calibrations: Mapping[str, Calibration]) -
         correction = Correction.of(name, calibration)
         fitted.append(JudgedCandidate(name=name, correction=correction, prior=shared.name if shared else None))
     return (*priors, *fitted)
-
-
-def uncalibrated(run: SensorRun) -> Correction:
-    """Read a sensor by the prior of the experiment, or take the logged wrench.
-
-    Args:
-        run: The sensor.
-
-    Returns:
-        The correction, with the offset that the calibration intervals give; without any no offset is removed.
-
-    Raises:
-        ExperimentError: If raw counts have no prior.
-    """
-    bare = Correction.without_offset(run.sensor)
-    if not any(interval.use is Use.CALIBRATION for interval in run.experiment.recording.intervals):
-        return bare
-    parts = run.samples(Use.CALIBRATION)
-    # the mean over all samples at once: its last bits depend on how it is summed
-    wrench = np.concatenate([part.samples.reading.values for part in parts])
-    wrench = wrench if bare.of_wrench else wrench @ bare.model.matrix.T
-    offset = mean_offset(np.concatenate([part.samples.reference for part in parts]) - wrench)
-    labels = ", ".join(repr(part.interval.label) for part in parts)
-    return bare.with_offset(offset, f"over {labels} ({len(wrench)} samples)")
 
 
 def _same(one: Correction, other: Correction) -> bool:
@@ -351,42 +312,3 @@ class JudgedWrenches:
         for candidate, (_, wrench) in zip(self.candidates, self.measured, strict=True):
             yield candidate, candidate.offset(Offset.FITTED), wrench
             yield candidate, Offset.JUDGED_MEAN, offset_removed(wrench, self.reference)
-
-
-def judged_wrenches(run: SensorRun, calibrations: Mapping[str, Calibration]) -> JudgedWrenches:
-    """Read a sensor by every calibration, and by their priors, on the validation intervals.
-
-    Without a calibration it is read by the prior of the experiment, with the offset that the calibration intervals
-    give.
-
-    Args:
-        run: The sensor.
-        calibrations: Its calibrations by name.
-
-    Returns:
-        Wrenches on the samples that have all variables which any of the calibrations needs; a prior that several
-        calibrations share comes once.
-
-    Raises:
-        SerialNumberError: If a calibration is of another sensor.
-        ExperimentError: If the robot now reads the sensor in another frame or sign.
-        ShapeError: If a matrix does not have one column per channel of the sensor.
-    """
-    candidates = run.candidates(calibrations)
-    needed = {name for candidate in candidates for name in candidate.correction.variables}
-    parts = [run.interval_samples(interval, variables=needed) for interval in run.intervals(Use.VALIDATION)]
-    spans = [(part.interval, part.readings) for part in parts]
-    for candidate in candidates:
-        matrix = candidate.correction.model.matrix
-        require_shape(matrix, name=f"{candidate.name}: matrix", shape=(6, run.channels))
-    stamps = np.concatenate([part.samples.stamp_ns for part in parts])
-    ends = np.cumsum([len(part.samples.stamp_ns) for part in parts]).tolist()
-    return JudgedWrenches(
-        time_s=seconds_since(stamps, run.experiment.recording.start_ns),
-        reference=np.concatenate([part.samples.reference for part in parts]),
-        measured=tuple((candidate.name, run.read(spans, candidate.correction)) for candidate in candidates),
-        intervals=tuple(
-            (part.interval.label, slice(start, end)) for part, start, end in zip(parts, [0, *ends], ends, strict=False)
-        ),
-        candidates=candidates,
-    )

@@ -8,23 +8,23 @@ from typing import TypeVar, cast
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.applicability import require_fit
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.provenance import SensorIdentity
 from forcetorque.experiment.calibrations_under_test import (
+    PRIOR,
     JudgedCandidate,
     JudgedWrenches,
     judged_candidates,
-    judged_wrenches,
-    uncalibrated,
 )
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact, ExperimentSensor
 from forcetorque.experiment.sensor_reading import Correction, Readings, wrench_at
 from forcetorque.experiment.sensor_samples import IntervalSamples, readings_over, samples_over
-from forcetorque.experiment.validation_offset import JudgedInstants
+from forcetorque.experiment.validation_offset import JudgedInstants, mean_offset
+from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
@@ -286,9 +286,24 @@ class SensorRun:
         """Read the sensor by the prior of the experiment, or take the logged wrench.
 
         Returns:
-            The correction, with the offset that the calibration intervals give.
+            The correction, with the offset that the calibration intervals give; without any no offset is removed.
+
+        Raises:
+            ExperimentError: If raw counts have no prior.
         """
-        return self.once("uncalibrated", lambda: uncalibrated(self))
+        return self.once("uncalibrated", self._uncalibrated)
+
+    def _uncalibrated(self) -> Correction:
+        bare = Correction.without_offset(self.sensor)
+        if not any(interval.use is Use.CALIBRATION for interval in self.experiment.recording.intervals):
+            return bare
+        parts = self.samples(Use.CALIBRATION)
+        # the mean over all samples at once: its last bits depend on how it is summed
+        wrench = np.concatenate([part.samples.reading.values for part in parts])
+        wrench = wrench if bare.of_wrench else wrench @ bare.model.matrix.T
+        offset = mean_offset(np.concatenate([part.samples.reference for part in parts]) - wrench)
+        labels = ", ".join(repr(part.interval.label) for part in parts)
+        return bare.with_offset(offset, f"over {labels} ({len(wrench)} samples)")
 
     def read_by(self, name: str | None, calibration: Calibration | None) -> Correction:
         """Read the sensor by one calibration, or, with whatever offset it has, by its prior or as logged.
@@ -313,8 +328,19 @@ class SensorRun:
 
         Returns:
             The candidates, priors first; a prior that several calibrations share comes once.
+
+        Raises:
+            SerialNumberError: If a calibration is of another sensor.
+            ExperimentError: If a calibration may not be applied, or raw counts have neither calibration nor prior.
         """
-        return self.once(("candidates", _names(calibrations)), lambda: judged_candidates(self, calibrations))
+        return self.once(("candidates", _names(calibrations)), lambda: self._candidates(calibrations))
+
+    def _candidates(self, calibrations: Mapping[str, Calibration]) -> tuple[JudgedCandidate, ...]:
+        if not calibrations:
+            return (JudgedCandidate(name=PRIOR, correction=self.uncalibrated(), prior=None),)
+        for name, calibration in calibrations.items():
+            self.require_fit(name, calibration)
+        return judged_candidates(calibrations)
 
     def judged(self, calibrations: Mapping[str, Calibration]) -> JudgedWrenches:
         """Read the sensor by every candidate on the validation intervals.
@@ -323,12 +349,39 @@ class SensorRun:
             calibrations: Calibrations of the sensor by name.
 
         Returns:
-            Wrenches of all candidates at the same instants, and the reference.
+            Wrenches of all candidates on the samples that have all variables which any of them needs, and the
+            reference.
+
+        Raises:
+            SerialNumberError: If a calibration is of another sensor.
+            ExperimentError: If the robot now reads the sensor in another frame or sign.
+            ShapeError: If a matrix does not have one column per channel of the sensor.
         """
         key = _names(calibrations)
         if key not in self._judged:
-            self._judged[key] = judged_wrenches(self, calibrations)
+            self._judged[key] = self._judged_wrenches(calibrations)
         return self._judged[key]
+
+    def _judged_wrenches(self, calibrations: Mapping[str, Calibration]) -> JudgedWrenches:
+        candidates = self.candidates(calibrations)
+        needed = {name for candidate in candidates for name in candidate.correction.variables}
+        parts = [self.interval_samples(interval, variables=needed) for interval in self.intervals(Use.VALIDATION)]
+        spans = [(part.interval, part.readings) for part in parts]
+        for candidate in candidates:
+            matrix = candidate.correction.model.matrix
+            require_shape(matrix, name=f"{candidate.name}: matrix", shape=(6, self.channels))
+        stamps = np.concatenate([part.samples.stamp_ns for part in parts])
+        ends = np.cumsum([len(part.samples.stamp_ns) for part in parts]).tolist()
+        return JudgedWrenches(
+            time_s=seconds_since(stamps, self.experiment.recording.start_ns),
+            reference=np.concatenate([part.samples.reference for part in parts]),
+            measured=tuple((candidate.name, self.read(spans, candidate.correction)) for candidate in candidates),
+            intervals=tuple(
+                (part.interval.label, slice(start, end))
+                for part, start, end in zip(parts, [0, *ends], ends, strict=False)
+            ),
+            candidates=candidates,
+        )
 
     def require_fit(self, name: str, calibration: Calibration) -> None:
         """Refuse a calibration of another sensor, or of one that is read in another way.

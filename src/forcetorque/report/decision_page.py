@@ -9,10 +9,9 @@ from forcetorque.calibration.report_blocks import origin_words
 from forcetorque.evaluation.load_cases.prediction import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import UseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.report.assessment import Assessment
+from forcetorque.report.assessment import Assessment, VerdictLine
 from forcetorque.report.decision import NextSteps, Undecided, gathered, said_once
 from forcetorque.report.experiment_assessment import ExperimentAssessment
-from forcetorque.report.verdict import VerdictLine
 from forcetorque.results.document.content import Block, Figure, List, Place, Section, Tone, Verdict
 from forcetorque.results.document.picture import Picture
 from forcetorque.results.figures import two_digits

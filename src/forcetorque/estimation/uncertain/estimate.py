@@ -17,8 +17,8 @@ from forcetorque.estimation.uncertain.equations import Scene, Undetermined, post
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty, actions_of, actors_of, wrench_covariances
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.dynamics import BodyState, net_wrench
-from forcetorque.robot.mechanics.estimate import Inputs, checked_inputs, refuse_infinite
 from forcetorque.robot.mechanics.estimates import column_of
+from forcetorque.robot.mechanics.inputs import Inputs, checked_inputs, refuse_infinite
 from forcetorque.robot.mechanics.question import Question, TorqueSum
 from forcetorque.robot.mechanics.readable import Block, body_states
 from forcetorque.robot.motion import JointMotion, RootMotion

@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.compiled import announced, frozen
 from forcetorque.evaluation.block.candidate_sums import compiled_error_sums
-from forcetorque.evaluation.candidate_errors import CandidateInputs
+from forcetorque.evaluation.candidate_inputs import CandidateInputs
 
 _SAMPLES = 16384
 """Most samples of one task: long against the cost of starting it."""

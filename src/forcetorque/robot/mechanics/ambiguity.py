@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.robot.contacts import Wrenches
-from forcetorque.robot.mechanics.estimate import activity_of, checked_inputs
+from forcetorque.robot.mechanics.inputs import activity_of, checked_inputs
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.mechanics.readable import RANK_TOLERANCE, Block, body_states, contact_columns, weighted
 from forcetorque.robot.motion import JointMotion, RootMotion

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Final, Self
+from typing import Any, Final, Protocol, Self
 
 import numpy as np
 
@@ -18,10 +18,6 @@ from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.contact import ContactTruth
 from forcetorque.skin.taxels.health import Ailment
 
-if TYPE_CHECKING:
-    from forcetorque.skin.simulation.heat import MotorHeat
-
-
 REFERENCE_PA: Final = 50e3
 """Pressure up to which the patch of the thesis was calibrated."""
 REST_COUNTS: Final = 240
@@ -30,6 +26,28 @@ SWING_COUNTS: Final = 46.0
 """Mean fall at the reference pressure."""
 NOISE_COUNTS: Final = 0.65
 """Standard deviation of white noise, as measured on an insole."""
+
+
+class PatchHeat(Protocol):
+    """How motors warm a patch, at each message."""
+
+    @property
+    def responses(self) -> Any:
+        """How taxels and pads respond, a `HeatResponses`."""
+
+    @property
+    def rise_K(self) -> FloatArray:
+        """Rise at each message; shape (k,)."""
+
+    def pad_counts(self, rng: np.random.Generator) -> FloatArray:
+        """Read the thermal pads.
+
+        Args:
+            rng: Source of noise.
+
+        Returns:
+            Readings; shape (k, t); counts.
+        """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -242,7 +260,7 @@ def contact_recording(
     rng: np.random.Generator,
     *,
     loading: Loading | None = None,
-    heat: MotorHeat | None = None,
+    heat: PatchHeat | None = None,
 ) -> Recording:
     """Record the counts of a patch while objects are put on it and taken off.
 

@@ -18,8 +18,8 @@ from forcetorque.base.compiled import announced, frozen
 from forcetorque.robot.block.lanes import LANES
 from forcetorque.robot.mechanics.block.drive import Answer, driver
 from forcetorque.robot.mechanics.block.plan import plan_of
-from forcetorque.robot.mechanics.estimate import Inputs, refuse_infinite
 from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.inputs import Inputs, refuse_infinite
 from forcetorque.robot.mechanics.question import Question
 
 _CHUNK = 16384
