@@ -165,4 +165,4 @@ def test_a_sphere_of_no_calibration_interval_is_refused(warm_log: Path, label: s
     ) as e:
         _with_calibration(warm_log / PARQUET, f'sphere_intervals = ["fit", "{label}"]')
     assert str(e.value).endswith("known: fit")
-    assert _with_calibration(warm_log / PARQUET, 'sphere_intervals = ["fit"]').sphere_intervals == ("fit",)
+    assert _with_calibration(warm_log / PARQUET, 'sphere_intervals = ["fit"]').fit_options.sphere_intervals == ("fit",)

@@ -154,7 +154,7 @@ def test_two_formats_at_once_are_refused(dumped: Path, stored: Path) -> None:
 
 def test_tables_are_never_guessed(tmp_path: Path) -> None:
     """A text table says nothing of its units: the error says where to state them."""
-    with pytest.raises(FormatError, match="state their columns and units in an experiment file"):
+    with pytest.raises(FormatError, match="specify their columns and units in an experiment file"):
         TabularFormat().describe(tmp_path)
 
 

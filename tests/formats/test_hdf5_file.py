@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.hdf5_file import dataset_numbers, elsewhere, opened_hdf5
+from forcetorque.formats.hdf5_file import dataset_numbers, not_in_file, opened_hdf5
 from forcetorque.formats.log_format import SketchingFormat
 from forcetorque.formats.registry import recognised_format
 from forcetorque.formats.robometry.log_format import RobometryFormat
@@ -116,7 +116,7 @@ def test_the_header_of_any_version_is_read(others: Path, version: str) -> None:
                 entry.attrs[f"a{k}"] = np.arange(50)
         expected = {"virtual": "virtual dataset", "external": "dataset in external storage"}
         file.flush()
-        assert {name: elsewhere(file, name) for name in file} == dict.fromkeys(file, None) | expected
+        assert {name: not_in_file(file, name) for name in file} == dict.fromkeys(file, None) | expected
 
 
 @pytest.mark.parametrize("size", [0, 4])

@@ -176,7 +176,7 @@ def test_inspecting_says_what_to_state(tmp_path: Path) -> None:
     )
     findings = {finding.stream: finding.message for finding in RosFormat().describe(path).reading.findings}
     assert 'orientation = { sense = "sensor_to_world" }' in findings["/imu"]
-    assert all("state frame, whose they are, and world" in findings[f"/{number}"] for number in range(4))
+    assert all("specify frame, whose they are, and world" in findings[f"/{number}"] for number in range(4))
     assert 'orientation = { sense = "sensor_to_world" }' in findings["/4"]
     leaves = {"orientations/imu": Leaf(values=RPY, units=["deg"]), "gyros/imu": Leaf(values=RPY, units=["deg/s"])}
     (finding,) = RobometryFormat().describe(write_log(tmp_path / "log.mat", leaves)).reading.findings

@@ -52,7 +52,7 @@ def test_a_clock_out_of_reach_is_not_found() -> None:
     """Negative control: rows that begin 30 s earlier are refused, with what was found."""
     with pytest.raises(SkinError, match="expected its steps in the counts within 10 s, got a correlation of"):
         match_pressure(SECONDS, COUNTS, np.random.default_rng(2).normal(size=ROWS).cumsum())
-    with pytest.raises(SkinError, match="got none in one of them; state shift_rows"):
+    with pytest.raises(SkinError, match="got none in one of them; specify shift_rows"):
         match_pressure(SECONDS, COUNTS, np.full(ROWS, 2.0))
     with pytest.raises(SkinError, match="got none in one of them"):
         match_pressure(SECONDS[:50], COUNTS[:50], np.arange(50.0))

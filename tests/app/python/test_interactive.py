@@ -193,7 +193,7 @@ def test_milliseconds_for_seconds_are_refused_with_the_likely_cause(experiment: 
     """All stamps and spans a thousand times too large contradict no other argument."""
     arguments = arrays_of(experiment)
     times = {name: 1000.0 * np.asarray(arguments[name]) for name in ("time_s", "joint_time_s", "calibrate", "judge")}
-    with pytest.raises(RecordingError, match="lengthen the window, or state the stamps in their unit"):
+    with pytest.raises(RecordingError, match="lengthen the window, or specify the stamps in their unit"):
         experiment_of_arrays(**arguments | times)["arm_ft"].calibrate()
 
 

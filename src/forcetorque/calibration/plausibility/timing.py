@@ -137,7 +137,7 @@ def delay_doubts(data_sets: Sequence[DataSet], prior: FloatArray | None) -> Iter
     if left[1] < _BETTER * left[0]:
         yield Doubt(
             kind="delay",
-            message=f"the reading comes {abs(lag) * step * 1e3:.0f} ms {'at_lag' if lag > 0 else 'earlier'} than the "
+            message=f"the reading comes {abs(lag) * step * 1e3:.0f} ms {'later' if lag > 0 else 'earlier'} than the "
             f"reference: moved by it, {1.0 - (left[1] / left[0]) ** 0.5:.0%} less of it is left unexplained; align "
             'their clocks by [[clock]], delay_s = "estimate", or log both by one clock (stamp of '
             "[[recording.stream]]; among arrays shift joint_time_s), and look for a delay between their ports",
