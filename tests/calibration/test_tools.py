@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE
-from tests.calibration.tools import Wrist
+from tests.calibration.generative.tools import Wrist
 
 SPECIMENS = range(8)
 

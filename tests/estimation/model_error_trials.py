@@ -2,7 +2,7 @@
 """Fused joint torques of simulated arms whose masses, centres of mass and joint zeros differ from the model.
 
 `python -m tests.estimation.model_error_trials` prints figures of docs/estimation/fusion.md. The arms are those of
-`tests/estimation/fusion_trials.py`; torques come from the wrong model, and friction is fitted to them.
+`tests/estimation/torque/fusion_trials.py`; torques come from the wrong model, and friction is fitted to them.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.simulation.modified_robot import RobotErrors
-from tests.estimation.fusion_trials import JOINTS, Arm, Faults, Trial, figures, pooled
+from tests.estimation.torque.fusion_trials import JOINTS, Arm, Faults, Trial, figures, pooled
 
 SEEDS: Final = 100
 FIRST: Final = 5000

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.evaluation.simulated_uses import Outcome, outcomes
+from tests.evaluation.load_cases.simulated_uses import Outcome, outcomes
 
 
 def _rates(judged: list[Outcome]) -> tuple[float, float, float]:

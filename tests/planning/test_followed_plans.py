@@ -17,7 +17,7 @@ from forcetorque.planning.search import Criterion
 from forcetorque.planning.section import PLAN, PlanTable
 from forcetorque.simulation.scenario.file import bundled_scenario
 from forcetorque.simulation.scenario.scenario import Scenario, load_scenario
-from tests.evaluation.simulated_uses import FOOT, LEG, Outcome, outcome_of, outcomes
+from tests.evaluation.load_cases.simulated_uses import FOOT, LEG, Outcome, outcome_of, outcomes
 from tests.planning.planned_sensors import LIMIT_COUNTS, planned_motions, planned_run
 
 RECORDINGS, SECONDS = 3, 70.0

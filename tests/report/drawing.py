@@ -63,7 +63,7 @@ from forcetorque.study.figures import lambda_force_figure
 from forcetorque.workbench.figure import bench_figure
 from forcetorque.workbench.result import BenchPicture
 from tests.scenes.patches import cylinder_patch
-from tests.skin.skins import cylinder
+from tests.skin.layout.skins import cylinder
 
 LAMBDAS = np.array([0, 1, 5, 10, 50, 100, 1e3, 5e3, 1e4, 5e4, 1e5, 5e5, 1e6])
 """Those of the thesis, table 5.5; counts2."""

@@ -10,7 +10,7 @@ from forcetorque.base.errors import RobotError
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.simulation.imu_and_motor import SimulatedImu
 from forcetorque.simulation.trace import trace_movement
-from tests.simulation.stances import on_both_feet
+from tests.simulation.motions.stances import on_both_feet
 
 
 def test_it_reads_what_its_link_goes_through() -> None:

@@ -13,7 +13,7 @@ from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.simulation.modified_robot import with_load
-from tests.simulation.stands import robot
+from tests.simulation.motions.stands import robot
 
 AT = np.array([0.03, -0.02, 0.05])
 

@@ -14,8 +14,8 @@ from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.simulation.modified_robot import RobotErrors
 from forcetorque.simulation.motions.on_both_feet import sway_movement
-from tests.simulation.stances import stance
-from tests.simulation.stands import ROBOTS, robot
+from tests.simulation.motions.stances import stance
+from tests.simulation.motions.stands import ROBOTS, robot
 
 SIZES = {"mass": 0.02, "centre_m": 0.002, "joint_zero_rad": float(np.deg2rad(0.5))}
 

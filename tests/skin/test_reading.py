@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.contact.pressure_frame import WAKING, PatchReader
 from forcetorque.skin.taxels.patch_calibration import PressureTable
-from tests.skin.skins import plane_layout
+from tests.skin.layout.skins import plane_layout
 
 TAXELS: Final = 2000
 SLOPE_PA: Final = 1000.0

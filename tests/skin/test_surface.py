@@ -17,7 +17,7 @@ from forcetorque.skin.surface import (
     surface_triangles,
     unrolled,
 )
-from tests.skin.skins import PITCH_M, cylinder, plane_lattice
+from tests.skin.layout.skins import PITCH_M, cylinder, plane_lattice
 
 ROUNDING = 1e-12
 """Of lengths below a metre, summed over hundreds of facets, with room."""

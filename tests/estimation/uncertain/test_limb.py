@@ -31,9 +31,9 @@ from tests.estimation.uncertain.limb_trials import (
     normalised_errors,
     smallest_error,
 )
+from tests.skin.contact.test_contacts import frame_of
 from tests.skin.contact_trials import leg_layout
-from tests.skin.skins import plane_layout
-from tests.skin.test_contacts import frame_of
+from tests.skin.layout.skins import plane_layout
 
 DRAWS = 60
 """Poses of the quick tests; each has some contacts and torques of several components."""

@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.temperature.gains import HeatGains, TaxelHeat, ThermalGain, stuck_pads
 from tests.scenes.patches import cylinder_patch
-from tests.skin.skins import plane_layout
+from tests.skin.layout.skins import plane_layout
 
 LAYOUT = cylinder_patch(across=2, along=1).layout()
 """Two modules; pads 6 and 10, 18 and 22."""
