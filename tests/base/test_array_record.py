@@ -89,3 +89,17 @@ def test_a_check_of_its_own_comes_after() -> None:
     assert Positive(values=[1.0]).values.shape == (1,)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="positive"):
         Positive(values=[0.0])  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Square(ArrayRecord):
+    """Two axes of one name in one field."""
+
+    covariance: FloatArray = field(metadata=array("k", "k"))
+
+
+def test_axes_of_one_field_agree() -> None:
+    """A square matrix is square."""
+    assert Square(covariance=np.eye(2)).covariance.shape == (2, 2)
+    with pytest.raises(ShapeError, match=r"covariance: expected axes k of one length, got \(2, 3\)"):
+        Square(covariance=np.ones((2, 3)))

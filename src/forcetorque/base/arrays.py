@@ -167,7 +167,9 @@ def _settled(value: Any, name: str, declared: _Declared, lengths: dict[str, int]
         make = {"float": read_only, "int": read_only_integers, "bool": _read_only_flags}[declared.dtype]
         value = make(value, name=name, shape=shape)
         got = value.shape
-    lengths |= {axis: length for axis, length in zip(declared.shape, got, strict=True) if isinstance(axis, str)}
+    for axis, length in zip(declared.shape, got, strict=True):
+        if isinstance(axis, str) and lengths.setdefault(axis, length) != length:
+            raise ShapeError(f"{name}: expected axes {axis} of one length, got {got}")
     return value
 
 

@@ -15,7 +15,7 @@ from forcetorque.base.pose import invert_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import transform_wrench
 from forcetorque.calibration.joint.nodes import Stretch
-from forcetorque.calibration.joint.windows import UNITS
+from forcetorque.calibration.joint.unknowns import UNITS
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion

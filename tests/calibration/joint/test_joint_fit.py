@@ -11,11 +11,12 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.joint.fit import KINDS, JointFit, fit_jointly
+from forcetorque.calibration.joint.fit import KINDS, fit_jointly
 from forcetorque.calibration.joint.model_error import EXACT, ModelTolerance
 from forcetorque.calibration.joint.robust_fit import JointResult, UntouchedStretch, fit_stretches
 from forcetorque.calibration.joint.sums import part_sums
-from forcetorque.calibration.joint.windows import UNITS, part_windows
+from forcetorque.calibration.joint.unknowns import UNITS, JointFit
+from forcetorque.calibration.joint.windows import part_windows
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying
 

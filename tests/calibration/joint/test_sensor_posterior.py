@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from forcetorque.calibration.joint.artefact import sensor_posterior
-from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.robust_fit import UntouchedStretch, fit_stretches
-from forcetorque.calibration.joint.windows import UNITS
+from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, swaying

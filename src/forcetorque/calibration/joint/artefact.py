@@ -15,10 +15,9 @@ from pydantic import ConfigDict, Field
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.stored_model import StoredTable, read_stored_table
-from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.interval import JointInterval, required_prior
 from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual
-from forcetorque.calibration.joint.windows import LENGTH_M, UNITS
+from forcetorque.calibration.joint.unknowns import LENGTH_M, UNITS, JointFit
 from forcetorque.calibration.thesis.calibrate import validity_of
 from forcetorque.experiment.calibration.artefact import JOINT, JOINT_SCHEMA, Calibration, Prior, SessionOffset
 from forcetorque.experiment.calibration.assumptions import LOADS

@@ -25,9 +25,9 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray, require_shape
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.joint.model_error import ZERO, ErrorTerm
-from forcetorque.calibration.joint.sums import PartSums, Places
-from forcetorque.calibration.joint.windows import UNITS
+from forcetorque.calibration.joint.model_error import ErrorTerm
+from forcetorque.calibration.joint.sums import PartSums
+from forcetorque.calibration.joint.unknowns import UNITS, JointFit, Places
 from forcetorque.experiment.calibration.assumptions import FRAME, FRAME_ROOTS, SENSOR
 
 KINDS: Final = (SENSOR, FRAME)
@@ -101,107 +101,6 @@ _NOISE_SHARE = 0.9
 _ROUNDS = 12
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class JointFit:
-    """What equations of parts say of all sensors together; unknowns in `UNITS`."""
-
-    places: Places
-    """Where the unknowns stand."""
-    mean: FloatArray
-    """Most probable values; shape (p,)."""
-    covariance: FloatArray
-    """Covariance of their errors if changes are as large as evidence says; shape (p, p)."""
-    prior_root: FloatArray
-    """R, with R R^T the covariance of the unknowns before any data, by evidence; shape (p, p)."""
-    residual: tuple[tuple[str, str, FloatArray], ...]
-    """Part, recording and root mean square of what is left of its equation, shape (6,); N, N m."""
-
-    def change(self, sensor: str) -> FloatArray:
-        """Give what the wrenches by the prior matrix of a sensor are to be multiplied by.
-
-        Args:
-            sensor: The sensor.
-
-        Returns:
-            1 + D; shape (6, 6); N, N m.
-        """
-        change = self.mean[self.places.changes(sensor)].reshape(6, 6)
-        return np.eye(6) + UNITS[:, None] * change / UNITS
-
-    def offset(self, sensor: str, session: str) -> FloatArray:
-        """Give what is to be added to the wrenches of a sensor.
-
-        Args:
-            sensor: The sensor.
-            session: The session.
-
-        Returns:
-            Offset; shape (6,); N, N m.
-        """
-        return self.mean[self.places.offset(sensor, session)] * UNITS
-
-    def wrench(self, sensor: str, session: str, readings: FloatArray) -> FloatArray:
-        """Correct what a sensor reads by its prior matrix.
-
-        Args:
-            sensor: The sensor.
-            session: The session.
-            readings: Wrenches by the prior matrix, without offset; shape (n, 6); N, N m.
-
-        Returns:
-            Wrenches; shape (n, 6); N, N m.
-        """
-        return readings @ self.change(sensor).T + self.offset(sensor, session)
-
-    def joint_zeros(self) -> dict[str, float]:
-        """Give what is to be added to the positions of joints.
-
-        Returns:
-            By the name of the joint; rad or m.
-        """
-        return {
-            term.name.removeprefix(ZERO): value for term, value, _ in self.model_errors() if term.name.startswith(ZERO)
-        }
-
-    def error_covariance(self, sensor: str, load: FloatArray) -> FloatArray:
-        """Predict the covariance of the error of changes of load.
-
-        Args:
-            sensor: The sensor.
-            load: Change of the load; shape (..., 6); N, N m.
-
-        Returns:
-            Covariance; shape (..., 6, 6).
-        """
-        own = self.places.changes(sensor)
-        covariance = self.covariance[own, own].reshape(6, 6, 6, 6)
-        unit = np.asarray(load, dtype=np.float64) / UNITS
-        return np.einsum("...b,abcd,...d->...ac", unit, covariance, unit) * np.outer(UNITS, UNITS)
-
-    def prior_covariance(self, sensor: str) -> FloatArray:
-        """Give the covariance of the changes of a sensor before any data.
-
-        Args:
-            sensor: The sensor.
-
-        Returns:
-            Covariance, row by row; shape (36, 36); in `UNITS`.
-        """
-        own = self.places.changes(sensor)
-        root = self.prior_root[own, own]
-        return root @ root.T
-
-    def model_errors(self) -> list[tuple[ErrorTerm, float, float]]:
-        """Give what was found to be wrong with the model.
-
-        Returns:
-            Every term with its value and what is left of its standard deviation, in its unit.
-        """
-        own = self.places.errors
-        deviations = np.sqrt(np.diag(self.covariance)[own])
-        return list(zip(self.places.terms, self.mean[own].tolist(), deviations.tolist(), strict=True))
-
-
 def fit_jointly(
     sums: Sequence[PartSums], terms: Sequence[ErrorTerm] = (), spreads: Mapping[str, ChangeSpread] | None = None
 ) -> JointFit:
@@ -220,7 +119,7 @@ def fit_jointly(
     """
     if not sums:
         raise FitError("joint calibration: no window of any part has readings and motion; look for gaps in the log")
-    places = Places.of(sums, terms)
+    places = Places.of([(sensor, part.session) for part in sums for sensor in part.sensors], terms)
     columns = [places.of_part(part.sensors, part.session, part.terms) for part in sums]
     one = np.zeros(len(places))
     for sensor in places.sensors:

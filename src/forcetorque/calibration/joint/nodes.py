@@ -4,19 +4,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, read_only_mapping
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, mapping, names, require_shape
 from forcetorque.base.errors import ShapeError
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Stretch:
+class Stretch(ArrayRecord):
     """A stretch of a recording in which the same links touch the world; n samples."""
 
     label: str
@@ -25,7 +25,7 @@ class Stretch:
     """Recording that it is of: the noise of its readings is its own."""
     session: str
     """Stretch of time in which sensors keep their offsets."""
-    time_s: FloatArray
+    time_s: FloatArray = field(metadata=array("n"))
     """Instants, rising; shape (n,); s."""
     tree: BodyTree
     """The robot, rooted at the link whose motion is known: that of an IMU, or one that stands still."""
@@ -33,22 +33,16 @@ class Stretch:
     """Motion of the joints; those that were not logged are absent; NaN in gaps."""
     root: RootMotion
     """Motion of the root link's frame."""
-    readings: Mapping[str, FloatArray]
+    readings: Mapping[str, FloatArray] = field(metadata=mapping("n", 6))
     """Wrenches of the sensors by their prior matrices, without offset; shape (n, 6) each; N, N m; NaN in gaps."""
-    touched: tuple[str, ...]
+    touched: tuple[str, ...] = field(metadata=names())
     """Links that touch, or may touch, the world: nothing is asked of the parts that they are of."""
 
     def __post_init__(self) -> None:
-        n = len(self.joints)
-        object.__setattr__(self, "time_s", read_only(self.time_s, name="time_s", shape=(n,)))
+        check_arrays(self)
+        require_shape(self.time_s, name="time_s", shape=(len(self.joints),))
         if not (np.isfinite(self.time_s).all() and (np.diff(self.time_s) > 0.0).all()):
             raise ShapeError(f"stretch {self.label!r}: time_s: expected finite instants that rise")
-        readings = {
-            name: read_only(values, name=f"readings of {name!r}", shape=(n, 6))
-            for name, values in self.readings.items()
-        }
-        object.__setattr__(self, "readings", read_only_mapping(readings))
-        object.__setattr__(self, "touched", tuple(self.touched))
 
     def __len__(self) -> int:
         return len(self.time_s)

@@ -3,17 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.calibration.joint.model_error import ErrorTerm
-from forcetorque.calibration.joint.windows import UNITS, PartWindows
+from forcetorque.base.arrays import FloatArray
+from forcetorque.calibration.joint.unknowns import CHANGES, UNITS
+from forcetorque.calibration.joint.windows import PartWindows
 from forcetorque.experiment.calibration.assumptions import LOADS
-
-_CHANGES = 36
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -70,7 +68,7 @@ def part_sums(windows: Iterable[PartWindows]) -> list[PartSums]:
 
 def _summed(windows: PartWindows) -> PartSums:
     stretch = windows.stretch
-    k, p = len(windows.sensors), LOADS * len(windows.sensors) + _CHANGES * len(windows.sensors) + len(windows.terms)
+    k, p = len(windows.sensors), LOADS * len(windows.sensors) + CHANGES * len(windows.sensors) + len(windows.terms)
     products, shared = np.zeros((LOADS, p, p)), np.zeros((LOADS, p))
     spread = np.zeros((k, LOADS, LOADS, LOADS))
     for block in windows.blocks():
@@ -78,12 +76,12 @@ def _summed(windows: PartWindows) -> PartSums:
         products += columns @ columns.transpose(0, 2, 1)
         shared += (columns @ block.right.T[:, :, None])[..., 0]
         spread += block.spread.sum(axis=0)
-    noise = np.zeros((LOADS, _CHANGES * k, _CHANGES * k))
+    noise = np.zeros((LOADS, CHANGES * k, CHANGES * k))
     for number, name in enumerate(windows.sensors):
         covariance = noise_covariance(stretch.readings[name] / UNITS)
-        own = slice(_CHANGES * number, _CHANGES * (number + 1))
+        own = slice(CHANGES * number, CHANGES * (number + 1))
         by_row = np.einsum("iab,cd->iacbd", spread[number], covariance)
-        noise[:, own, own] = by_row.reshape(LOADS, _CHANGES, _CHANGES)
+        noise[:, own, own] = by_row.reshape(LOADS, CHANGES, CHANGES)
     return PartSums(
         part=windows.part,
         recording=stretch.recording,
@@ -123,84 +121,3 @@ def noise_covariance(readings: FloatArray) -> FloatArray:
     kept = (np.abs(bends) <= 3.0 * np.quantile(np.abs(bends), 0.7, axis=0) + 1e-12).all(axis=1)
     bends = bends[kept]
     return bends.T @ bends / max(len(bends), 1) / 6.0  # a second difference has six variances
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Places:
-    """Where the unknowns stand: changes of every sensor, offsets by session, errors of the model."""
-
-    sensors: tuple[str, ...]
-    """Sensors."""
-    offsets: Mapping[tuple[str, str], int]
-    """Number of the offset of a sensor in a session."""
-    terms: tuple[ErrorTerm, ...]
-    """Errors of the model."""
-
-    @classmethod
-    def of(cls, sums: Sequence[PartSums], terms: Sequence[ErrorTerm]) -> Places:
-        """Lay out the unknowns of equations.
-
-        Args:
-            sums: Moments of the equations.
-            terms: Errors of the model.
-
-        Returns:
-            The places.
-        """
-        pairs = dict.fromkeys((name, one.session) for one in sums for name in one.sensors)
-        return cls(
-            sensors=tuple(dict.fromkeys(name for name, _ in pairs)),
-            offsets={pair: number for number, pair in enumerate(pairs)},
-            terms=tuple(terms),
-        )
-
-    def __len__(self) -> int:
-        return _CHANGES * len(self.sensors) + LOADS * len(self.offsets) + len(self.terms)
-
-    def changes(self, sensor: str) -> slice:
-        """Give the places of the changes of a sensor, row by row.
-
-        Args:
-            sensor: The sensor.
-
-        Returns:
-            36 places.
-        """
-        start = _CHANGES * self.sensors.index(sensor)
-        return slice(start, start + _CHANGES)
-
-    def offset(self, sensor: str, session: str) -> slice:
-        """Give the places of an offset.
-
-        Args:
-            sensor: The sensor.
-            session: The session.
-
-        Returns:
-            Six places.
-        """
-        start = _CHANGES * len(self.sensors) + LOADS * self.offsets[sensor, session]
-        return slice(start, start + LOADS)
-
-    @property
-    def errors(self) -> slice:
-        """The places of the errors of the model."""
-        return slice(len(self) - len(self.terms), len(self))
-
-    def of_part(self, sensors: Sequence[str], session: str, terms: Sequence[str]) -> IntArray:
-        """Give the places of the coefficients of a part.
-
-        Args:
-            sensors: Its sensors.
-            session: The session.
-            terms: Names of the errors of the model that it depends on.
-
-        Returns:
-            Places in the order of the coefficients; shape (p,).
-        """
-        own = [self.changes(name) for name in sensors]
-        own += [self.offset(name, session) for name in sensors]
-        numbers = {term.name: number for number, term in enumerate(self.terms, start=self.errors.start)}
-        return np.concatenate(
-            [*(np.arange(s.start, s.stop) for s in own), np.array([numbers[name] for name in terms], dtype=np.int64)]
-        )

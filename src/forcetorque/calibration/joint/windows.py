@@ -12,13 +12,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, islice
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.calibration.joint.model_error import DELAY, ZERO, ErrorTerm, body_columns, demand_columns, mass_shares
 from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, Stretch, WindowNodes
+from forcetorque.calibration.joint.unknowns import CHANGES, UNITS, JointFit
 from forcetorque.experiment.calibration.assumptions import LOADS
 from forcetorque.robot.mechanics.sub_model_equations import (
     PartEquation,
@@ -28,21 +29,12 @@ from forcetorque.robot.mechanics.sub_model_equations import (
 )
 from forcetorque.robot.tree import SubModel
 
-if TYPE_CHECKING:
-    from forcetorque.calibration.joint.fit import JointFit
-
-
-LENGTH_M: Final = 0.1
-"""Moment over force that weigh alike: 0.1 N m is as much as 1 N."""
-UNITS: Final = np.array([1.0, 1.0, 1.0, LENGTH_M, LENGTH_M, LENGTH_M])
-"""Unit of every component; N, N m."""
 WINDOW_S: Final = 0.25
 """Length of a window; s."""
 PIECE_S: Final = 500 * WINDOW_S
 """Length of what is worked on at a time; s: samples take more room than what is kept of them."""
 STILL_RAD_S: Final = 0.1
 """Speed of joints and root below which a robot is at rest; rad/s."""
-_CHANGES = 36
 _BLOCK = 500
 """Windows whose coefficients are written out at a time."""
 
@@ -93,7 +85,7 @@ class PartWindows:
         """Coefficients of D, row by row, of every sensor; shape (w, 6, 36 k)."""
         weighted = WEIGHTS[:, None, None] * self.readings
         products = np.einsum("wnkia,wnkb->wikab", self.transmission, weighted, optimize=True)
-        return products.reshape(len(self), LOADS, _CHANGES * len(self.sensors))
+        return products.reshape(len(self), LOADS, CHANGES * len(self.sensors))
 
     @property
     def offsets(self) -> FloatArray:

@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Final, Literal, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, require_shape
 from forcetorque.experiment.calibration.moments import DataSet, Moments, symmetric_pseudo_inverse
 from forcetorque.robot.motion import CHECK_JOINT_UNIT
 
@@ -22,7 +22,7 @@ Of a motion that is sampled as a sensor is they share nearly all; of poses in an
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Movement:
+class Movement(ArrayRecord):
     """Second moments of k columns of reading and six of reference about the mean of each data set.
 
     What the linear variables and a slow drift explain is taken out, in each data set by itself, as its offset is.
@@ -30,21 +30,20 @@ class Movement:
 
     count: int
     """Number of samples."""
-    second: FloatArray
+    second: FloatArray = field(metadata=array("width", "width"))
     """Mean products of reading and reference; shape (k + 6, k + 6)."""
-    lasting: FloatArray
+    lasting: FloatArray = field(metadata=array("width", "width"))
     """The same of what neighbouring samples share: white noise is not in it; shape (k + 6, k + 6).
 
     All of `second` where the reference itself differs from sample to sample, as in a table of poses.
     """
-    size: FloatArray
+    size: FloatArray = field(metadata=array(6))
     """Root mean square of the reference, its mean included; shape (6,); N, N m."""
 
     def __post_init__(self) -> None:
-        width = len(np.asarray(self.second))
-        object.__setattr__(self, "second", read_only(self.second, name="second", shape=(width, width)))
-        object.__setattr__(self, "lasting", read_only(self.lasting, name="lasting", shape=(width, width)))
-        object.__setattr__(self, "size", read_only(self.size, name="size", shape=(6,)))
+        check_arrays(self)
+        # the two axes of one array are not compared with each other there
+        require_shape(self.second, name="second", shape=(len(self.second), len(self.second)))
 
     @classmethod
     def of(cls, data_sets: Sequence[DataSet], prior: FloatArray | None) -> Self:

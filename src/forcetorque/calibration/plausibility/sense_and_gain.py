@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.calibration.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
@@ -29,17 +29,13 @@ _ROUNDING = 1e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Gains:
+class Gains(ArrayRecord):
     """Gains of the components of the wrench, 1 where model and prior are right."""
 
-    components: FloatArray
+    components: FloatArray = field(metadata=array(6))
     """Gain of each component; shape (6,)."""
-    deviations: FloatArray
+    deviations: FloatArray = field(metadata=array(6))
     """Standard deviation of each; infinite where the reference does not move; shape (6,)."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "components", read_only(self.components, name="components", shape=(6,)))
-        object.__setattr__(self, "deviations", read_only(self.deviations, name="deviations", shape=(6,)))
 
     @property
     def overall(self) -> float:

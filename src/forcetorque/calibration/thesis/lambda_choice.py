@@ -17,11 +17,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.thesis.regression import Regression, solve
 from forcetorque.experiment.calibration.estimation_type import Estimation
@@ -51,23 +51,19 @@ _DECADES_BELOW, _DECADES_ABOVE, _PER_DECADE = 8, 3, 4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class LambdaCurve:
+class LambdaCurve(ArrayRecord):
     """Held-out error of every candidate lambda, and the choice."""
 
-    regularisations: FloatArray
+    regularisations: FloatArray = field(metadata=array("k"))
     """Candidates, rising, the last infinite: the prior; shape (k,); counts2."""
-    held_out_error: FloatArray
+    held_out_error: FloatArray = field(metadata=array("k"))
     """Root mean square held-out wrench error, 1 N counted like 1 N m; shape (k,)."""
-    worst_ratio: FloatArray
+    worst_ratio: FloatArray = field(metadata=array("k"))
     """Largest ratio, over the blocks, of held-out mean squared error to that of the prior; shape (k,)."""
     floor: float
     """Least lambda that the rule takes; one of the candidates, unless it is below all of them; counts2."""
     chosen: float
     """Lambda that the rule takes; infinite where the prior is kept."""
-
-    def __post_init__(self) -> None:
-        for field in ("regularisations", "held_out_error", "worst_ratio"):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(None,)))
 
 
 def fewest_samples(channels: int) -> int:

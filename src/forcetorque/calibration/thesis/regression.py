@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.calibration.plausibility.sense_and_gain import require_moving_load
 from forcetorque.experiment.calibration.estimation_type import Estimation, OffsetStrategy
@@ -196,20 +196,17 @@ _STILL = 1e-24
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MatrixFit:
+class MatrixFit(ArrayRecord):
     """A model of a sensor, and what the data said about it."""
 
     model: WrenchModel
     """Matrix, offset and coefficients of variables."""
     regularisation: float
     """Lambda of the fit; counts2; infinite where the prior was kept."""
-    residual: FloatArray
+    residual: FloatArray = field(metadata=array(6))
     """Root mean square residual per component on the fitted samples; shape (6,); N, N m."""
     excitation: Excitation
     """Rank, conditioning and directions of the fitted samples, without what variables explain."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "residual", read_only(self.residual, name="residual", shape=(6,)))
 
     @property
     def matrix(self) -> FloatArray:

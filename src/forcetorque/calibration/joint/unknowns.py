@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Unknowns of a joint fit: their units, their places in the vector, and their most probable values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.calibration.joint.model_error import ZERO, ErrorTerm
+from forcetorque.experiment.calibration.assumptions import LOADS
+
+LENGTH_M: Final = 0.1
+"""Moment over force that weigh alike: 0.1 N m is as much as 1 N."""
+UNITS: Final = np.array([1.0, 1.0, 1.0, LENGTH_M, LENGTH_M, LENGTH_M])
+"""Unit of every component; N, N m."""
+CHANGES: Final = 36
+"""Changes of the matrix of one sensor."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Places:
+    """Where the unknowns stand: changes of every sensor, offsets by session, errors of the model."""
+
+    sensors: tuple[str, ...]
+    """Sensors."""
+    offsets: Mapping[tuple[str, str], int]
+    """Number of the offset of a sensor in a session."""
+    terms: tuple[ErrorTerm, ...]
+    """Errors of the model."""
+
+    @classmethod
+    def of(cls, offsets: Iterable[tuple[str, str]], terms: Sequence[ErrorTerm]) -> Places:
+        """Lay out the unknowns of equations.
+
+        Args:
+            offsets: Sensor and session of every offset in the equations; repeated pairs count once.
+            terms: Errors of the model.
+
+        Returns:
+            The places.
+        """
+        pairs = dict.fromkeys(offsets)
+        return cls(
+            sensors=tuple(dict.fromkeys(name for name, _ in pairs)),
+            offsets={pair: number for number, pair in enumerate(pairs)},
+            terms=tuple(terms),
+        )
+
+    def __len__(self) -> int:
+        return CHANGES * len(self.sensors) + LOADS * len(self.offsets) + len(self.terms)
+
+    def changes(self, sensor: str) -> slice:
+        """Give the places of the changes of a sensor, row by row.
+
+        Args:
+            sensor: The sensor.
+
+        Returns:
+            36 places.
+        """
+        start = CHANGES * self.sensors.index(sensor)
+        return slice(start, start + CHANGES)
+
+    def offset(self, sensor: str, session: str) -> slice:
+        """Give the places of an offset.
+
+        Args:
+            sensor: The sensor.
+            session: The session.
+
+        Returns:
+            Six places.
+        """
+        start = CHANGES * len(self.sensors) + LOADS * self.offsets[sensor, session]
+        return slice(start, start + LOADS)
+
+    @property
+    def errors(self) -> slice:
+        """The places of the errors of the model."""
+        return slice(len(self) - len(self.terms), len(self))
+
+    def of_part(self, sensors: Sequence[str], session: str, terms: Sequence[str]) -> IntArray:
+        """Give the places of the coefficients of a part.
+
+        Args:
+            sensors: Its sensors.
+            session: The session.
+            terms: Names of the errors of the model that it depends on.
+
+        Returns:
+            Places in the order of the coefficients; shape (p,).
+        """
+        own = [self.changes(name) for name in sensors]
+        own += [self.offset(name, session) for name in sensors]
+        numbers = {term.name: number for number, term in enumerate(self.terms, start=self.errors.start)}
+        return np.concatenate(
+            [*(np.arange(s.start, s.stop) for s in own), np.array([numbers[name] for name in terms], dtype=np.int64)]
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class JointFit:
+    """What equations of parts say of all sensors together; unknowns in `UNITS`."""
+
+    places: Places
+    """Where the unknowns stand."""
+    mean: FloatArray
+    """Most probable values; shape (p,)."""
+    covariance: FloatArray
+    """Covariance of their errors if changes are as large as evidence says; shape (p, p)."""
+    prior_root: FloatArray
+    """R, with R R^T the covariance of the unknowns before any data, by evidence; shape (p, p)."""
+    residual: tuple[tuple[str, str, FloatArray], ...]
+    """Part, recording and root mean square of what is left of its equation, shape (6,); N, N m."""
+
+    def change(self, sensor: str) -> FloatArray:
+        """Give what the wrenches by the prior matrix of a sensor are to be multiplied by.
+
+        Args:
+            sensor: The sensor.
+
+        Returns:
+            1 + D; shape (6, 6); N, N m.
+        """
+        change = self.mean[self.places.changes(sensor)].reshape(6, 6)
+        return np.eye(6) + UNITS[:, None] * change / UNITS
+
+    def offset(self, sensor: str, session: str) -> FloatArray:
+        """Give what is to be added to the wrenches of a sensor.
+
+        Args:
+            sensor: The sensor.
+            session: The session.
+
+        Returns:
+            Offset; shape (6,); N, N m.
+        """
+        return self.mean[self.places.offset(sensor, session)] * UNITS
+
+    def wrench(self, sensor: str, session: str, readings: FloatArray) -> FloatArray:
+        """Correct what a sensor reads by its prior matrix.
+
+        Args:
+            sensor: The sensor.
+            session: The session.
+            readings: Wrenches by the prior matrix, without offset; shape (n, 6); N, N m.
+
+        Returns:
+            Wrenches; shape (n, 6); N, N m.
+        """
+        return readings @ self.change(sensor).T + self.offset(sensor, session)
+
+    def joint_zeros(self) -> dict[str, float]:
+        """Give what is to be added to the positions of joints.
+
+        Returns:
+            By the name of the joint; rad or m.
+        """
+        return {
+            term.name.removeprefix(ZERO): value for term, value, _ in self.model_errors() if term.name.startswith(ZERO)
+        }
+
+    def error_covariance(self, sensor: str, load: FloatArray) -> FloatArray:
+        """Predict the covariance of the error of changes of load.
+
+        Args:
+            sensor: The sensor.
+            load: Change of the load; shape (..., 6); N, N m.
+
+        Returns:
+            Covariance; shape (..., 6, 6).
+        """
+        own = self.places.changes(sensor)
+        covariance = self.covariance[own, own].reshape(6, 6, 6, 6)
+        unit = np.asarray(load, dtype=np.float64) / UNITS
+        return np.einsum("...b,abcd,...d->...ac", unit, covariance, unit) * np.outer(UNITS, UNITS)
+
+    def prior_covariance(self, sensor: str) -> FloatArray:
+        """Give the covariance of the changes of a sensor before any data.
+
+        Args:
+            sensor: The sensor.
+
+        Returns:
+            Covariance, row by row; shape (36, 36); in `UNITS`.
+        """
+        own = self.places.changes(sensor)
+        root = self.prior_root[own, own]
+        return root @ root.T
+
+    def model_errors(self) -> list[tuple[ErrorTerm, float, float]]:
+        """Give what was found to be wrong with the model.
+
+        Returns:
+            Every term with its value and what is left of its standard deviation, in its unit.
+        """
+        own = self.places.errors
+        deviations = np.sqrt(np.diag(self.covariance)[own])
+        return list(zip(self.places.terms, self.mean[own].tolist(), deviations.tolist(), strict=True))
