@@ -11,7 +11,7 @@ import pytest
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
-from forcetorque.evaluation.load_cases.prediction import predict, predict_prior
+from forcetorque.evaluation.load_cases.predicted_error import predict, predict_prior
 from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

@@ -12,7 +12,7 @@ import pytest
 
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
 from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
-from forcetorque.evaluation.load_cases.prediction import predict
+from forcetorque.evaluation.load_cases.predicted_error import predict
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

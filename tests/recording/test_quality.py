@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.recording.quality import saturation_findings, stream_findings
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
+from forcetorque.recording.stream_faults import saturation_findings, stream_findings
 
 PERIOD_NS = 10_000_000
 COUNT = 1000

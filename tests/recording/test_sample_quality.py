@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.recording.sample_quality import (
+from forcetorque.recording.frozen_and_saturated_samples import (
     SampleQuality,
     UnusableCounts,
     at_limit,

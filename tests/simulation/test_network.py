@@ -16,9 +16,9 @@ from forcetorque.formats.yarp.plain_ports import read_analog
 from forcetorque.formats.yarp.state_ext import read_state_ext
 from forcetorque.formats.yarp.writing import StreamPort, write_ports
 from forcetorque.recording.alignment import require_overlap
-from forcetorque.recording.quality import stream_findings
 from forcetorque.recording.recording import Finding, Recording
 from forcetorque.recording.stream import Stream
+from forcetorque.recording.stream_faults import stream_findings
 from forcetorque.simulation.network import (
     fail_groups,
     jitter_stamps,

@@ -25,8 +25,8 @@ from forcetorque.skin.simulation.contact import ON_SKIN, ContactTruth, SkinBody,
 from forcetorque.skin.simulation.heat import HeatResponses, Warmth, warm_recording
 from forcetorque.skin.simulation.recordings import TaxelResponses
 from forcetorque.skin.taxels.patch_calibration import PressureTable
-from forcetorque.skin.temperature.gains import HeatGains, TaxelDrift
-from forcetorque.skin.temperature.warm_up import fit_warm_up
+from forcetorque.skin.temperature.heat_compensation import HeatGains, TaxelDrift
+from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
 from forcetorque.skin.wrench.patch import SkinPatch
 from tests.skin.contact_trials import chamber_table, leg_layout
 

@@ -11,14 +11,7 @@ import numpy as np
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.contests.ranking import ContestLoadRow
-from forcetorque.results.figures import (
-    ROW_INCHES,
-    in_figure_style,
-    legend_below,
-    look,
-    new_figure,
-    shown_name,
-)
+from forcetorque.results.figures import ROW_INCHES, in_figure_style, legend_below, look, new_figure, shown_name
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

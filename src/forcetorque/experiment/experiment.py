@@ -16,8 +16,8 @@ from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.input_files import path_endings, recording_name
 from forcetorque.experiment.section import Section
 from forcetorque.recording.column import ScalarSource
+from forcetorque.recording.frozen_and_saturated_samples import SampleQuality
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
-from forcetorque.recording.sample_quality import SampleQuality
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.mechanics.samples import Processing
 from forcetorque.robot.model import RobotModel

@@ -13,12 +13,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.applicability import require_fit
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.provenance import SensorIdentity
-from forcetorque.experiment.calibrations_under_test import (
-    PRIOR,
-    JudgedCandidate,
-    JudgedWrenches,
-    judged_candidates,
-)
+from forcetorque.experiment.calibrations_under_test import PRIOR, JudgedCandidate, JudgedWrenches, judged_candidates
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact, ExperimentSensor
 from forcetorque.experiment.sensor_reading import Correction, Readings, wrench_at

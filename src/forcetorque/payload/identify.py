@@ -13,27 +13,13 @@ from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
-from forcetorque.payload.identification.load_estimates import (
-    LoadEstimate,
-    LoadSolution,
-)
+from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution
 from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.measurement_model import instants, load_wrench
 from forcetorque.payload.load_on_wrist_sensor import WristLoads, wrist_loads
-from forcetorque.payload.load_warnings import (
-    load_doubts,
-    overweight_loads,
-    payload_doubts,
-    reversed_sense,
-)
+from forcetorque.payload.load_warnings import load_doubts, overweight_loads, payload_doubts, reversed_sense
 from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, link_loads
-from forcetorque.payload.result import (
-    JudgedLoadRow,
-    LoadRow,
-    RecordingLoadRow,
-    WeighedLoad,
-    disagreements,
-)
+from forcetorque.payload.result import JudgedLoadRow, LoadRow, RecordingLoadRow, WeighedLoad, disagreements
 from forcetorque.recording.recording import Use
 
 

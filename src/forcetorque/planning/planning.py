@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, known_names
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
-from forcetorque.evaluation.load_cases.prediction import PredictedError, predict_from_posterior
+from forcetorque.evaluation.load_cases.predicted_error import PredictedError, predict_from_posterior
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, Assumptions

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.evaluation.load_cases.prediction import load_second_moment
+from forcetorque.evaluation.load_cases.predicted_error import load_second_moment
 from forcetorque.experiment.calibration.posterior import Posterior
 
 

@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.calibration.summary import LITTLE_LEARNT, learnt_directions, to_learn
-from forcetorque.evaluation.load_cases.prediction import CONFIDENCE
+from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.section import LOAD_CASES
 from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts
 from forcetorque.experiment.calibration.artefact import Calibration

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from forcetorque.calibration.report_blocks import origin_words
-from forcetorque.evaluation.load_cases.prediction import CONFIDENCE
+from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import UseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.report.assessment import Assessment, VerdictLine

@@ -20,9 +20,9 @@ from forcetorque.base.run_files import declare_input
 from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, write_matrix_file
 from forcetorque.formats.yarp.discover import PortKind
 from forcetorque.formats.yarp.writing import StreamPort, write_ports
-from forcetorque.recording.quality import true_runs
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.storage import write_recording
+from forcetorque.recording.stream_faults import true_runs
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.simulation.motions.movement import Movement, Phase, PhaseKind

@@ -19,7 +19,7 @@ from forcetorque.experiment.calibration.estimation_type import EstimationType
 from forcetorque.experiment.calibration.provenance import Selection
 from forcetorque.experiment.campaign_intervals import CampaignInterval
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
-from forcetorque.recording.sample_quality import UnusableCounts
+from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 from forcetorque.study.candidate import Candidate, GenerativeCandidate
 from forcetorque.study.one_sensor import Study, run_study
 from forcetorque.study.selection import assembled

@@ -12,7 +12,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.calibration.plausibility.checks import examine
 from forcetorque.calibration.plausibility.compared_wrenches import Movement
-from forcetorque.calibration.plausibility.sense_and_gain import require_same_sign
+from forcetorque.calibration.plausibility.reversed_sense_and_gain import require_same_sign
 from forcetorque.experiment.calibration.moments import DataSet
 
 RNG = np.random.default_rng(5)

@@ -11,8 +11,8 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SkinError
-from forcetorque.skin.temperature.gains import HeatGains, WarmUp
-from forcetorque.skin.temperature.warm_up import fit_warm_up
+from forcetorque.skin.temperature.heat_compensation import HeatGains, WarmUp
+from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
 from tests.scenes.warmed import WARM_UP, WarmShank, counts_of
 
 SHANK = WarmShank.drawn()

@@ -12,14 +12,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.calibration.joint.robust_fit import PartResidual
-from forcetorque.results.figures import (
-    COLOURS,
-    REFERENCE_COLOUR,
-    in_figure_style,
-    legend_below,
-    new_figure,
-    shown_name,
-)
+from forcetorque.results.figures import COLOURS, REFERENCE_COLOUR, in_figure_style, legend_below, new_figure, shown_name
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

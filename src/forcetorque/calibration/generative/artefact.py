@@ -43,7 +43,7 @@ from forcetorque.experiment.calibration.quadratic_correction import (
 )
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments, require_same_sensor
-from forcetorque.recording.sample_quality import UnusableCounts
+from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
 _REACH = 0.999
 """Share of the steepest correction that limits are drawn in to, so that rounding leaves it valid."""

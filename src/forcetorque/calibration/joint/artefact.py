@@ -27,7 +27,7 @@ from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
 from forcetorque.experiment.calibration.provenance import FittedInterval, Provenance, Selection
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.sensor_samples import logged_content
-from forcetorque.recording.sample_quality import UnusableCounts
+from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
 
 class JointSensor(StoredTable):

@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
-from forcetorque.calibration.plausibility.sense_and_gain import (
+from forcetorque.calibration.plausibility.reversed_sense_and_gain import (
     require_moment_unit,
     require_moving_load,
     require_same_sign,

@@ -32,8 +32,8 @@ from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignInterval
 from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.payload.load_warnings import reference_doubts
+from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 from forcetorque.recording.recording import Use
-from forcetorque.recording.sample_quality import UnusableCounts
 
 _FLAT = 1e-6
 """Variance of the force along its weakest direction, relative to the strongest, below which it spans no space."""

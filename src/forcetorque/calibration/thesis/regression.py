@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
 from forcetorque.base.errors import FitError, ShapeError
-from forcetorque.calibration.plausibility.sense_and_gain import require_moving_load
+from forcetorque.calibration.plausibility.reversed_sense_and_gain import require_moving_load
 from forcetorque.experiment.calibration.estimation_type import Estimation, OffsetStrategy
 from forcetorque.experiment.calibration.excitation import Excitation, excitation_of
 from forcetorque.experiment.calibration.moments import Moments, symmetric_pseudo_inverse

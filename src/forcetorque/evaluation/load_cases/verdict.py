@@ -13,7 +13,7 @@ from forcetorque.base.noise.paired_comparison import ALIKE
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.evaluation.load_cases.load_case import LoadCase, LoadCaseOffset
 from forcetorque.evaluation.load_cases.operating_loads import Refuse, operating_load_cases, raise_rejection
-from forcetorque.evaluation.load_cases.prediction import (
+from forcetorque.evaluation.load_cases.predicted_error import (
     CONFIDENCE,
     ErrorMagnitude,
     ErrorSource,

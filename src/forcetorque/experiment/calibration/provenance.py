@@ -13,7 +13,7 @@ from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.recording.sample_quality import UnusableCounts
+from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
 
 class SensorIdentity(StoredTable):

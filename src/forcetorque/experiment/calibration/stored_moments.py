@@ -20,7 +20,7 @@ from forcetorque.experiment.calibration.moments import DataSet, Moments, WindowM
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.provenance import FittedInterval, SensorIdentity
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
-from forcetorque.recording.sample_quality import UnusableCounts
+from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
 SCHEMA: Final = "forcetorque/moments/1"
 """Name and version of the file's form."""

@@ -11,15 +11,7 @@ from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError, FormatError, known_names
 from forcetorque.base.toml_file import Table, Text
-from forcetorque.formats.hdf5_file import (
-    Member,
-    datasets,
-    is_member,
-    member,
-    members,
-    opened_hdf5,
-    require_readable,
-)
+from forcetorque.formats.hdf5_file import Member, datasets, is_member, member, members, opened_hdf5, require_readable
 from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable, StreamReading
 from forcetorque.formats.robometry.channels import (
     DESCRIPTION,

@@ -20,13 +20,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import FAIL, OK, Bottle, is_number
-from forcetorque.formats.yarp.plain_ports import (
-    JOINT_UNITS,
-    NAME_ALL,
-    indices_of_joints,
-    joint_signal,
-    units_of_joints,
-)
+from forcetorque.formats.yarp.plain_ports import JOINT_UNITS, NAME_ALL, indices_of_joints, joint_signal, units_of_joints
 from forcetorque.formats.yarp.port_log import PortLog, read_port_log
 from forcetorque.recording.recording import Finding
 

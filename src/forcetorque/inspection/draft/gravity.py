@@ -18,10 +18,10 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.recording.alignment import interpolate, usable_samples
-from forcetorque.recording.quality import true_runs
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.stream import Stream
+from forcetorque.recording.stream_faults import true_runs
 from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion, joint_motion_at

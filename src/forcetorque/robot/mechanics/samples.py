@@ -13,8 +13,8 @@ from forcetorque.base.errors import RecordingError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.recording.alignment import interpolate, require_overlap, usable_samples
 from forcetorque.recording.column import ScalarSource
+from forcetorque.recording.frozen_and_saturated_samples import SampleQuality, UnusableCounts, repeated_samples
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
-from forcetorque.recording.sample_quality import SampleQuality, UnusableCounts, repeated_samples
 from forcetorque.recording.smoothing import EvenGrid, SavitzkyGolay, smooth
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate

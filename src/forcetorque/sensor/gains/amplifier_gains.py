@@ -20,8 +20,8 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, require_shape
 from forcetorque.base.errors import ForceTorqueError, ShapeError
-from forcetorque.recording.quality import saturation_findings
 from forcetorque.recording.stream import Stream
+from forcetorque.recording.stream_faults import saturation_findings
 from forcetorque.sensor.full_scale import axis_resolution as largest_step
 
 MARGIN = 0.2

@@ -16,11 +16,11 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.raw_counts import RawCounts, raw_counts
-from forcetorque.experiment.sample_quality import expected_at
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.usable_samples import expected_at
 from forcetorque.recording.alignment import seconds_since
+from forcetorque.recording.frozen_and_saturated_samples import smallest_steps, white_variance
 from forcetorque.recording.recording import Interval, Use
-from forcetorque.recording.sample_quality import smallest_steps, white_variance
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
 from forcetorque.robot.model import RobotModel

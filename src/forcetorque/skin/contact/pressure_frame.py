@@ -20,7 +20,7 @@ from forcetorque.base.arrays import (
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.taxels.patch_calibration import PressureTable
-from forcetorque.skin.temperature.gains import TaxelDrift
+from forcetorque.skin.temperature.heat_compensation import TaxelDrift
 
 
 def _nothing() -> FloatArray:

@@ -15,7 +15,7 @@ from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import Row, Shown
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import WAKING, PatchReader, PressureFrame
-from forcetorque.skin.temperature.gains import HeatGains, TaxelDrift
+from forcetorque.skin.temperature.heat_compensation import HeatGains, TaxelDrift
 from forcetorque.skin.temperature.pad_lags import PadFilter
 from forcetorque.skin.wrench.patch import SkinPatch
 

@@ -30,7 +30,7 @@ from forcetorque.skin.taxels.result import (
     taxel_picture,
     taxel_row,
 )
-from forcetorque.skin.temperature.warm_up import WarmUpRow, learn_warm_up, warm_up_row
+from forcetorque.skin.temperature.warm_up_calibration import WarmUpRow, learn_warm_up, warm_up_row
 
 _SHOWN = 12
 """Taxels of the table; JSON and CSV have all."""

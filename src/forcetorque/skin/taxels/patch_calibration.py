@@ -28,7 +28,7 @@ from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.stored_model import StoredTable, read_json, validated_table
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
 from forcetorque.skin.taxels.health import require_counts
-from forcetorque.skin.temperature.gains import WarmUp
+from forcetorque.skin.temperature.heat_compensation import WarmUp
 
 ROWS = 256
 """Counts below rest that a table has, from 0 on."""

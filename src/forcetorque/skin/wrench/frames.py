@@ -18,7 +18,7 @@ from forcetorque.skin.contact.tracking import ContactLife, ContactLives, PatchFo
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.taxels.health import FULL_COUNTS, Ailment, require_counts, taxel_ailments
 from forcetorque.skin.taxels.patch_calibration import PatchCalibration, PressureTable
-from forcetorque.skin.temperature.gains import HeatGains, HeatRule, TaxelDrift, stuck_pads
+from forcetorque.skin.temperature.heat_compensation import HeatGains, HeatRule, TaxelDrift, stuck_pads
 from forcetorque.skin.wrench.patch import SkinPatch
 
 _EXCLUDING: Final = (Ailment.WRAPS, Ailment.RAILS, Ailment.NOISE)

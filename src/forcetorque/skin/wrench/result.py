@@ -18,7 +18,7 @@ from forcetorque.results.table import AxisValues, FloatOrNull, Row, Shown, Wrenc
 from forcetorque.skin.contact.contacts import SkinContacts, lobes
 from forcetorque.skin.contact.pressure_frame import PressureFrame
 from forcetorque.skin.contact.tracking import ContactLife, followed_places
-from forcetorque.skin.temperature.gains import HeatRule
+from forcetorque.skin.temperature.heat_compensation import HeatRule
 from forcetorque.skin.wrench.frames import SkinFrames
 from forcetorque.skin.wrench.patch import SkinPatch
 

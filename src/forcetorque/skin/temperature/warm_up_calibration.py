@@ -19,7 +19,7 @@ from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_p
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.layout.normals import rebuilt_normals
-from forcetorque.skin.temperature.gains import (
+from forcetorque.skin.temperature.heat_compensation import (
     LEAST_CHANGE_COUNTS,
     LEAST_SHARE,
     HeatGains,

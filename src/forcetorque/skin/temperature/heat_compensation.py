@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Thermal pads that work in a recording, and the gains from their change to the drift of taxels."""
+"""Heat taken off the counts of taxels: thermal pads that work, and the gains from their change to the drift."""
 
 from __future__ import annotations
 

@@ -9,11 +9,11 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, IntArray
 from forcetorque.experiment.experiment import ExperimentSensor
-from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.recording.quality import stream_findings
+from forcetorque.experiment.usable_samples import sample_quality
 from forcetorque.recording.recording import Interval
 from forcetorque.recording.stream import Stream
+from forcetorque.recording.stream_faults import stream_findings
 from forcetorque.results.table import Row
 from forcetorque.robot.mechanics.samples import pick_samples
 

@@ -7,8 +7,15 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.recording.alignment import gap_limit_ns, usable_samples
+from forcetorque.recording.frozen_and_saturated_samples import (
+    SATURATION_SHARE,
+    Run,
+    at_limit,
+    equal_runs,
+    exceeds_limit,
+    noisy_runs,
+)
 from forcetorque.recording.recording import Finding
-from forcetorque.recording.sample_quality import SATURATION_SHARE, Run, at_limit, equal_runs, exceeds_limit, noisy_runs
 from forcetorque.recording.stream import Signal, Stream
 
 STUCK_SECONDS = 1.0

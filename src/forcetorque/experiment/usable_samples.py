@@ -13,8 +13,7 @@ from forcetorque.base.errors import ForceTorqueError, RecordingError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.recording.recording import Interval, Use
-from forcetorque.recording.sample_quality import (
+from forcetorque.recording.frozen_and_saturated_samples import (
     Run,
     SampleQuality,
     UnusableCounts,
@@ -26,6 +25,7 @@ from forcetorque.recording.sample_quality import (
     repeated_samples,
     smallest_steps,
 )
+from forcetorque.recording.recording import Interval, Use
 from forcetorque.recording.stream import Stream
 from forcetorque.results.result import UnusableSamples
 from forcetorque.robot.mechanics.samples import expected_wrench, pick_samples

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The streams of an experiment whose clocks need not be told: to see why they are not."""
+"""The streams of an experiment for `inspect`: a delay that its log does not determine is no error here."""
 
 from __future__ import annotations
 
