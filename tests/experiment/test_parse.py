@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError
+from forcetorque.experiment.core_tables import Smoothing
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
-from forcetorque.experiment.sections import Smoothing
 from forcetorque.formats.parquet import ParquetLog
 from forcetorque.formats.ros.log_format import RosLog
 from forcetorque.formats.tabular.log_format import TabularLog

@@ -58,7 +58,7 @@ def switching(folder: Path) -> Standing:
     (simulated,) = simulate(scenario)
     experiment = load_experiment(folder / f"{DAY}.toml")
     return Standing(
-        experiment=experiment.with_section(SECTION, SOLES),
+        experiment=replace(experiment, sections={**experiment.sections, SECTION.key: SOLES}),
         corrections={
             name: Correction(
                 model=WrenchModel(matrix=sensor.matrix, offset=sensor.offset),

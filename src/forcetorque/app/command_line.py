@@ -24,8 +24,8 @@ def _commands() -> dict[str, str]:
     return {name.replace("_", "-"): every[name] for name in sorted(every)}
 
 
-def _add(program: typer.Typer, name: str) -> None:
-    found = named(_commands()[name])
+def _add(program: typer.Typer, name: str, reference: str) -> None:
+    found = named(reference)
     if isinstance(found, typer.Typer):
         program.add_typer(found)
     else:
@@ -36,11 +36,12 @@ def _program(first: list[str]) -> typer.Typer:
     """The program with the one command that is asked for: importing the others takes longer."""
     # options of the program itself stand before a command, so with a command first there are none
     name = next(iter(first), "")
-    if name not in _commands():
+    reference = _commands().get(name)
+    if reference is None:
         return whole_program()
     one = typer.Typer(name=_NAME, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
     one.callback(add_help_option=False)(_no_options)
-    _add(one, name)
+    _add(one, name, reference)
     return one
 
 
@@ -58,8 +59,8 @@ def whole_program() -> typer.Typer:
         rich_markup_mode=None,
     )
     program.callback(invoke_without_command=True)(_version)
-    for name in _commands():
-        _add(program, name)
+    for name, reference in _commands().items():
+        _add(program, name, reference)
     return program
 
 

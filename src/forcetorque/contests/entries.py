@@ -17,10 +17,10 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.toml_file import Finite, NotNegative, Table, Text, read_toml
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.core_tables import SixPositive
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sections import SixPositive
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.sensor.catalogue import find_sensor

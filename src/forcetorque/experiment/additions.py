@@ -16,8 +16,8 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.experiment import file as schema
 from forcetorque.experiment.clocks import aligned_clocks
+from forcetorque.experiment.core_tables import PoseTable, TransformTable
 from forcetorque.experiment.input_files import Inputs, stated_in
-from forcetorque.experiment.sections import PoseTable, TransformTable
 from forcetorque.recording.frames import orientation_at, pose_at, wrench_in_frame
 from forcetorque.recording.recording import Finding, Recording
 from forcetorque.results.result import Result, UnusableSamples

@@ -13,8 +13,8 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, RecordingError
 from forcetorque.experiment import file as schema
+from forcetorque.experiment.core_tables import ClockTable
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.experiment.sections import ClockTable
 from forcetorque.recording.alignment import ClockShift, on_clock_of, seconds_since, usable_samples
 from forcetorque.recording.delay import estimate_delay
 from forcetorque.recording.recording import Finding, Recording, Support, Use

@@ -257,18 +257,6 @@ class Experiment:
         """
         return cast(Content, self.sections.get(section.key, section.empty))
 
-    def with_section(self, section: Section[Any, Content], content: Content) -> Experiment:
-        """Give the experiment with another content of a section.
-
-        Args:
-            section: The section.
-            content: Its content.
-
-        Returns:
-            The experiment; nothing else of it changes.
-        """
-        return replace(self, sections={**self.sections, section.key: content})
-
     def with_loads(self, loads: AttachedLoads) -> Experiment:
         """Give the experiment with other loads.
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
 
 from forcetorque.base.errors import ForceTorqueError, MissingFileError
 from forcetorque.base.input_file import accept_input
@@ -20,6 +21,20 @@ class Inputs:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self._read: dict[str, Path] = {}
+
+    @classmethod
+    def of(cls, file: Path) -> Self:
+        """Begin with an experiment file, which is the first input.
+
+        Args:
+            file: The file.
+
+        Returns:
+            Its inputs so far.
+        """
+        inputs = cls(file.parent)
+        inputs.file(Path(file.name))
+        return inputs
 
     def file(self, relative: Path) -> Path:
         """Resolve a file.

@@ -12,12 +12,12 @@ from forcetorque.base.toml_file import toml_content
 from forcetorque.experiment.additions import read_robot
 from forcetorque.experiment.calibration_section import fit_options
 from forcetorque.experiment.contacts import read_contacts
+from forcetorque.experiment.core_tables import processing_of
 from forcetorque.experiment.experiment import Experiment, Role
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
 from forcetorque.experiment.input_files import Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
-from forcetorque.experiment.sections import processing_of
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
 from forcetorque.experiment.streams import read_streams
 from forcetorque.recording.recording import Support, Use
@@ -54,10 +54,11 @@ def load_experiment(path: Path | str, purpose: Purpose = Purpose.SENSORS) -> Exp
         ExperimentError: If it lacks what the purpose needs, or contradicts itself, the robot or the recording.
     """
     file = Path(path)
-    if purpose is Purpose.PLANNING and _is_unrecorded(file):
+    stated = _tables(file) if purpose is Purpose.PLANNING else None
+    if stated is not None and not {"recording", "interval", "load"} & stated:
         from forcetorque.experiment.unrecorded import load_unrecorded
 
-        return load_unrecorded(file)
+        return load_unrecorded(file, stated)
     parsed = parse_experiment(file)
     if parsed.sensor:
         return _load(parsed, file)
@@ -77,20 +78,18 @@ def load_experiment(path: Path | str, purpose: Purpose = Purpose.SENSORS) -> Exp
     return _load(parsed, file)
 
 
-def _is_unrecorded(file: Path) -> bool:
-    """Whether a file states neither recording nor load; one that cannot be read is left to the reader that says why."""
+def _tables(file: Path) -> set[str] | None:
+    """What the file states; None of one that cannot be read, which is left to the reader that says why."""
     try:
-        tables = set(toml_content(file)[1])
+        return set(toml_content(file)[1])
     except (ForceTorqueError, OSError, ValueError, RecursionError):
-        return False
-    return not {"recording", "interval", "load"} & tables
+        return None
 
 
 def _lacks_sensors(parsed: ExperimentFile, file: Path) -> str:
-    known, readers = "none", "`forcetorque inspect`, `view` and `report` read one of a skinManager's contacts alone"
-    for section in sections():
-        if section.without_sensors is not None and parsed.table(section):
-            known, readers = section.without_sensors
+    nothing = "none", "`forcetorque inspect`, `view` and `report` read one of a skinManager's contacts alone"
+    makes_sense = (one.without_sensors for one in sections() if one.without_sensors and parsed.table(one))
+    known, readers = next(makes_sense, nothing)
     return (
         f"{file}: expected [[sensor]], a force-torque sensor, got {known}; {readers}; `forcetorque estimate` does "
         "with [robot] and a patch's table"
@@ -98,8 +97,7 @@ def _lacks_sensors(parsed: ExperimentFile, file: Path) -> str:
 
 
 def _load(parsed: ExperimentFile, file: Path) -> Experiment:
-    inputs = Inputs(file.parent)
-    inputs.file(Path(file.name))
+    inputs = Inputs.of(file)
     urdf = None if parsed.robot is None else read_robot(parsed.robot, file, inputs)
     robot = None if urdf is None else declare_sensors(parsed.sensor, file, urdf)
     before = inputs.names()

@@ -13,9 +13,9 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment import file as schema
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
+from forcetorque.experiment.core_tables import PriorTable, Sensor, Variable
 from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
 from forcetorque.experiment.input_files import Inputs, stated_in
-from forcetorque.experiment.sections import PriorTable, Sensor, Variable
 from forcetorque.formats.icub_matrix import serial_number_in_name
 from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 from forcetorque.formats.prior.registry import read_prior_file

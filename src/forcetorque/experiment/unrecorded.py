@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from functools import cache
 from pathlib import Path
 from typing import Annotated, Literal
@@ -11,17 +12,17 @@ import numpy as np
 from pydantic import Field, create_model
 
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.toml_file import Table, Text, read_toml, toml_content
+from forcetorque.base.toml_file import Table, Text, read_toml
 from forcetorque.experiment.additions import read_robot
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.calibration_section import CalibrationTable, fit_options
+from forcetorque.experiment.core_tables import ProcessingTable, Sensor, processing_of
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor, SensorVariable
 from forcetorque.experiment.file import Robot, section_fields
 from forcetorque.experiment.file import Support as SupportTable
 from forcetorque.experiment.input_files import Inputs
 from forcetorque.experiment.intervals import read_supports
 from forcetorque.experiment.section import Loading, sections
-from forcetorque.experiment.sections import ProcessingTable, Sensor, processing_of
 from forcetorque.experiment.sensors import declare_sensors, full_scale_of, read_prior
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.recording import Recording, Support
@@ -62,11 +63,12 @@ def _file_type() -> type[UnrecordedFile]:
     )
 
 
-def load_unrecorded(file: Path) -> Experiment:
+def load_unrecorded(file: Path, stated: Collection[str]) -> Experiment:
     """Read an experiment file that lacks what was recorded.
 
     Args:
         file: TOML file.
+        stated: Names of its tables.
 
     Returns:
         The experiment, without streams and intervals.
@@ -76,14 +78,13 @@ def load_unrecorded(file: Path) -> Experiment:
         FormatError: If a file does not have its form.
         ExperimentError: If the file contradicts itself or the robot.
     """
-    for recipe in sorted({"clock", "transform"} & set(toml_content(file)[1])):
+    for recipe in sorted({"clock", "transform"}.intersection(stated)):
         raise ExperimentError(
             f"{file}: expected [recording], to whose streams [[{recipe}]] is done, got none; leave it out to plan what "
             "was not recorded yet"
         )
     parsed = read_toml(file, _file_type(), what="an experiment file")
-    inputs = Inputs(file.parent)
-    inputs.file(Path(file.name))
+    inputs = Inputs.of(file)
     model = declare_sensors(parsed.sensor, file, read_robot(parsed.robot, file, inputs))
     for index, entry in enumerate(parsed.support):
         if entry.imu is not None:

@@ -138,8 +138,7 @@ def load_patches(path: Path | str) -> PatchExperiment:
     parsed = parse_experiment(file)
     if not parsed.table(PATCHES):
         raise ExperimentError(f"{file}: expected [[patch]], a patch of skin, got none")
-    inputs = Inputs(file.parent)
-    inputs.file(Path(file.name))
+    inputs = Inputs.of(file)
     return read_patches(parsed, file, read_streams(parsed, file, None, inputs), inputs)
 
 
@@ -333,6 +332,8 @@ class PatchSection(Section[tuple[Patch, ...], PatchExperiment | None]):
         return any(patch.table for patch in table)
 
     def stand_in(self, table: tuple[Patch, ...], loading: Loading) -> StandIn | None:  # noqa: D102
+        if loading.parsed.sensor:
+            return None
         frames = skin_frames_of(table, loading.recording, loading.inputs)
         return StandIn(model=links_side_by_side(frames)) if frames else None
 

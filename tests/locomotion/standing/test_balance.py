@@ -226,7 +226,7 @@ def test_feet_that_bear_another_weight_are_doubted(standing: Standing) -> None:
 def test_what_is_missing_is_named(standing: Standing, tilted: Standing) -> None:
     """No sole, no interval, no experiment; a joint that was not logged takes the centre of mass, not the feet."""
     with pytest.raises(ExperimentError, match=r"expected \[\[sole\]\]"):
-        balance([standing.experiment.with_section(SOLES, ())], [standing.corrections])
+        balance([replace(standing.experiment, sections={SOLES.key: ()})], [standing.corrections])
     with pytest.raises(ExperimentError, match="expected an experiment at least"):
         balance([])
     streams = dict(tilted.experiment.recording.streams)

@@ -118,8 +118,7 @@ def load_foot_forces(path: Path | str) -> FootForces:
     table = parsed.table(SOLES)
     if not table:
         raise ExperimentError(f"{file}: expected [[sole]], a foot with the stream of its vertical_force, got none")
-    inputs = Inputs(file.parent)
-    inputs.file(Path(file.name))
+    inputs = Inputs.of(file)
     model = None if parsed.robot is None else read_urdf(inputs.file(parsed.robot.urdf))
     recording = read_streams(parsed, file, model, inputs)
     return FootForces(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sections of the experiment file: sensors with their priors, filters, derivatives, clocks and frames."""
+"""Core tables of the experiment file: sensors with their priors, filters, derivatives, clocks and frames."""
 
 from __future__ import annotations
 
