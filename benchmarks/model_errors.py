@@ -1,0 +1,336 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrations of single sensors where robot, sensor or record are not as the file says, against the known truth.
+
+The biped hangs by its pelvis and moves a limb; the experiment file names the nominal URDF, gravity along -z and a prior
+matrix. A family is one kind of error. In every family the true matrix differs from the prior too: each coefficient by
+2 % of the root mean square of its row (3 % in "coefficients 3 %"); all families of a seed share sensor, motion and
+noise. Link masses and joint zeros are normal with the stated deviation, for all links and joints; the turn and shift of
+a frame, the tilt of the base, the delay, and the length of a contact are exactly what is stated, in random directions.
+Pushes and their truth are in the sensor's frame as the URDF has it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shutil
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, dataclass, replace
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError
+from forcetorque.base.pose import make_pose, rotation_about_z, rotation_with_z_along
+from forcetorque.base.wrench import wrench_matrix
+from forcetorque.calibration.calibrate import calibrate_sensor, data_doubts, fit_doubts
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.storage import write_recording
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.modified_robot import RobotErrors
+from forcetorque.simulation.robots import named_robot
+from forcetorque.simulation.scenario.file import ScenarioFile, Sensors
+from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S, plan_recordings
+from forcetorque.simulation.sensor import distorted_by_mounting
+from forcetorque.simulation.sensor_family import Specimen, draw_specimen
+from forcetorque.simulation.trace import Trace
+
+LIMBS = ("l_leg_ft", "r_leg_ft", "l_foot_ft", "l_arm_ft")
+MOTIONS = {"grid": ("grid",), "tz": ("tz",), "pooled": ("grid", "tz", "random")}
+"""Recordings of each kind of case; the last one is of another power-up."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Robot:
+    """How far the robot is from its URDF, and its base from level."""
+
+    mass: float = 0.0
+    zero_deg: float = 0.0
+    tilt_deg: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Family:
+    """One kind of error."""
+
+    group: str
+    """Families whose totals are given together."""
+    robot: Robot = Robot()
+    coefficients: float = 0.02
+    gains: float = 0.0
+    turn_deg: float = 0.0
+    shift_m: float = 0.0
+    delay_s: float = 0.0
+    contact_N: tuple[float, float] | None = None
+    quadratic: float = 0.0
+    """Spread of every product of two components at full scale, in full scales of the converter."""
+
+
+MODEL, MATRIX = "model errors", "matrix and noise"
+FAMILIES = {
+    "clean": Family(group=MATRIX),
+    "coefficients 3 %": Family(group=MATRIX, coefficients=0.03),
+    "gains 5 %": Family(group=MATRIX, gains=0.05),
+    "turned 2.5 deg": Family(group="turned", turn_deg=2.5, shift_m=0.005),
+    **{f"masses {share} %": Family(group=MODEL, robot=Robot(mass=share / 100)) for share in (2, 5, 10)},
+    **{f"zeros {deg:g} deg": Family(group=MODEL, robot=Robot(zero_deg=deg)) for deg in (0.5, 2.0)},
+    "tilt 1 deg": Family(group=MODEL, robot=Robot(tilt_deg=1.0)),
+    "contact": Family(group="contact", contact_N=(5.0, 20.0)),
+    **{f"delay {ms} ms": Family(group="delay", delay_s=ms / 1000) for ms in (10, 50)},
+    "quadratic 2 %": Family(group="quadratic", quadratic=0.02),
+}
+_ROBOT, _SENSOR, _MATRIX, _NOISE, _FAMILY, _PUSHES = range(6)
+"""What a stream of random numbers is for."""
+CONTACT_S, RAMP_S, LEVER_M, PUSH_N, PUSHES = 3.0, 0.2, 0.3, 50.0, 300
+WORSE = 1.05
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Case:
+    """What came out of one calibration; force before moment in every pair."""
+
+    seed: int
+    family: str
+    limb: str
+    motion: str
+    refused: str | None = None
+    """Words of the refusal; then there is nothing else."""
+    before: tuple[float, float] = (0.0, 0.0)
+    """Mean error of pushes by the prior matrix; N, N m."""
+    after: tuple[float, float] = (0.0, 0.0)
+    """By the calibration."""
+    covered: tuple[float, float] = (0.0, 0.0)
+    """Share of components of pushes within 1.96 predicted standard deviations."""
+    predicted: tuple[float, float] = (0.0, 0.0)
+    """Predicted over true root mean square error."""
+    doubts: int = 0
+    seconds: float = 0.0
+    """Of the processor, in the fit alone."""
+
+    @property
+    def ratios(self) -> FloatArray:
+        """After over before."""
+        return np.array(self.after) / np.array(self.before)
+
+
+def pushes(rng: np.random.Generator, count: int = PUSHES) -> FloatArray:
+    """Draw pushes in random directions at random places within the lever; shape (count, 6); N, N m."""
+    force, place = (_directions(rng, count) for _ in range(2))
+    place *= LEVER_M * rng.uniform(size=(count, 1)) ** (1.0 / 3.0)
+    return np.hstack([PUSH_N * force, np.cross(place, PUSH_N * force)])
+
+
+def _directions(rng: np.random.Generator, count: int) -> FloatArray:
+    drawn = rng.standard_normal((count, 3))
+    return np.asarray(drawn / np.linalg.norm(drawn, axis=1, keepdims=True))
+
+
+def traces(seed: int, robot: Robot, limb: str) -> dict[str, Trace]:
+    """Move the true robot; traces by the names of the recordings."""
+    nominal, rng = read_urdf(named_robot(["biped"])), np.random.default_rng([seed, _ROBOT])
+    zero_rad = np.deg2rad(robot.zero_deg)
+    errors = RobotErrors.draw(nominal, mass=robot.mass, centre_m=0.0, joint_zero_rad=zero_rad, rng=rng)
+    down = _turn(rng, robot.tilt_deg, level=True) @ [0.0, 0.0, -1.0]
+    motions: dict[str, dict[str, Any]] = {
+        "grid": {"kind": "grid", "sensor": limb},
+        "tz": {"kind": "z_torque", "sensor": limb},
+        "random": {"kind": "random", "duration_s": 60.0},
+    }
+    content = ScenarioFile.model_validate(
+        {
+            "schema": "forcetorque/scenario/1",
+            "name": "model errors",
+            "seed": seed,
+            "robot": {"model": ["biped"]},
+            "recording": [
+                {"name": name, "motion": motion, "gravity_direction": down.tolist(), "power_up": int(name == "random")}
+                for name, motion in motions.items()
+            ],
+        }
+    )
+    return {plan.name: plan.trace([limb], seed=seed) for plan in plan_recordings(content, errors.applied_to(nominal))}
+
+
+def _turn(rng: np.random.Generator, angle_deg: float, *, level: bool = False) -> FloatArray:
+    """A rotation about a random axis, or a random level one; shape (3, 3)."""
+    axis = rng.standard_normal(3) * [1.0, 1.0, float(not level)]
+    along = rotation_with_z_along(axis / np.linalg.norm(axis))
+    return np.asarray(along @ rotation_about_z(np.array(np.deg2rad(angle_deg))) @ along.T)
+
+
+def specimen(seed: int, family: str, limb: str) -> Specimen:
+    """Draw a sensor, whose workbench matrix is the prior and whose true matrix has the family's errors."""
+    kind, number = FAMILIES[family], LIMBS.index(limb)
+    described = Sensors(
+        family="double range", noise_corner_hz=0.5, power_up_counts=60.0, crosstalk_counts=32767.0 * kind.quadratic
+    )
+    drawn = draw_specimen(described, number, np.random.default_rng([seed, _SENSOR, number]))
+    rng = np.random.default_rng([seed, _MATRIX, number])
+    matrix = distorted_by_mounting(drawn.workbench, relative=kind.coefficients, rng=rng)
+    matrix = matrix / np.exp(kind.gains * rng.standard_normal(6))
+    urdf_H_true = make_pose(_turn(rng, kind.turn_deg), kind.shift_m * _directions(rng, 1)[0])
+    matrix = wrench_matrix(urdf_H_true) @ matrix
+    offset = matrix @ np.linalg.solve(drawn.sensor.matrix, drawn.sensor.offset)
+    return replace(drawn, sensor=replace(drawn.sensor, matrix=matrix, offset=offset))
+
+
+def _recorded(seed: int, family: str, limb: str, one: Specimen, trace: Trace) -> Recording:
+    """Read the sensor, with what the family does to the record."""
+    kind, number, name = FAMILIES[family], LIMBS.index(limb), trace.movement.name
+    power_up = int(name == "random")
+    sensor = one.powered_up(np.random.default_rng([seed, _SENSOR, number, power_up]))
+    if kind.contact_N is not None and name != "random":
+        rng = np.random.default_rng([seed, _FAMILY, number, *name.encode()])
+        trace = _touched(trace, limb, rng.uniform(*kind.contact_N), rng)
+    noise = np.random.default_rng([seed, _NOISE, number, *name.encode()])
+    recording = trace.recorded({limb: sensor}, rng=noise)
+    stream = recording.stream(limb)
+    late = replace(stream, stamp_ns=stream.stamp_ns + round(1e9 * kind.delay_s))
+    return replace(recording, streams={**recording.streams, limb: late})
+
+
+def _touched(trace: Trace, limb: str, force_N: float, rng: np.random.Generator) -> Trace:
+    """Let something push beyond the sensor, at one place and in one direction of the sensor's frame."""
+    push = pushes(rng, 1)[0] * (force_N / PUSH_N)
+    start_s = rng.uniform(1.0, trace.movement.duration_s - 1.0 - CONTACT_S)
+    since = (trace.stamp_ns[limb] - trace.start_ns) * 1e-9 - start_s
+    strength = np.clip(np.minimum(since, CONTACT_S - since) / RAMP_S, 0.0, 1.0)
+    return replace(trace, loads={limb: trace.loads[limb] + strength[:, None] * push})
+
+
+def _written(folder: Path, name: str, limb: str, recording: Recording, duration_s: float) -> Path:
+    """Write a recording, and an experiment file that knows of no error."""
+    write_recording(folder / name, recording)
+    file = folder / f"{name}.toml"
+    file.write_text(
+        f'schema = "forcetorque/experiment/1"\nname = "{name}"\n'
+        f'[robot]\nurdf = "robot.urdf"\n[recording]\nformat = "parquet"\npath = "{name}"\n'
+        f'[[sensor]]\nname = "{limb}"\nstream = "{limb}"\nserial = "SIM"\nprior = "matrix.txt"\nlimit_counts = 32767.0\n'
+        '[[support]]\nframe = "pelvis"\ngravity_direction = [0.0, 0.0, -1.0]\n'
+        f'[[interval]]\nlabel = "{name}"\nstart_s = {INTERVAL_MARGIN_S}\nend_s = {duration_s - INTERVAL_MARGIN_S:.3f}\n'
+        f'use = "calibration"\nsupport = "pelvis"\nsession = "power-up {int(name == "random")}"\n',
+        encoding="utf-8",
+    )
+    return file
+
+
+def measured(seed: int, family: str, limb: str, motion: str, known: dict[str, Trace]) -> Case:
+    """Calibrate one sensor, and compare with the truth."""
+    one = specimen(seed, family, limb)
+    case = Case(seed=seed, family=family, limb=limb, motion=motion)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        shutil.copyfile(named_robot(["biped"]), folder / "robot.urdf")
+        write_matrix_file(folder / "matrix.txt", encode_matrix(one.workbench))
+        runs = []
+        for part in MOTIONS[motion]:
+            recording = _recorded(seed, family, limb, one, known[part])
+            file = _written(folder, part, limb, recording, known[part].movement.duration_s)
+            runs.append(SensorRun(load_experiment(file), limb))
+        start = time.process_time()
+        try:
+            calibration = calibrate_sensor(runs if len(runs) > 1 else runs[0], code_version="benchmark", created="now")
+        except FitError as refusal:
+            return replace(case, refused=str(refusal))
+        seconds = time.process_time() - start
+        doubts = [*fit_doubts(calibration), *(words for run in runs for words in data_doubts(run))]
+        prior, posterior = runs[0].sensor.prior, calibration.posterior
+    assert prior is not None
+    assert posterior is not None
+    load = pushes(np.random.default_rng([seed, _PUSHES]))
+    counts = np.linalg.solve(one.sensor.matrix, load.T).T
+    before, error = counts @ prior.T - load, counts @ calibration.matrix.T - load
+    deviation = np.sqrt(np.einsum("nii->ni", posterior.error_covariance(load)))
+    return replace(
+        case,
+        before=_pair(lambda own: np.linalg.norm(before[:, own], axis=1).mean()),
+        after=_pair(lambda own: np.linalg.norm(error[:, own], axis=1).mean()),
+        covered=_pair(lambda own: (np.abs(error[:, own]) <= 1.96 * deviation[:, own]).mean()),
+        predicted=_pair(lambda own: np.sqrt((deviation[:, own] ** 2).mean() / (error[:, own] ** 2).mean())),
+        doubts=len(set(doubts)),
+        seconds=seconds,
+    )
+
+
+def _pair(figure: Any) -> tuple[float, float]:
+    """A figure of the force and of the moment."""
+    return float(figure(slice(0, 3))), float(figure(slice(3, 6)))
+
+
+def _of_limb(task: tuple[int, Robot, str], families: Sequence[str], motions: Sequence[str]) -> list[Case]:
+    seed, robot, limb = task
+    known = traces(seed, robot, limb)
+    own = [family for family in families if FAMILIES[family].robot == robot]
+    return [measured(seed, family, limb, motion, known) for family in own for motion in motions]
+
+
+def table(cases: Sequence[Case]) -> Iterator[str]:
+    """Give a line per family, then one per group."""
+    yield (
+        f"{'family':18s}{'n':>5s}{'refused':>8s}{'worse':>6s}{'worst':>7s}{'F':>6s}{'M':>6s}{'cov F':>7s}{'cov M':>6s}"
+        f"{'pred F':>7s}{'pred M':>7s}{'doubted':>8s}{'CPU s':>7s}"
+    )
+    for family in FAMILIES:
+        yield from _line(family, [case for case in cases if case.family == family])
+    yield "-" * 98
+    for group in dict.fromkeys(kind.group for kind in FAMILIES.values()):
+        yield from _line(group, [case for case in cases if FAMILIES[case.family].group == group])
+    yield from _line("all", cases)
+
+
+def _line(name: str, cases: Sequence[Case]) -> Iterator[str]:
+    fitted = [case for case in cases if case.refused is None]
+    if not fitted:
+        if cases:
+            yield f"{name:18s}{0:5d}{len(cases):8d}"
+        return
+    ratios = np.array([case.ratios for case in fitted])
+    force, moment = np.exp(np.log(ratios).mean(axis=0))
+    covered = np.mean([case.covered for case in fitted], axis=0)
+    predicted = np.exp(np.mean(np.log([case.predicted for case in fitted]), axis=0))
+    yield (
+        f"{name:18s}{len(fitted):5d}{len(cases) - len(fitted):8d}{(ratios.max(axis=1) > WORSE).sum():6d}"
+        f"{ratios.max():7.2f}{force:6.2f}{moment:6.2f}{covered[0]:7.2f}{covered[1]:6.2f}"
+        f"{predicted[0]:7.2f}{predicted[1]:7.2f}{sum(case.doubts > 0 for case in fitted):8d}"
+        f"{np.mean([case.seconds for case in fitted]):7.2f}"
+    )
+
+
+def main() -> None:
+    """Measure all cases, print the table and write every case."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--seeds", type=int, default=1, help="how many")
+    parser.add_argument("--first-seed", type=int, default=1)
+    parser.add_argument("--families", nargs="+", choices=FAMILIES, default=list(FAMILIES), metavar="FAMILY")
+    parser.add_argument("--limbs", nargs="+", choices=LIMBS, default=LIMBS)
+    parser.add_argument("--motions", nargs="+", choices=MOTIONS, default=list(MOTIONS))
+    parser.add_argument("--processes", type=int, default=2, help="set OMP_NUM_THREADS=1 beside it")
+    parser.add_argument("--quick", action="store_true", help="one seed, one limb, the motion grid")
+    parser.add_argument("--json", type=Path, help="file for every case")
+    options = parser.parse_args()
+    if options.quick:
+        options.seeds, options.limbs, options.motions = 1, LIMBS[:1], ["grid"]
+    robots = dict.fromkeys(FAMILIES[family].robot for family in options.families)
+    seeds = range(options.first_seed, options.first_seed + options.seeds)
+    tasks = [(seed, robot, limb) for seed in seeds for robot in robots for limb in options.limbs]
+    with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
+        work = partial(_of_limb, families=options.families, motions=options.motions)
+        cases = [case for some in pool.map(work, tasks) for case in some]
+    print("\n".join(table(cases)))
+    if options.json is not None:
+        options.json.parent.mkdir(parents=True, exist_ok=True)
+        options.json.write_text(json.dumps([asdict(case) for case in cases], indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
