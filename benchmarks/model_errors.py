@@ -20,18 +20,17 @@ import json
 import shutil
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FitError
+from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.base.pose import make_pose, rotation_about_z, rotation_with_z_along
 from forcetorque.base.wrench import wrench_matrix
 from forcetorque.calibration.calibrate import calibrate_sensor, data_doubts, fit_doubts
@@ -42,16 +41,19 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.modified_robot import RobotErrors
+from forcetorque.simulation.motions.held_robot import Stand
+from forcetorque.simulation.motions.joint_motions import grid_movement, random_movement, z_torque_movement
 from forcetorque.simulation.robots import named_robot
-from forcetorque.simulation.scenario.file import ScenarioFile, Sensors
-from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S, plan_recordings
+from forcetorque.simulation.scenario.file import Sensors
+from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S
 from forcetorque.simulation.sensor import distorted_by_mounting, mounted_matrix, random_matrix_error
 from forcetorque.simulation.sensor_family import Specimen, draw_specimen
-from forcetorque.simulation.trace import Trace
+from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
 
 LIMBS = ("l_leg_ft", "r_leg_ft", "l_foot_ft", "l_arm_ft")
-MOTIONS = {"grid": ("grid",), "tz": ("tz",), "pooled": ("grid", "tz", "random")}
-"""Recordings of each kind of case; the last one is of another power-up."""
+RANDOM, RATE_HZ, HOUR_NS = "random", 100.0, 3_600_000_000_000
+MOTIONS = {"grid": ("grid",), "tz": ("tz",), "pooled": ("grid", "tz", RANDOM)}
+"""Recordings of each kind of case; the random one is of another power-up."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,7 +107,7 @@ FAMILIES = {
         delay_s=0.01,
     ),
 }
-_ROBOT, _SENSOR, _MATRIX, _NOISE, _FAMILY, _PUSHES = range(6)
+_ROBOT, _MOTION, _SENSOR, _MATRIX, _NOISE, _CONTACT, _PUSHES = range(7)
 """What a stream of random numbers is for."""
 CONTACT_S, RAMP_S, LEVER_M, PUSH_N, PUSHES = 3.0, 0.2, 0.3, 50.0, 300
 ERROR_LEVER_M = 0.07
@@ -159,24 +161,17 @@ def traces(seed: int, robot: Robot, limb: str) -> dict[str, Trace]:
     zero_rad = np.deg2rad(robot.zero_deg)
     errors = RobotErrors.draw(nominal, mass=robot.mass, centre_m=0.0, joint_zero_rad=zero_rad, rng=rng)
     down = _turn(rng, robot.tilt_deg, level=True) @ [0.0, 0.0, -1.0]
-    motions: dict[str, dict[str, Any]] = {
-        "grid": {"kind": "grid", "sensor": limb},
-        "tz": {"kind": "z_torque", "sensor": limb},
-        "random": {"kind": "random", "duration_s": 60.0},
-    }
-    content = ScenarioFile.model_validate(
-        {
-            "schema": "forcetorque/scenario/1",
-            "name": "model errors",
-            "seed": seed,
-            "robot": {"model": ["biped"]},
-            "recording": [
-                {"name": name, "motion": motion, "gravity_direction": down.tolist(), "power_up": int(name == "random")}
-                for name, motion in motions.items()
-            ],
-        }
+    stand = Stand(model=errors.applied_to(nominal), support=nominal.root_link, gravity_direction=down)
+    rng = np.random.default_rng([seed, _MOTION, LIMBS.index(limb)])
+    movements = (
+        grid_movement(stand, limb, name="grid"),
+        z_torque_movement(stand, limb, rng=rng, name="tz"),
+        random_movement(stand, rng=rng, duration_s=60.0, name=RANDOM),
     )
-    return {plan.name: plan.trace([limb], seed=seed) for plan in plan_recordings(content, errors.applied_to(nominal))}
+    return {
+        own.name: trace_movement(own, [limb], rate_hz=RATE_HZ, rng=rng, start_ns=EPOCH_NS + k * HOUR_NS)
+        for k, own in enumerate(movements)
+    }
 
 
 def _turn(rng: np.random.Generator, angle_deg: float, *, level: bool = False) -> FloatArray:
@@ -207,10 +202,10 @@ def specimen(seed: int, family: str, limb: str) -> Specimen:
 def _recorded(seed: int, family: str, limb: str, one: Specimen, trace: Trace) -> Recording:
     """Read the sensor, with what the family does to the record."""
     kind, number, name = FAMILIES[family], LIMBS.index(limb), trace.movement.name
-    power_up = int(name == "random")
+    power_up = int(name == RANDOM)
     sensor = one.powered_up(np.random.default_rng([seed, _SENSOR, number, power_up]))
-    if kind.contact_N is not None and name != "random":
-        rng = np.random.default_rng([seed, _FAMILY, number, *name.encode()])
+    if kind.contact_N is not None and name != RANDOM:
+        rng = np.random.default_rng([seed, _CONTACT, number, *name.encode()])
         trace = _touched(trace, limb, rng.uniform(*kind.contact_N), rng)
     noise = np.random.default_rng([seed, _NOISE, number, *name.encode()])
     recording = trace.recorded({limb: sensor}, rng=noise)
@@ -239,7 +234,7 @@ def _written(folder: Path, name: str, limb: str, recording: Recording, duration_
         "limit_counts = 32767.0\n"
         '[[support]]\nframe = "pelvis"\ngravity_direction = [0.0, 0.0, -1.0]\n'
         f'[[interval]]\nlabel = "{name}"\nstart_s = {INTERVAL_MARGIN_S}\nend_s = {duration_s - INTERVAL_MARGIN_S:.3f}\n'
-        f'use = "calibration"\nsupport = "pelvis"\nsession = "power-up {int(name == "random")}"\n',
+        f'use = "calibration"\nsupport = "pelvis"\nsession = "power-up {int(name == RANDOM)}"\n',
         encoding="utf-8",
     )
     return file
@@ -261,7 +256,7 @@ def measured(seed: int, family: str, limb: str, motion: str, known: dict[str, Tr
         start = time.process_time()
         try:
             calibration = calibrate_sensor(runs if len(runs) > 1 else runs[0], code_version="benchmark", created="now")
-        except FitError as refusal:
+        except ForceTorqueError as refusal:
             return replace(case, refused=str(refusal))
         seconds = time.process_time() - start
         doubts = [*fit_doubts(calibration), *(words for run in runs for words in data_doubts(run))]
@@ -283,7 +278,7 @@ def measured(seed: int, family: str, limb: str, motion: str, known: dict[str, Tr
     )
 
 
-def _pair(figure: Any) -> tuple[float, float]:
+def _pair(figure: Callable[[slice], float]) -> tuple[float, float]:
     """A figure of the force and of the moment."""
     return float(figure(slice(0, 3))), float(figure(slice(3, 6)))
 
@@ -297,37 +292,37 @@ def _of_limb(task: tuple[int, Robot, str], families: Sequence[str], motions: Seq
 
 def table(cases: Sequence[Case]) -> Iterator[str]:
     """Give a line per family, one per group, and one per limb for errors of the robot."""
-    yield (
-        f"{'family':18s}{'n':>5s}{'refused':>8s}{'worse':>6s}{'worst':>7s}{'F':>6s}{'M':>6s}{'cov F':>7s}{'cov M':>6s}"
-        f"{'pred F':>7s}{'pred M':>7s}{'doubted':>8s}{'CPU s':>7s}"
-    )
-    for family in FAMILIES:
-        yield from _line(family, [case for case in cases if case.family == family])
-    yield "-" * 98
-    for group in dict.fromkeys(kind.group for kind in FAMILIES.values()):
-        yield from _line(group, [case for case in cases if FAMILIES[case.family].group == group])
-    yield "-" * 98
-    for limb in LIMBS:
-        own = [case for case in cases if case.limb == limb and FAMILIES[case.family].group == MODEL]
-        yield from _line(f"{MODEL[:5]}, {limb}", own)
+    columns = ("n", "refused", "worse", "worst", "F", "M", "cov F", "cov M", "pred F", "pred M", "doubted", "CPU s")
+    yield f"{'family':24s}" + "".join(f"{column:>8s}" for column in columns)
+    labels = [_labels(FAMILIES[case.family].group, case) for case in cases]
+    groups = dict.fromkeys(kind.group for kind in FAMILIES.values())
+    for label in (*FAMILIES, *(f"= {group}" for group in groups), *(f"{MODEL}, {limb}" for limb in LIMBS)):
+        yield from _line(label, [case for case, own in zip(cases, labels, strict=True) if label in own])
 
 
-def _line(name: str, cases: Sequence[Case]) -> Iterator[str]:
+def _labels(group: str, case: Case) -> tuple[str, ...]:
+    return case.family, f"= {group}", f"{group}, {case.limb}"
+
+
+def _line(label: str, cases: Sequence[Case]) -> Iterator[str]:
     fitted = [case for case in cases if case.refused is None]
     if not fitted:
         if cases:
-            yield f"{name:18s}{0:5d}{len(cases):8d}"
+            yield f"{label:24s}{0:8d}{len(cases):8d}"
         return
     ratios = np.array([case.ratios for case in fitted])
-    force, moment = np.exp(np.log(ratios).mean(axis=0))
-    covered = np.mean([case.covered for case in fitted], axis=0)
-    predicted = np.exp(np.mean(np.log([case.predicted for case in fitted]), axis=0))
-    yield (
-        f"{name:18s}{len(fitted):5d}{len(cases) - len(fitted):8d}{(ratios.max(axis=1) > WORSE).sum():6d}"
-        f"{ratios.max():7.2f}{force:6.2f}{moment:6.2f}{covered[0]:7.2f}{covered[1]:6.2f}"
-        f"{predicted[0]:7.2f}{predicted[1]:7.2f}{sum(case.doubts > 0 for case in fitted):8d}"
-        f"{np.mean([case.seconds for case in fitted]):7.2f}"
+    shares = (
+        ratios.max(),
+        *np.exp(np.log(ratios).mean(axis=0)),
+        *np.mean([case.covered for case in fitted], axis=0),
+        *np.exp(np.log([case.predicted for case in fitted]).mean(axis=0)),
     )
+    counts = (len(fitted), len(cases) - len(fitted), (ratios.max(axis=1) > WORSE).sum())
+    doubted, seconds = sum(case.doubts > 0 for case in fitted), np.mean([case.seconds for case in fitted])
+    yield (
+        f"{label:24s}" + "".join(f"{n:8d}" for n in counts) + "".join(f"{share:8.2f}" for share in shares)
+        + f"{doubted:8d}{seconds:8.2f}"
+    )  # fmt: skip
 
 
 def main() -> None:
