@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Floating-point operations of a question per sample, counted from its plan.
 
-Every addition, subtraction and multiplication of the formulas in `robot/block/passes.py` counts as
+Every addition, subtraction and multiplication of the formulas in `robot/compiled/recursion.py` counts as
 one; that is also what the compiler's vector loops hold, with a multiply-add counted as two. Moving
 data and marking gaps are not counted.
 """
 
 from __future__ import annotations
 
-from forcetorque.robot.mechanics.block.plan import Plan, plan_of
+from forcetorque.robot.compiled.plan import Plan, plan_of
 from forcetorque.robot.mechanics.question import Question, needs_of
 
 _ADD, _DOT, _CROSS, _ROTATE, _TURN_Z = 3, 5, 9, 15, 6

@@ -12,7 +12,7 @@ from unittest import mock
 import icub_models
 
 from benchmarks.dynamics.problem import ROOT, Ours, Problem, make_problem
-from forcetorque.robot.mechanics.block import run
+from forcetorque.robot.compiled import run
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf

@@ -96,7 +96,7 @@ def estimate(
         _run_readable(question, inputs, answer, progress)
     else:
         # imported here: it loads the compiler
-        from forcetorque.robot.mechanics.block.run import run_compiled
+        from forcetorque.robot.compiled.run import run_compiled
 
         run_compiled(question, inputs, answer, threads=threads, progress=progress)
     return answer

@@ -1,32 +1,148 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The passes of the Newton-Euler recursion over the lanes of one block.
+"""The passes of the Newton-Euler recursion over the lanes of one block, and vectors and angles in lanes.
 
-The motion of a body is nine rows (angular velocity, angular acceleration, proper acceleration), a
-wrench six (force, moment). A joint is `parent_R_joint @ Rz(q)`, or a slide by q along that z. The
-formulas are those of `robot.kinematics` and `robot.newton_euler`.
+A 3-vector lives in three rows of lanes; in formulas it is a tuple, which the compiler turns into registers. The motion
+of a body is nine rows (angular velocity, angular acceleration, proper acceleration), a wrench six (force, moment). A
+joint is `parent_R_joint @ Rz(q)`, or a slide by q along that z. The formulas are those of `robot.dynamics`.
+
+Sizes are literals because compiled code is kept on disk under the text of its source, not under the values of its
+globals.
+
+References:
+    [1] W. J. Cody, W. Waite, Software Manual for the Elementary Functions, 1980.
+    [2] fdlibm, k_sin.c and k_cos.c, Sun Microsystems, 1993 (freely granted).
 """
 
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
 from numba import njit
 
-from forcetorque.robot.block.lanes import (
-    FORMULA,
-    LANES,
-    PASS,
-    STRIDE,
-    add,
-    as_columns,
-    as_rows,
-    as_vector,
-    cross,
-    get,
-    put,
-    rotate,
-    scale,
-    subtract,
-    swing,
-    turn_z,
-)
-from forcetorque.robot.block.sincos import cosine_sine
+LANES = 96
+"""Samples of a block: its rows stay in the second-level cache."""
+STRIDE = LANES + 4
+"""Numbers from one row to the next; not a power of two, or all rows would fall on the same cache sets."""
+
+FORMULA: dict[str, Any] = {"inline": "always", "fastmath": {"contract", "nsz"}, "error_model": "numpy"}
+"""Small formulas, put where they are called; multiply-adds may be fused, NaN stays NaN."""
+DRIVER: dict[str, Any] = {"fastmath": {"contract", "nsz"}, "error_model": "numpy", "nogil": True}
+"""What makes the arrays of a block and hands them to the passes."""
+PASS: dict[str, Any] = DRIVER | {"_nrt": False}
+"""Loops over the lanes of a block. They make no arrays, so that numba need not count references to rows."""
+
+
+@njit(**FORMULA)
+def add(a, b):
+    """a + b."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+@njit(**FORMULA)
+def subtract(a, b):
+    """a - b."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@njit(**FORMULA)
+def scale(c, a):
+    """c a."""
+    return c * a[0], c * a[1], c * a[2]
+
+
+@njit(**FORMULA)
+def cross(a, b):
+    """a x b."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+@njit(**FORMULA)
+def dot(a, b):
+    """a . b."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@njit(**FORMULA)
+def rotate(R, a):
+    """R a, with R as three rows."""
+    return dot(R[0], a), dot(R[1], a), dot(R[2], a)
+
+
+@njit(**FORMULA)
+def turn_z(c, s, a):
+    """Rotate a about z by the angle with cosine c and sine s."""
+    return c * a[0] - s * a[1], s * a[0] + c * a[1], a[2]
+
+
+@njit(**FORMULA)
+def swing(omega, alpha, r):
+    """alpha x r + omega x (omega x r): acceleration at r beyond that at the origin."""
+    return add(cross(alpha, r), subtract(scale(dot(omega, r), omega), scale(dot(omega, omega), r)))
+
+
+@njit(**FORMULA)
+def get(rows, row, k):
+    """The 3-vector of lane k in three rows."""
+    return rows[row * STRIDE + k], rows[(row + 1) * STRIDE + k], rows[(row + 2) * STRIDE + k]
+
+
+@njit(**FORMULA)
+def put(rows, row, k, a):
+    """Set the 3-vector of lane k in three rows."""
+    rows[row * STRIDE + k], rows[(row + 1) * STRIDE + k], rows[(row + 2) * STRIDE + k] = a
+
+
+@njit(**FORMULA)
+def as_rows(R):
+    """A 3 x 3 array as three rows."""
+    return (R[0, 0], R[0, 1], R[0, 2]), (R[1, 0], R[1, 1], R[1, 2]), (R[2, 0], R[2, 1], R[2, 2])
+
+
+@njit(**FORMULA)
+def as_columns(R):
+    """The transpose of a 3 x 3 array as three rows."""
+    return (R[0, 0], R[1, 0], R[2, 0]), (R[0, 1], R[1, 1], R[2, 1]), (R[0, 2], R[1, 2], R[2, 2])
+
+
+@njit(**FORMULA)
+def as_vector(a):
+    """An array of three as a vector."""
+    return a[0], a[1], a[2]
+
+
+@njit(**FORMULA)
+def cosine_sine(x):
+    """Cosine and sine of x."""
+    # no branch and no call, so that loops over lanes stay vectorised: the angle is reduced to a quarter turn with pi/2
+    # in three parts [1]; the rest are the polynomials of fdlibm for |r| <= pi/4 [2]; one unit in the last place up to
+    # |x| = 1e6
+    # math.floor would give an integer, for which there is no vector instruction before AVX-512
+    quarters = np.floor(x * 0.6366197723675814 + 0.5)
+    r = x - quarters * 1.5707963267341256
+    r = r - quarters * 6.077100506303966e-11
+    r = r - quarters * 2.0222662487959506e-21
+    z = r * r
+    s = 1.58969099521155010221e-10
+    s = -2.50507602534068634195e-08 + z * s
+    s = 2.75573137070700676789e-06 + z * s
+    s = -1.98412698298579493134e-04 + z * s
+    s = 8.33333333332248946124e-03 + z * s
+    s = r + r * z * (-1.66666666666666324348e-01 + z * s)
+    c = -1.13596475577881948265e-11
+    c = 2.08757232129817482790e-09 + z * c
+    c = -2.75573143513906633035e-07 + z * c
+    c = 2.48015872894767294178e-05 + z * c
+    c = -1.38888888888741095749e-03 + z * c
+    c = 1.0 - 0.5 * z + z * z * (4.16666666666666019037e-02 + z * c)
+    quarter = quarters - 4.0 * np.floor(quarters * 0.25)
+    odd = (quarter == 1.0) | (quarter == 3.0)
+    cosine = s if odd else c
+    sine = c if odd else s
+    return (
+        -cosine if (quarter == 1.0) | (quarter == 2.0) else cosine,
+        -sine if quarter >= 2.0 else sine,
+    )
 
 
 @njit(**PASS)
