@@ -17,7 +17,7 @@ import numpy as np
 from forcetorque.app.python.experiment import load_experiment
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.evaluation.figures.sphere import force_space_figure
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.results.figures import png_bytes
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from tests.scenes.moving_leg import DRIVEN, FILE, Faults, write_moving_leg
 
 FIRST, SEEDS = 20, 20

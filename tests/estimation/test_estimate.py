@@ -17,7 +17,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.storage import read_recording, write_recording

@@ -15,7 +15,7 @@ import pytest
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.recording.storage import read_recording, write_recording
 from tests.app.json_schema import faults
 from tests.app.outcome import Run

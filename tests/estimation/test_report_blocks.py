@@ -14,7 +14,7 @@ from forcetorque.estimation.report_blocks import torque_section
 from forcetorque.estimation.torque.experiment_fusion import fuse_experiment, torque_picture
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.report.assessment import Demands
 from forcetorque.report.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.results.document.content import Figure, List, Section

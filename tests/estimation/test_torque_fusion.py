@@ -17,7 +17,7 @@ from forcetorque.estimation.result import EstimateSummary, summarise_estimates
 from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.experiment.calibration_section import CalibrationTable
+from forcetorque.experiment.core_tables import CalibrationTable
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "calibration" / "calibration.md").read_text(encoding="utf-8")

@@ -29,7 +29,7 @@ from forcetorque.experiment.additions import added_to, with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.locomotion.logged_signals import motion_signals
 from forcetorque.locomotion.movement import motion

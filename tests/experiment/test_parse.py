@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.experiment.core_tables import Smoothing
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
-from forcetorque.formats.parquet import ParquetLog
+from forcetorque.formats.registry import ParquetLog
 from forcetorque.formats.ros.log_format import RosLog
 from forcetorque.formats.tabular.log_format import TabularLog
 from forcetorque.formats.yarp.log_format import YarpLog

@@ -16,7 +16,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix
 from forcetorque.formats.prior.firmware_updater import FirmwareFile, write_firmware_file
-from forcetorque.formats.prior.polynomial_model import PolynomialModel, write_polynomial_model
+from forcetorque.formats.prior.matrix_files import PolynomialModel, write_polynomial_model
 from forcetorque.formats.prior.registry import read_prior_file
 from tests.scenes.tutorial_log import distortion, motion, robot_text, truth
 

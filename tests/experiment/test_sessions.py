@@ -19,7 +19,7 @@ from forcetorque.evaluation.validation.contact_forces import contact_forces
 from forcetorque.experiment.calibration.artefact import Calibration, SessionOffset
 from forcetorque.experiment.calibration.provenance import FittedInterval
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use

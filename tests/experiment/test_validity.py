@@ -22,7 +22,7 @@ from forcetorque.evaluation.evaluation import evaluate
 from forcetorque.evaluation.validation.validation import validate
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration, write_calibration
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validity import ReadingsOutside, sentences
 from forcetorque.recording.recording import Use

@@ -19,7 +19,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import is_invertible
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import read_matrix_file
 from forcetorque.recording.recording import Use

@@ -14,7 +14,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import read_matrix_file
-from forcetorque.formats.yarp.discover import PortKind
+from forcetorque.formats.yarp.log_format import PortKind
 from forcetorque.formats.yarp.writing import StreamPort, write_ports
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.recording.recording import Recording

@@ -15,8 +15,15 @@ import pytest
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.formats.log_format import LogDescription, LogReading
-from forcetorque.formats.parquet import ParquetFormat, ParquetLog
-from forcetorque.formats.registry import LOG_FORMATS, format_name, not_recognised, read_log, recognised_format
+from forcetorque.formats.registry import (
+    LOG_FORMATS,
+    ParquetFormat,
+    ParquetLog,
+    format_name,
+    not_recognised,
+    read_log,
+    recognised_format,
+)
 from forcetorque.formats.tabular.log_format import TabularFormat
 from forcetorque.formats.yarp.log_format import YarpFormat
 from forcetorque.recording.recording import Recording

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RecordingError
-from forcetorque.formats.yarp.discover import PortKind
+from forcetorque.formats.yarp.log_format import PortKind
 from forcetorque.formats.yarp.plain_ports import read_analog
 from forcetorque.formats.yarp.state_ext import read_state_ext
 from forcetorque.formats.yarp.writing import StreamPort, write_ports

@@ -20,7 +20,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.recordings import Loading
 from forcetorque.skin.wrench.wrench import WrenchChoice, skin_wrench

@@ -13,8 +13,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.report import record_tables as tables
 from forcetorque.report.assessment import Assessment
-from forcetorque.results.document.content import Block, Figure, Text
-from forcetorque.results.document.picture import Picture
+from forcetorque.results.document.content import Block, Figure, Picture, Text
 from forcetorque.results.table import short_names
 
 

@@ -133,7 +133,7 @@ def _estimated(
     from forcetorque.estimation.skin_contacts import frames_of_patches
     from forcetorque.estimation.torque.experiment_fusion import fuse_experiment, torque_picture
     from forcetorque.experiment.contacts import contact_in_words
-    from forcetorque.experiment.sensor_models import corrections_of
+    from forcetorque.experiment.offsets import corrections_of
 
     named = [contact_in_words(words, content.model) for words in contacts] if contacts else None
     corrections = corrections_of(content, calibrations, offset=offset)

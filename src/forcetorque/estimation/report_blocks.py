@@ -7,8 +7,7 @@ from collections.abc import Iterator
 
 from forcetorque.estimation.figures import torque_figure
 from forcetorque.report.experiment_assessment import ExperimentAssessment
-from forcetorque.results.document.content import Block, Figure, List, Section, Text
-from forcetorque.results.document.picture import Picture
+from forcetorque.results.document.content import Block, Figure, List, Picture, Section, Text
 from forcetorque.results.table import Table
 
 

@@ -13,8 +13,14 @@ from pydantic_core import PydanticCustomError
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.toml_file import Finite, Positive, Table, Text, read_toml
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.experiment.calibration_section import CalibrationTable
-from forcetorque.experiment.core_tables import ClockTable, ProcessingTable, Sensor, SixPositive, TransformTable
+from forcetorque.experiment.core_tables import (
+    CalibrationTable,
+    ClockTable,
+    ProcessingTable,
+    Sensor,
+    SixPositive,
+    TransformTable,
+)
 from forcetorque.experiment.section import Section, sections
 from forcetorque.formats.registry import AnyLog
 from forcetorque.recording.recording import Use

@@ -13,7 +13,7 @@ from forcetorque.base.errors import EstimationError, ExperimentError, RobotError
 from forcetorque.base.pose import invert_pose
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import require_overlap

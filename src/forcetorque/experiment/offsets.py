@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Offsets of sensors by every policy: what mechanics demands over an interval, less what is read while static."""
+"""Offsets of sensors by every policy, and the sensor models of an experiment that follow from them.
+
+An offset is the expected wrench over an interval, less what is read while static.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, FitError, known_names
+from forcetorque.experiment.applicability import one_per_sensor
+from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_reading import Correction
@@ -371,3 +376,54 @@ def _offset(
         weight_N=float(np.linalg.norm(force, axis=1).mean()),
         not_logged=not_logged,
     )
+
+
+FITTED = OffsetPolicy(Offset.FITTED)
+
+
+def corrections_of(
+    experiment: Experiment,
+    calibrations: Mapping[str, Calibration],
+    *,
+    offset: OffsetPolicy | str = FITTED,
+) -> dict[str, Correction]:
+    """Decide how every sensor of an experiment is read.
+
+    A calibration is used where one is given. Else the prior is, or the logged wrench, with the
+    offset that makes its mean that of the model over the calibration intervals. Another offset can be asked for.
+
+    Args:
+        experiment: The experiment.
+        calibrations: Calibrations by name of their file.
+        offset: Where the offsets come from, such as `one-link-imu:hanging`; from the data that were fitted if left out.
+
+    Returns:
+        Corrections by sensor.
+
+    Raises:
+        ExperimentError: If a calibration may not be applied, or raw counts have neither calibration nor prior, or
+            an offset cannot be told.
+        FitError: If an offset has too few samples.
+    """
+    chosen = one_per_sensor(experiment, calibrations)
+    (policy,) = offset_policies([offset])
+    corrections = {}
+    for sensor in experiment.sensors:
+        run = SensorRun(experiment, sensor)
+        calibrated = sensor.name in chosen
+        correction = run.read_by(*chosen[sensor.name]) if calibrated else without_calibration(run, policy)
+        corrections[sensor.name], _ = with_policy(run, correction, policy)
+    return corrections
+
+
+def without_calibration(run: SensorRun, policy: OffsetPolicy) -> Correction:
+    """Read a sensor by the prior of the experiment, or as logged.
+
+    Args:
+        run: The sensor.
+        policy: Where the offset is to come from; the model is asked for one only where the fitted offset is wanted.
+
+    Returns:
+        The correction, before the policy gives it another offset.
+    """
+    return run.uncalibrated() if policy.offset is Offset.FITTED else Correction.without_offset(run.sensor)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The streams of an experiment from any log format, and what was recorded without robot or sensors."""
+"""The streams of an experiment from any log format, and what was recorded without robot or sensors.
+
+For `inspect`, a delay that the log does not determine is no error.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +12,11 @@ from pathlib import Path
 
 from forcetorque.base.errors import ExperimentError, MissingFileError
 from forcetorque.experiment import file as schema
-from forcetorque.experiment.additions import follow_recipes
+from forcetorque.experiment.additions import follow_recipes, read_robot
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
+from forcetorque.experiment.sensors import declare_sensors
 from forcetorque.formats.registry import not_recognised, read_log, recognised_format
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.stream import Stream
@@ -116,3 +120,26 @@ def load_recorded(path: Path | str) -> RecordedLog:
     model = None if parsed.robot is None else read_urdf(inputs.file(parsed.robot.urdf))
     recording = read_streams(parsed, file, model, inputs)
     return RecordedLog(name=parsed.name, recording=recording, intervals=read_spans(parsed, file, recording))
+
+
+def load_tried_clocks(path: Path | str) -> Recording:
+    """Read the streams of an experiment, also where its log does not tell a delay that is to be estimated.
+
+    Args:
+        path: TOML file; the paths in it are relative to its folder.
+
+    Returns:
+        The recording; its `clocks` say of each whether it was told, and why not.
+
+    Raises:
+        MissingFileError: If a file is not there.
+        FormatError: If a file does not have its form.
+        ExperimentError: If the file contradicts itself, the robot or the recording.
+    """
+    file = Path(path)
+    parsed = parse_experiment(file)
+    inputs = Inputs(file.parent)
+    model = None
+    if parsed.robot is not None:
+        model = declare_sensors(parsed.sensor, file, read_robot(parsed.robot, file, inputs))
+    return read_streams(parsed, file, model, inputs, clocks_must_tell=False)

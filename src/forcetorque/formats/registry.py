@@ -1,32 +1,106 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The formats of logs that are known: to add one, write its file and add its line to `LOG_FORMATS`.
+"""The registry of log formats: to add one, write its file and add its line to `LOG_FORMATS`.
 
-The experiment file's schema, its loading, `inspect` and their messages all use this list.
+The experiment file's schema, its loading, `inspect` and their messages all use this list. The project's own form of a
+recording is defined here as well, and the message for a robot or a calibration that is given in place of a log.
 """
 
 from __future__ import annotations
 
+from codecs import BOM_UTF8
 from collections.abc import Sequence
 from functools import reduce
 from operator import or_
 from pathlib import Path
-from typing import Annotated, Any, get_args
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import Field, GetCoreSchemaHandler
 from pydantic_core import CoreSchema
 
 from forcetorque.base.errors import FormatError, known_names
-from forcetorque.base.input_file import accept_input
+from forcetorque.base.input_file import accept_input, read_xml
 from forcetorque.formats.array_file.log_format import Hdf5Format, MatlabFormat, NpzFormat
-from forcetorque.formats.log_format import LogContext, LogFormat, LogReading, LogTable
-from forcetorque.formats.not_a_log import not_a_log_reason
-from forcetorque.formats.parquet import ParquetFormat
+from forcetorque.formats.log_format import LogContext, LogDescription, LogFormat, LogReading, LogTable
+from forcetorque.formats.prior.registry import holds_prior
 from forcetorque.formats.robometry.log_format import RobometryFormat
 from forcetorque.formats.ros.log_format import RosFormat
 from forcetorque.formats.tabular.dialect import rejection_reason
 from forcetorque.formats.tabular.log_format import TabularFormat
 from forcetorque.formats.yarp.log_format import YarpFormat
 from forcetorque.recording.alignment import joined_stream
+from forcetorque.recording.storage import INDEX_FILE, read_recording
+
+
+class ParquetLog(LogTable):
+    """A folder in the project's own form."""
+
+    format: Literal["parquet"]
+    """Format of the recording."""
+    path: Path
+    """Folder with recording.json."""
+
+
+class ParquetFormat:
+    """Folders that `write_recording` wrote; their intervals are not read, an experiment states its own."""
+
+    table = ParquetLog
+    sign = INDEX_FILE
+
+    def recognises(self, path: Path) -> bool:
+        """Look for the index."""
+        return (path / INDEX_FILE).is_file()
+
+    def describe(self, path: Path) -> LogDescription:
+        """Read all of it: its index lists what is in it."""
+        return LogDescription(table=ParquetLog(format="parquet", path=path), reading=_read(path))
+
+    def read(self, stated: ParquetLog, context: LogContext) -> LogReading:
+        """Read all of it."""
+        return _read(context.below(stated.path, "*.parquet", INDEX_FILE))
+
+
+def _read(folder: Path) -> LogReading:
+    recording = read_recording(folder)
+    return LogReading(
+        streams=tuple(recording.streams.values()), findings=recording.findings, origin=dict(recording.origin)
+    )
+
+
+_LOOKED_AT = 4096
+
+
+def not_a_log_reason(path: Path) -> str | None:
+    """Report what a file is that is no log.
+
+    Args:
+        path: File or folder; it exists.
+
+    Returns:
+        What it is, and where it belongs; None if it is no robot and no calibration.
+    """
+    if not path.is_file():
+        return None
+    if _is_urdf(path):
+        return f"{path}: expected a log, got the URDF of a robot: `forcetorque init LOG --urdf {path}`"
+    if holds_prior(path):
+        return (
+            f"{path}: expected a log, got the calibration that a sensor came with: state it as prior of the sensor in "
+            f"the file that `forcetorque init LOG` begins; `forcetorque inspect {path}` shows it"
+        )
+    return None
+
+
+def _is_urdf(path: Path) -> bool:
+    with path.open("rb") as file:
+        begins = file.read(_LOOKED_AT)
+    if not begins.removeprefix(BOM_UTF8).lstrip().startswith(b"<"):
+        return False
+    try:
+        root = read_xml(path)
+    except FormatError:
+        return False
+    return root is not None and root.tag == "robot"
+
 
 LOG_FORMATS: tuple[LogFormat[Any], ...] = (
     YarpFormat(),

@@ -13,10 +13,10 @@ from pydantic import Field
 
 from forcetorque.base.errors import FormatError, MissingFileError, RecordingError
 from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.clocks_for_inspection import load_tried_clocks
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
+from forcetorque.experiment.streams import load_tried_clocks
 from forcetorque.formats.log_format import SketchingFormat, not_read_message
 from forcetorque.formats.prior.prior_file import PriorFile
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file

@@ -99,7 +99,7 @@ def _answer(
     experiments: Sequence[Path], calibration: Sequence[Path] | None, options: BalanceOptions, log: Logger
 ) -> Balance:
     from forcetorque.experiment.input_files import stated_in
-    from forcetorque.experiment.sensor_models import corrections_of
+    from forcetorque.experiment.offsets import corrections_of
     from forcetorque.locomotion.standing.foot_wrenches import has_foot_forces, load_foot_forces
     from forcetorque.locomotion.standing.standing import balance
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment

@@ -18,7 +18,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.intervals import RecordedSpan
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.streams import RecordedLog, load_recorded
 from forcetorque.locomotion.section import SOLES
 from forcetorque.locomotion.standing.foot_wrenches import has_foot_forces, load_foot_forces

@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import new_folder, refuse_existing
-from forcetorque.formats.yarp.discover import PortKind
+from forcetorque.formats.yarp.log_format import PortKind
 from forcetorque.formats.yarp.writing import StreamPort, write_ports
 from forcetorque.planning.planning import Plan
 from forcetorque.planning.proposal import Proposal

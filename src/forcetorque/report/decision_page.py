@@ -12,8 +12,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.report.assessment import Assessment, VerdictLine
 from forcetorque.report.decision import NextSteps, Undecided, gathered, said_once
 from forcetorque.report.experiment_assessment import ExperimentAssessment
-from forcetorque.results.document.content import Block, Figure, List, Place, Section, Tone, Verdict
-from forcetorque.results.document.picture import Picture
+from forcetorque.results.document.content import Block, Figure, List, Picture, Place, Section, Tone, Verdict
 from forcetorque.results.figures import two_digits
 from forcetorque.results.table import Table, short_names, table_of, with_first_column
 

@@ -23,7 +23,7 @@ from forcetorque.estimation.torque.experiment_fusion import (
 )
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.inspection.inspect import FindingRow, finding_rows

@@ -31,8 +31,7 @@ from forcetorque.report import record_tables as tables
 from forcetorque.report.assessment import Assessment
 from forcetorque.report.decision_page import judgement_section
 from forcetorque.report.experiment_assessment import ExperimentAssessment
-from forcetorque.results.document.content import Block, Document, Figure, List, Page, Section, Text
-from forcetorque.results.document.picture import Picture
+from forcetorque.results.document.content import Block, Document, Figure, List, Page, Picture, Section, Text
 from forcetorque.results.table import Table, short_names, table_of, without_vague
 from forcetorque.sensor.bandwidth.bandwidth import Response
 from forcetorque.sensor.bandwidth.figure import response_figure

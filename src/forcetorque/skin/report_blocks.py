@@ -6,8 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from forcetorque.report.experiment_assessment import ExperimentAssessment
-from forcetorque.results.document.content import Block, Figure, List, Section, Text
-from forcetorque.results.document.picture import Picture
+from forcetorque.results.document.content import Block, Figure, List, Picture, Section, Text
 from forcetorque.results.table import Table, table_of
 from forcetorque.skin.figures import skin_event_figure, skin_wrench_figure
 from forcetorque.skin.wrench.wrench import SkinWrench

@@ -17,7 +17,7 @@ from forcetorque.estimation.estimate import IntervalEstimates, estimate_experime
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.contacts import contacts_at_sensors
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.recording.alignment import gap_limit_ns, seconds_since
 from forcetorque.recording.recording import Use

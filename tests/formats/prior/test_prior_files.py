@@ -12,7 +12,7 @@ import pytest
 from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError, UnitError
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.formats.prior.firmware_updater import FirmwareFile, read_firmware_file, write_firmware_file
-from forcetorque.formats.prior.polynomial_model import PolynomialModel, read_polynomial_model, write_polynomial_model
+from forcetorque.formats.prior.matrix_files import PolynomialModel, read_polynomial_model, write_polynomial_model
 from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 from forcetorque.formats.prior.registry import PRIOR_FORMATS, holds_prior, read_prior_file
 

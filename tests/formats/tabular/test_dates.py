@@ -15,7 +15,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.tabular.sketch import is_table, sketch_table
+from forcetorque.formats.tabular.log_format import is_table, sketch_table
 from forcetorque.formats.tabular.table import read_table
 from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 

@@ -13,7 +13,7 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.registry import not_recognised, recognised_format
-from forcetorque.formats.tabular.sketch import is_table, sketch_table
+from forcetorque.formats.tabular.log_format import is_table, sketch_table
 from forcetorque.formats.tabular.table import read_table
 from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 from forcetorque.recording.stream import Stream

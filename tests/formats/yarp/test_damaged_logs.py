@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.formats.yarp.discover import PortKind, discover_ports, read_found_port
+from forcetorque.formats.yarp.log_format import PortKind, discover_ports, read_found_port
 from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor, read_measures
 from forcetorque.formats.yarp.plain_ports import read_analog, read_inertial, read_state
 from forcetorque.formats.yarp.state_ext import read_state_ext

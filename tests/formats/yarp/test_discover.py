@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError
-from forcetorque.formats.yarp.discover import FoundPort, PortKind, discover_ports, read_found_port
+from forcetorque.formats.yarp.log_format import FoundPort, PortKind, discover_ports, read_found_port
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
 from tests.formats.yarp.test_measures import ONE_SENSOR, TWO_SENSORS
 

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.registry import recognised_format
-from forcetorque.formats.yarp.discover import PortKind, discover_ports, read_found_port
+from forcetorque.formats.yarp.log_format import PortKind, discover_ports, read_found_port
 from forcetorque.formats.yarp.skin_ports import read_skin
 from tests.formats.yarp.port_logs import write_port
 

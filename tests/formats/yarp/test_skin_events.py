@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
-from forcetorque.formats.yarp.discover import PortKind, discover_ports, read_found_port
+from forcetorque.formats.yarp.log_format import PortKind, discover_ports, read_found_port
 from forcetorque.formats.yarp.skin_ports import SkinPart, read_skin_events
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream

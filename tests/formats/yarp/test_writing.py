@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import MissingFileError, RecordingError
 from forcetorque.formats.yarp import writing
-from forcetorque.formats.yarp.discover import PortKind, discover_ports
+from forcetorque.formats.yarp.log_format import PortKind, discover_ports
 from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor, read_measures
 from forcetorque.formats.yarp.plain_ports import read_analog, read_inertial, read_state
 from forcetorque.formats.yarp.state_ext import read_state_ext

@@ -16,8 +16,7 @@ from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.offsets import still_seconds
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of, still_seconds
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
 from forcetorque.locomotion.net_force.net_force import coherence, force_error
 from forcetorque.locomotion.net_force.result import Coherence

@@ -13,7 +13,7 @@ from forcetorque.app.python.experiment import Experiment
 from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.locomotion.section import SOLES
 from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces

@@ -19,11 +19,22 @@ from PIL import Image
 from pypdf import PdfReader
 
 from forcetorque.base.errors import FormatError, ShapeError
-from forcetorque.results.document.content import NO_ROWS, Document, Figure, List, Page, Section, Text, Tone, Verdict
+from forcetorque.results.document.content import (
+    NO_ROWS,
+    Document,
+    Figure,
+    List,
+    Page,
+    Picture,
+    Section,
+    Text,
+    Tone,
+    Verdict,
+    small_png,
+)
 from forcetorque.results.document.html import html_bytes
 from forcetorque.results.document.pdf import MISSING_LETTERS, pdf_bytes
 from forcetorque.results.document.pdf_layout import lines_of, spelled
-from forcetorque.results.document.picture import Picture, small_png
 from forcetorque.results.figures import DOTS_PER_INCH, new_figure, png_bytes
 from forcetorque.results.number_text import with_joined_units
 from forcetorque.results.table import Table

@@ -18,7 +18,7 @@ from forcetorque.estimation.result import summarise_estimates
 from forcetorque.estimation.skin_contacts import frames_of_patches
 from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
-from forcetorque.experiment.sensor_models import corrections_of
+from forcetorque.experiment.offsets import corrections_of
 from forcetorque.skin.experiment import force_patches
 from forcetorque.skin.wrench.wrench import PatchFrames
 from tests.app.outcome import Run

@@ -104,7 +104,7 @@ class Experiment(ExperimentContent):
             ExperimentError: If the file has no sole.
             EstimationError: If no foot is down, or thresholds cross.
         """
-        from forcetorque.experiment.sensor_models import corrections_of
+        from forcetorque.experiment.offsets import corrections_of
         from forcetorque.locomotion.standing.interval import BalanceOptions
         from forcetorque.locomotion.standing.standing import balance
 
@@ -182,7 +182,7 @@ class Experiment(ExperimentContent):
         from forcetorque.estimation.result import summarise_estimates
         from forcetorque.estimation.skin_contacts import frames_of_patches
         from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
-        from forcetorque.experiment.sensor_models import corrections_of
+        from forcetorque.experiment.offsets import corrections_of
 
         if output is not None:
             refuse_output(output, inputs_sha256=self.inputs_sha256.values(), force=force)

@@ -27,7 +27,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.free_sub_model import OtherSensors
-from forcetorque.experiment.lost_samples import IntervalQuality
+from forcetorque.experiment.raw_counts import IntervalQuality
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.table import FloatOrNull, Row

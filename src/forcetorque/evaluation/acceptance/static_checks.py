@@ -22,7 +22,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.experiment.lost_samples import IntervalQuality, has_counts, interval_qualities
+from forcetorque.experiment.raw_counts import IntervalQuality, has_counts, interval_qualities
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, Use

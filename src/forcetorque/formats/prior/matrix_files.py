@@ -1,17 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Matrices as files: those of iCub, and plain numbers in six rows with a column for each channel."""
+"""Matrices as files: those of iCub, plain numbers in six rows, and linear models of Mohamed et al. 2023.
+
+Of the polynomials `modelClassParams` only the linear one is read, a matrix and an offset. Its inputs are wrenches as
+another calibration gives them, so it corrects a calibrated stream and is not per count.
+"""
 
 from __future__ import annotations
 
 import csv
 import io
 import re
+from dataclasses import dataclass, field
 from pathlib import Path
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FormatError, UnitError
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
+from forcetorque.base.errors import FormatError, MissingFileError, UnitError
+from forcetorque.base.input_file import read_xml
+from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.units import si_factor
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.formats.icub_matrix import read_matrix_file, serial_number_in_name
@@ -141,3 +149,122 @@ def _number(path: Path, cell: str | None) -> float:
     if not abs(value) < _LARGEST:
         raise FormatError(f"{path}: expected a number, got {str(cell)[:40]!r}")
     return value
+
+
+_GROUP = "modelClassParams"
+_ROW = re.compile(r"row([0-9]{1,4})")
+_LIST = re.compile(r"\(([^()]*)\)")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PolynomialModel(ArrayRecord):
+    """A correction of calibrated wrenches: `wrench = matrix reading + offset`."""
+
+    matrix: FloatArray = field(metadata=array(6, None))
+    """Matrix; shape (6, c)."""
+    offset: FloatArray = field(metadata=array(6))
+    """Offset; shape (6,); N, N m."""
+    name: str = "polynomial"
+    """What the file calls the model."""
+
+
+class PolynomialModelFile:
+    """XML with the group `modelClassParams`."""
+
+    sign = f"a model file of Mohamed 2023 (XML with {_GROUP})"
+
+    def recognises(self, path: Path, text: str) -> bool:
+        """Look for the name of the group."""
+        return _GROUP in text and "<group" in text
+
+    def read(self, path: Path, text: str) -> PriorFile:
+        """Read it."""
+        model = read_polynomial_model(path)
+        return PriorFile(
+            form=f"model file of Mohamed 2023 ({model.name})",
+            matrix=model.matrix,
+            raw_unit=RawUnit.WRENCH,
+            offset=model.offset,
+            notes=("corrects wrenches that another calibration made, and takes no counts",),
+        )
+
+
+def read_polynomial_model(path: Path | str) -> PolynomialModel:
+    """Read a model file.
+
+    Args:
+        path: XML file.
+
+    Returns:
+        The model.
+
+    Raises:
+        MissingFileError: If there is no such file.
+        FormatError: If it is another file, or a model that is not linear or looks back in time.
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise MissingFileError(f"{file}: expected a model file, there is none")
+    try:
+        return _read(read_xml(file))
+    except FormatError as error:
+        message = str(error)
+        raise FormatError(message if message.startswith(str(file)) else f"{file}: {message}") from error
+
+
+def write_polynomial_model(path: Path | str, model: PolynomialModel) -> None:
+    """Write a model file; on any error the file keeps what it held before.
+
+    Args:
+        path: File to write or to replace, in an existing folder.
+        model: The model; every number reads back exactly.
+    """
+    group = Element("group", {"name": _GROUP})
+    counts = {"np": 1, "ny": 6, "nu": model.matrix.shape[1], "na": 0, "nb": 0}
+    for name, value in (*counts.items(), ("string", model.name)):
+        SubElement(group, "param", {"name": name}).text = str(value)
+    for k, row in enumerate([*model.matrix.T.tolist(), model.offset.tolist()], start=1):
+        SubElement(group, "param", {"name": f"row{k}"}).text = f"({' '.join(map(repr, row))})"
+    indent(group)
+    write_bytes_atomically(Path(path), b'<?xml version="1.0" encoding="utf-8"?>\n' + tostring(group) + b"\n")
+
+
+def _read(root: Element | None) -> PolynomialModel:
+    groups = [] if root is None else [group for group in root.iter("group") if group.get("name") == _GROUP]
+    if len(groups) != 1:
+        raise FormatError(f"expected one group {_GROUP}, got {len(groups)}")
+    params = {str(param.get("name")): (param.text or "").strip() for param in groups[0].findall("param")}
+    if len(params) != len(groups[0].findall("param")):
+        raise FormatError("expected every param once")
+    order, outputs, inputs = (_count(params, name) for name in ("np", "ny", "nu"))
+    lags = _count(params, "na"), _count(params, "nb")
+    if order != 1 or outputs != 6 or lags[0] != 0 or lags[1] > 1:
+        raise FormatError(
+            f"expected a linear model (np 1) of six outputs without memory (na 0, nb 0 or 1), got np {order}, "
+            f"ny {outputs}, na {lags[0]}, nb {lags[1]}; no matrix does what that does: apply it to the log, "
+            'and state prior = "identity" for a stream of wrenches'
+        )
+    rows = sorted((int(match[1]), text) for name, text in params.items() if (match := _ROW.fullmatch(name)))
+    if len(rows) != inputs + 1 or [k for k, _ in rows] != list(range(rows[0][0], rows[0][0] + len(rows))):
+        raise FormatError(f"expected a row for each of {inputs} inputs and one of the offset, got {len(rows)}")
+    values = np.array([_six(f"row{k}", text) for k, text in rows])
+    return PolynomialModel(matrix=values[:-1].T, offset=values[-1], name=params.get("string", "")[:80] or "polynomial")
+
+
+def _count(params: dict[str, str], name: str) -> int:
+    text = params.get(name, "")
+    if not re.fullmatch("[0-9]{1,3}", text):
+        raise FormatError(f"{name}: expected a small number, got {text[:40]!r}")
+    return int(text)
+
+
+def _six(where: str, text: str) -> list[float]:
+    match = _LIST.fullmatch(text)
+    numbers = [] if match is None else match[1].replace(",", " ").split()
+    try:
+        values = [float(word) for word in numbers]
+    except ValueError:
+        values = []
+    if len(values) != 6 or not all(abs(value) < _LARGEST for value in values):
+        raise FormatError(f"{where}: expected six numbers in parentheses, got {text[:40]!r}")
+    return values

@@ -10,8 +10,7 @@ from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.run_files import declare_input
 from forcetorque.formats.prior.ati_cal import AtiCalibration
 from forcetorque.formats.prior.firmware_updater import FirmwareUpdaterData
-from forcetorque.formats.prior.matrix_files import ExportedTable, IcubMatrix, PlainTable
-from forcetorque.formats.prior.polynomial_model import PolynomialModelFile
+from forcetorque.formats.prior.matrix_files import ExportedTable, IcubMatrix, PlainTable, PolynomialModelFile
 from forcetorque.formats.prior.prior_file import PriorFile, PriorFormat
 
 LARGEST_FILE = 1 << 20

@@ -1,26 +1,257 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Folders of text tables as a format of logs: every column that is read is specified."""
+"""Text tables as a format of logs: columns that an experiment file specifies, and a sketch of a table without that."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.csv as pacsv
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from forcetorque.base.arrow import arrow_text
 from forcetorque.base.errors import FormatError
+from forcetorque.base.input_file import unpacked_limit
 from forcetorque.base.toml_file import Table, Text
-from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogSketch, LogTable, StreamReading
+from forcetorque.formats.headings import read_heading
+from forcetorque.formats.log_format import (
+    LogContext,
+    LogDescription,
+    LogReading,
+    LogSketch,
+    LogTable,
+    SketchedColumns,
+    StreamReading,
+    median_step,
+    sketched_numbers,
+)
 from forcetorque.formats.signals import StatedRate, StatedSignal
-from forcetorque.formats.tabular.sketch import is_table, sketch_table
+from forcetorque.formats.tabular.dialect import LOOKED_AT, MOST_COLUMNS, first_lines, rejection_reason, table_form
+from forcetorque.formats.tabular.numbers import ISO8601, column_of_dates
+from forcetorque.formats.tabular.row_readers import (
+    first_batch,
+    is_parquet_file,
+    parquet_batches,
+    parquet_size,
+    text_batches,
+)
 from forcetorque.formats.tabular.table import ROW_NS, read_table, table_columns
-from forcetorque.formats.tabular.table_layout import EvenRows, StampColumn, StampUnit, TableLayout, TableSignal
+from forcetorque.formats.tabular.table_layout import (
+    EvenRows,
+    StampColumn,
+    StampUnit,
+    TableLayout,
+    TableSignal,
+    open_text,
+    quote_of,
+)
 from forcetorque.recording.alignment import joined_stream
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Stream
+
+
+@dataclass(kw_only=True)
+class Extent:
+    """Of the finite numbers of one column, so far."""
+
+    smallest: float = np.inf
+    """Smallest."""
+    largest: float = -np.inf
+    """Largest."""
+    total: float = 0.0
+    """Their sum."""
+    count: int = 0
+    """How many there are."""
+
+    def add(self, column: Any) -> None:
+        """Take more numbers.
+
+        Args:
+            column: Column of Arrow.
+        """
+        values = np.asarray(column.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False), dtype=np.float64)
+        finite = values[np.isfinite(values)]
+        if len(finite):
+            self.smallest = min(self.smallest, float(finite.min()))
+            self.largest = max(self.largest, float(finite.max()))
+            self.total += float(finite.sum())
+            self.count += len(finite)
+
+
+_UNIT_NORM = 1e-3
+
+
+def is_table(path: Path) -> bool:
+    """Check whether a file is a table of numbers, by its first lines.
+
+    Args:
+        path: File or folder; it exists.
+
+    Returns:
+        Whether it is a Parquet file, or a text with at least two columns, and numbers below at most one line of
+        headings. Numbers between blanks alone, without headings, may be anything, such as messages of a port. Other
+        lines may stand in front where all that is looked at behind them is the table.
+    """
+    if not path.is_file():
+        return False
+    if is_parquet_file(path):
+        return True
+    form = table_form(first_lines(path))
+    return form is not None and (form.has_headings or form.delimiter != " ")
+
+
+def sketch_table(path: Path) -> LogSketch:
+    """Look at a table that is recognised.
+
+    Args:
+        path: The file.
+
+    Returns:
+        Its columns.
+
+    Raises:
+        FormatError: If it is no table after all.
+    """
+    return _sketch_parquet(path) if is_parquet_file(path) else _sketch_text(path)
+
+
+def _sketch_parquet(path: Path) -> LogSketch:
+    names, rows = parquet_size(path)
+    batch = first_batch(path)
+    columns = tuple(
+        _sketched(name, rows, None if batch is None else batch.column(k)) for k, name in enumerate(names[:MOST_COLUMNS])
+    )
+    # two columns may have one name
+    numeric = [column.name for column in columns if column.smallest is not None and names.count(column.name) == 1]
+    sketch = LogSketch(path=path, columns=columns)
+    return _with_extents(sketch, parquet_batches(path, numeric), numeric, 0 if batch is None else len(batch))
+
+
+def _sketch_text(path: Path) -> LogSketch:
+    text = first_lines(path)
+    form = table_form(text)
+    if form is None:
+        raise FormatError(
+            rejection_reason(path)
+            or f"{path}: expected a table of numbers below at most one line of headings, got another text"
+        )
+    lines = [line for line in text.splitlines()[form.lines_above :] if line.strip()]
+    whole = "\n".join(" ".join(line.split()) if form.delimiter == " " else line for line in lines)
+    try:
+        table = pacsv.read_csv(
+            arrow_text(f"{whole}\n".encode()),
+            read_options=pacsv.ReadOptions(column_names=list(form.names)),
+            parse_options=pacsv.ParseOptions(delimiter=form.delimiter, quote_char=quote_of(form.delimiter)),
+            convert_options=pacsv.ConvertOptions(decimal_point=form.decimal),
+        ).combine_chunks()
+    except pa.ArrowException as error:
+        raise FormatError(
+            f"{path}: expected {len(form.names)} columns in every row, got {' '.join(str(error).split())[:200]}"
+        ) from error
+    rows = _count_lines(path) - form.lines_above
+    columns = (_sketched(name, rows, table.column(k)) for k, name in enumerate(form.names))
+    sketch = LogSketch(
+        path=path,
+        columns=tuple(column for k, column in enumerate(columns) if not form.is_bare(k) or column.smallest is not None),
+        delimiter=form.delimiter,
+        decimal=form.decimal,
+        skipped=form.skipped,
+        names_apart=form.names_apart,
+        has_headings=form.has_headings,
+        quaternion=_unit_fours(table),
+    )
+    numeric = [column.name for column in sketch.columns if column.smallest is not None]
+    if not numeric:
+        return sketch
+    layout = TableLayout(
+        delimiter=form.delimiter,
+        decimal=form.decimal,
+        column_names=form.names,
+        skip_rows=form.lines_above,
+        stamp=None,
+        signals=(TableSignal(quantity="scalar", columns=tuple(numeric), units=("1",) * len(numeric)),),
+    )
+    return _with_extents(sketch, text_batches(path, layout), numeric, len(table))
+
+
+def _with_extents(sketch: LogSketch, batches: Iterator[Any], names: Sequence[str], sketch_rows: int) -> LogSketch:
+    """The same with the extents of more rows than were looked at; of those where a block has no other.
+
+    Args:
+        sketch: The sketch, with the extents of its first rows.
+        batches: Rows of the columns of numbers, as tables or batches of Arrow.
+        names: Names of these columns.
+        sketch_rows: Rows that were looked at.
+
+    Returns:
+        The sketch, which states why rows are left out if some are.
+    """
+    extents = {name: Extent() for name in names}
+    rows, most, stopped = 0, unpacked_limit(sketch.path) // (8 * max(len(names), 1)), None
+    try:
+        for batch in batches:
+            for name, extent in extents.items():
+                extent.add(batch.column(name))
+            rows += len(batch)
+            if rows > most:
+                stopped = f"{sketch.path}: the others unpack to more than is read"
+                break
+    except FormatError as error:
+        stopped = str(error)
+    if not rows and stopped is not None:
+        return replace(sketch, ranged_rows=sketch_rows, stopped=stopped)
+    columns = (
+        column
+        if (read := extents.get(column.name)) is None or not read.count
+        else replace(column, smallest=read.smallest, largest=read.largest, mean=read.total / read.count)
+        for column in sketch.columns
+    )
+    return replace(sketch, columns=tuple(columns), ranged_rows=None if stopped is None else rows, stopped=stopped)
+
+
+def _count_lines(path: Path) -> int:
+    count, last = 0, b"\n"
+    with open_text(path) as file:
+        while chunk := file.read(LOOKED_AT):
+            count += chunk.count(b"\n")
+            last = chunk[-1:]
+    return count + (last != b"\n")
+
+
+def _unit_fours(table: Any) -> tuple[int, ...]:
+    """First columns of four floating ones whose norm is 1 in every row."""
+    floating = [pa.types.is_floating(column.type) for column in table.columns]
+    columns = [
+        np.asarray(column.to_numpy()) if is_float else None
+        for column, is_float in zip(table.columns, floating, strict=True)
+    ]
+    fours = []
+    for first in range(len(columns) - 3):
+        four = [column for column in columns[first : first + 4] if column is not None]
+        if len(four) == 4 and len(table) and np.allclose(np.linalg.norm(four, axis=0), 1.0, atol=_UNIT_NORM):
+            fours.append(first)
+    return tuple(fours)
+
+
+def _sketched(name: str, rows: int, column: Any) -> SketchedColumns:
+    unit = read_heading(name).unit
+    kind = None if column is None else column.type
+    instants = None if column is None else column_of_dates(column)
+    if instants is not None:
+        step = median_step(instants)
+        return SketchedColumns(
+            name=name, rows=rows, unit=ISO8601, is_number=False, step=None if step is None else 1e-9 * step
+        )
+    if kind is None or not (pa.types.is_floating(kind) or pa.types.is_integer(kind)):
+        is_number = kind is None or pa.types.is_null(kind)
+        return SketchedColumns(name=name, rows=rows, unit=unit, is_number=is_number)
+    values = np.asarray(column.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False), dtype=np.float64)
+    return sketched_numbers(name, values, rows=rows, unit=unit)
 
 
 class StampTable(Table):

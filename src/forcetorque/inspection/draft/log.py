@@ -11,8 +11,7 @@ from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.toml_file import OPEN
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.log_format import LogDescription, LogFormat, LogSketch, SketchingFormat
-from forcetorque.formats.not_a_log import not_a_log_reason
-from forcetorque.formats.registry import format_name, format_named, not_recognised, recognised_format
+from forcetorque.formats.registry import format_name, format_named, not_a_log_reason, not_recognised, recognised_format
 from forcetorque.inspection.draft.joints import joints_question
 from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream, likenesses, relative, time_column
 from forcetorque.inspection.draft.tables_and_arrays import (

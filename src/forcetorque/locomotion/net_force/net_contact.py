@@ -18,8 +18,7 @@ from forcetorque.experiment.applicability import one_per_sensor, overlapping
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.offsets import SensorOffset, with_policy
-from forcetorque.experiment.sensor_models import without_calibration
+from forcetorque.experiment.offsets import SensorOffset, with_policy, without_calibration
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
