@@ -230,14 +230,6 @@ _WORDS = {
 _WITHIN_S = 0.5
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Stated:
-    """What of the file a clock is estimated with."""
-
-    parsed: schema.ExperimentFile
-    model: RobotModel | None
-
-
 def aligned_clocks(
     parsed: schema.ExperimentFile,
     file: Path,
@@ -264,7 +256,6 @@ def aligned_clocks(
         RecordingError: If a delay is to be estimated and the recording does not tell it.
     """
     _require_order(parsed.clock, file)
-    stated = _Stated(parsed=parsed, model=model)
     shifts = []
     for index, entry in enumerate(parsed.clock):
         with stated_in(f"{file}: clock[{index}]"):
@@ -274,7 +265,7 @@ def aligned_clocks(
             near, shift = _shifted(recording, entry, _stated_shift(entry)), _stated_shift(entry)
             if entry.delay_s == "estimate":
                 try:
-                    shift = _estimated(entry, near, stated)
+                    shift = _estimated(entry, near, parsed, model)
                 except RecordingError as error:
                     if must_tell:
                         raise
@@ -318,11 +309,13 @@ def _stated_shift(entry: ClockTable) -> ClockShift:
     return ClockShift(stream=entry.streams[0], to=entry.to, delay_s=entry.near_s, drift=drift)
 
 
-def _estimated(entry: ClockTable, near: Recording, stated: _Stated) -> ClockShift:
+def _estimated(
+    entry: ClockTable, near: Recording, parsed: schema.ExperimentFile, model: RobotModel | None
+) -> ClockShift:
     """Estimate what is left of the delay once the recording is near to it."""
     name = entry.streams[0]
-    spans = _used_spans(near, stated.parsed.interval)
-    shared = shared_motion(near, _motion(stated), name, entry.to, used=partial(_lie_in, spans))
+    spans = _used_spans(near, parsed.interval)
+    shared = shared_motion(near, _motion(parsed, model), name, entry.to, used=partial(_lie_in, spans))
     later = 1.0 if shared.read_by == name else -1.0
     delay = estimate_delay(
         shared.reading.time_s,
@@ -347,8 +340,7 @@ def _estimated(entry: ClockTable, near: Recording, stated: _Stated) -> ClockShif
     )
 
 
-def _motion(stated: _Stated) -> Motion:
-    parsed = stated.parsed
+def _motion(parsed: schema.ExperimentFile, model: RobotModel | None) -> Motion:
     at_rest = [one for one in parsed.support if one.gravity_direction is not None]
     used = {one.support for one in parsed.interval if one.use is not Use.IGNORE}
     supports = [
@@ -358,7 +350,7 @@ def _motion(stated: _Stated) -> Motion:
     ]
     gravity = Processing().gravity if parsed.robot is None else parsed.robot.gravity
     return Motion(
-        model=stated.model,
+        model=model,
         support=supports[0] if supports else None,
         sensors={entry.stream: entry.name for entry in parsed.sensor},
         loaded=frozenset() if parsed.robot is None else parsed.loaded_links,

@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
 
 from forcetorque.base.arrays import BoolArray, IntArray
 from forcetorque.base.errors import ExperimentError, known_names
@@ -158,46 +157,6 @@ def span_ns(where: str, span: schema.Interval, start: int, end: int) -> tuple[in
     return start + round(span.start_s * 1e9), end_ns
 
 
-class UsedSpan(Protocol):
-    """A span of time with a use."""
-
-    @property
-    def label(self) -> str:
-        """Name."""
-
-    @property
-    def start_ns(self) -> int:
-        """First instant; ns."""
-
-    @property
-    def end_ns(self) -> int:
-        """First instant after it; ns."""
-
-    @property
-    def use(self) -> Use:
-        """What it is for."""
-
-
-def refuse_overlap(file: Path, intervals: Sequence[UsedSpan]) -> None:
-    """Refuse samples that would be fitted and judged, or fitted twice.
-
-    Args:
-        file: The experiment file, for messages.
-        intervals: Its intervals.
-
-    Raises:
-        ExperimentError: If two that are used overlap.
-    """
-    used = [interval for interval in intervals if interval.use is not Use.IGNORE]
-    for k, first in enumerate(used):
-        for second in used[k + 1 :]:
-            if first.start_ns < second.end_ns and second.start_ns < first.end_ns:
-                raise ExperimentError(
-                    f"{file}: the intervals {first.label!r} ({first.use}) and {second.label!r} ({second.use}) overlap; "
-                    "a sample is fitted or judged once"
-                )
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RecordedSpan:
     """A span of time, start included and end excluded; it needs no support frame."""
@@ -221,6 +180,26 @@ class RecordedSpan:
             Whether each does; shape (n,).
         """
         return (stamp_ns >= self.start_ns) & (stamp_ns < self.end_ns)
+
+
+def refuse_overlap(file: Path, intervals: Sequence[Interval | RecordedSpan]) -> None:
+    """Refuse samples that would be fitted and judged, or fitted twice.
+
+    Args:
+        file: The experiment file, for messages.
+        intervals: Its intervals.
+
+    Raises:
+        ExperimentError: If two that are used overlap.
+    """
+    used = [interval for interval in intervals if interval.use is not Use.IGNORE]
+    for k, first in enumerate(used):
+        for second in used[k + 1 :]:
+            if first.start_ns < second.end_ns and second.start_ns < first.end_ns:
+                raise ExperimentError(
+                    f"{file}: the intervals {first.label!r} ({first.use}) and {second.label!r} ({second.use}) overlap; "
+                    "a sample is fitted or judged once"
+                )
 
 
 def read_spans(parsed: schema.ExperimentFile, file: Path, recording: Recording) -> tuple[RecordedSpan, ...]:
