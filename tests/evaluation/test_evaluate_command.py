@@ -167,7 +167,7 @@ def test_the_temperature_of_the_judged_samples_is_used(warm: Path, run: Run) -> 
     error = run("evaluate", PARQUET, "-c", "warm.json").error()
     assert error == (
         "error: parquet.toml: sensor 'arm_ft': sensor 'arm_ft': expected the variable 'temperature', the experiment "
-        "states none; add it as [[sensor.variable]]"
+        "specifies none; add it as [[sensor.variable]]"
     )
 
 

@@ -136,7 +136,7 @@ def _another_direction(file: Path) -> None:
     ("change", "message"),
     [
         (_another_serial, "serial number of .*grid_cold.toml, SIM001, got SIM002; .* leave one of the two out"),
-        (_no_prior, "prior matrix of .*grid_cold.toml, got another; .* state the same in both"),
+        (_no_prior, "prior matrix of .*grid_cold.toml, got another; .* specify the same in both"),
         (_another_direction, "mounting .*child_to_parent, got .*parent_to_child"),
     ],
 )

@@ -303,7 +303,7 @@ REFUSED = {
     ),
     "clock stated twice": (
         _replaced("[[sensor]]", '[[clock]]\nstream = "pose"\nto = "wrench"\ndelay_s = 0.0\n' * 2 + "[[sensor]]"),
-        "state every stream once",
+        "specify every stream once",
     ),
 }
 

@@ -92,7 +92,7 @@ def test_missing_derivatives_are_refused() -> None:
 
 def test_a_missing_joint_is_named_with_the_likeliest_one() -> None:
     """A misspelt joint brings the one that was meant and all others."""
-    known = "known: elbow, hip, knee; if it stood still all along, state where in fixed of"
+    known = "known: elbow, hip, knee; if it stood still all along, specify where in fixed of"
     with refused(RecordingError, f"the position of joint 'knees'; did you mean \"knee\".*{known}"):
         joint_motion_at(_two_streams(), ("hip", "knees"), even_stamps(2), window=WINDOW)
 

@@ -228,6 +228,6 @@ def test_a_calibration_with_temperature_tells_what_a_count_is_worth(warm: Path, 
     worst = [row["worst"] for row in result["sensors"][0]["resolution"]]
     np.testing.assert_allclose(worst, np.abs(matrix).sum(axis=1))
     edit(warm / PARQUET, TEMPERATURE, "")
-    assert "expected the variable 'temperature', the experiment states none" in (
+    assert "expected the variable 'temperature', the experiment specifies none" in (
         run("gains", PARQUET, "-c", "warm.json").error()
     )

@@ -69,7 +69,7 @@ def si_factor(unit: str) -> tuple[str, float]:
     """Look up a unit.
 
     Args:
-        unit: Unit as the file's description states it, with a factor in front where the numbers are counts of a part
+        unit: Unit as the file's description specifies it, with a factor in front where the numbers are counts of a part
             of it: `1e-6 N` where 1000000 of them are a newton.
 
     Returns:

@@ -151,7 +151,7 @@ def added_to(recording: Recording) -> tuple[str, ...]:
 
 
 def with_recording_notes(analysis: Callable[Options, Answer]) -> Callable[Options, Answer]:
-    """Let the result of an analysis state what is added to the recordings that it is given, and what is left out.
+    """Let the result of an analysis report what is added to the recordings that it is given, and what is left out.
 
     The first are warnings of the result; the second are records of it.
 

@@ -41,11 +41,11 @@ def require_fit(name: str, calibration: Calibration, experiment: Experiment, sen
     _refuse_other_reading(name, calibration, experiment, sensor)
     _refuse_other_counts(name, calibration, sensor)
     for variable in calibration.variables:
-        stated = sensor.variable(variable.name).linear
-        if stated.unit != variable.unit:
+        specified = sensor.variable(variable.name).linear
+        if specified.unit != variable.unit:
             raise ExperimentError(
                 f"calibration {name!r} has the variable {variable.name!r} in {variable.unit}, "
-                f"the experiment in {stated.unit}; convert when reading"
+                f"the experiment in {specified.unit}; convert when reading"
             )
 
 

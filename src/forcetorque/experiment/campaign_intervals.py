@@ -39,7 +39,7 @@ class CampaignRecording:
     identity: SensorIdentity
     """Which sensor it is, where and how it reads."""
     options: FitOptions
-    """Estimator as the file states it."""
+    """Estimator as the file specifies it."""
     channels: int
     """Number of channels of a raw reading."""
     roles: Mapping[str, Role]
@@ -125,7 +125,7 @@ def require_one_sensor(recordings: Sequence[CampaignRecording]) -> None:
         if not _same_matrix(first.sensor, other.sensor):
             raise ExperimentError(
                 f"{where}: expected the prior matrix of {first.file}, got another; "
-                "all data are fitted with one: state the same in both files"
+                "all data are fitted with one: specify the same in both files"
             )
 
 
@@ -169,7 +169,7 @@ class CampaignInterval:
     kind: str
     """Kind of motion."""
     session: str
-    """Stretch of time in which nothing was switched off: as the file states it, else the recording."""
+    """Power cycle, in which nothing was switched off: as the file specifies it, else the recording."""
     recording: str
     """Recording, by a name that is unique in the campaign."""
     experiment: str

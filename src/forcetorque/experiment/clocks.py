@@ -114,7 +114,7 @@ def shared_motion(
     raise RecordingError(
         f"{first!r} and {second!r} show nothing in common by which their clocks could be told: they hold "
         f"{' and '.join(held)}; expected a reading or an IMU beside joints of a robot on a support at rest, or beside "
-        "an orientation, gravity or acceleration; state delay_s"
+        "an orientation, gravity or acceleration; specify delay_s"
     )
 
 
@@ -283,7 +283,7 @@ def _require_order(entries: Sequence[ClockTable], file: Path) -> None:
             if name in moved | used:
                 raise ExperimentError(
                     f"{file}: clock[{index}]: {name!r} is brought to a clock, or others were brought to its, above; "
-                    "state every stream once, and first those whose clock others are brought to"
+                    "specify every stream once, and first those whose clock others are brought to"
                 )
         moved |= set(entry.streams)
         used.add(entry.to)
@@ -293,7 +293,7 @@ def _require_one_clock(entry: ClockTable, recording: Recording) -> None:
     clocks = {recording.stream(name).clock for name in entry.streams}
     if len(clocks) > 1:
         raise ExperimentError(
-            f"stream: expected streams of one clock, got {', '.join(sorted(clocks))}; state them apart"
+            f"stream: expected streams of one clock, got {', '.join(sorted(clocks))}; list them apart"
         )
 
 

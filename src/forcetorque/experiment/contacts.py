@@ -62,15 +62,17 @@ def read_contacts(
     return (*contacts, *_touched_beside(parsed, contacts))
 
 
-def _touched_beside(parsed: schema.ExperimentFile, stated: Sequence[ExperimentContact]) -> Iterator[ExperimentContact]:
+def _touched_beside(
+    parsed: schema.ExperimentFile, specified: Sequence[ExperimentContact]
+) -> Iterator[ExperimentContact]:
     """Links that intervals name as touched beside the first, which stands for the support, and no contact states."""
     spans: dict[str, list[str]] = {}
     for span in parsed.interval:
-        own = {entry.contact.link for entry in stated if entry.intervals is None or span.label in entry.intervals}
+        own = {entry.contact.link for entry in specified if entry.intervals is None or span.label in entry.intervals}
         for link in dict.fromkeys((span.touched or ())[1:]):
             if link not in own:
                 spans.setdefault(link, []).append(span.label)
-    names = {entry.contact.name for entry in stated}
+    names = {entry.contact.name for entry in specified}
     for link, labels in spans.items():
         name = link if link not in names else f"{link} touched"
         yield ExperimentContact(contact=Contact(link=link, name=name), intervals=tuple(labels))

@@ -161,7 +161,7 @@ class ProcessingTable(Table):
 
 
 class PoseTable(Table):
-    """Where a frame is in another, as `<origin>` of a URDF states it."""
+    """Where a frame is in another, as `<origin>` of a URDF specifies it."""
 
     rpy_rad: Annotated[FloatArray, ArrayField((3,))]
     """Roll, pitch, yaw about fixed axes; rad."""
@@ -232,7 +232,7 @@ class ClockTable(Table):
         if estimated and self.drift not in ("estimate", 0.0):
             raise PydanticCustomError(
                 "clock_drift",
-                'with delay_s = "estimate" drift is left out, or "estimate": a stated one needs a stated delay',
+                'with delay_s = "estimate" drift is left out, or "estimate": a specified one needs a specified delay',
             )
         if not estimated and (self.around_s is not None or self.within_s is not None):
             raise PydanticCustomError("clock_search", 'around_s and within_s are for delay_s = "estimate"')
@@ -245,7 +245,7 @@ class ClockTable(Table):
 
     @property
     def near_s(self) -> float:
-        """The stated delay, or the one around which it is looked for; s."""
+        """The specified delay, or the one around which it is looked for; s."""
         return (self.around_s or 0.0) if isinstance(self.delay_s, str) else self.delay_s
 
 

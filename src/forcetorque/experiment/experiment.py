@@ -37,7 +37,7 @@ class SensorVariable:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class FitOptions:
-    """Estimator as the file states it; what it leaves open depends on the sensor."""
+    """Estimator as the file specifies it; what it leaves open depends on the sensor."""
 
     generative: bool = True
     """Whether the generative model is fitted, and not a type of the thesis."""
@@ -104,11 +104,11 @@ class ExperimentSensor:
     limit_counts: float
     """Largest magnitude of a raw reading; counts."""
     full_scale: FloatArray | None = None
-    """Full scale per component, as the file states it; shape (6,); N, N m."""
+    """Full scale per component, as the file specifies it; shape (6,); N, N m."""
     reading_noise: FloatArray | None = None
-    """Standard deviation of a reading from sample to sample, as the file states it; shape (6,); N, N m."""
+    """Standard deviation of a reading from sample to sample, as the file specifies it; shape (6,); N, N m."""
     reading_deviation: FloatArray | None = None
-    """Standard deviation of what a reading is off all along, as the file states it; shape (6,); N, N m."""
+    """Standard deviation of what a reading is off all along, as the file specifies it; shape (6,); N, N m."""
     amplifier_gain: tuple[float, ...] | None = None
     """Gain of each channel's amplifier while it was recorded; None if it is not known."""
     allowed_gains: tuple[float, ...] | None = None
@@ -126,14 +126,14 @@ class ExperimentSensor:
             The variable.
 
         Raises:
-            ExperimentError: If the experiment states none of that name for the sensor.
+            ExperimentError: If the experiment specifies none of that name for the sensor.
         """
         for variable in self.variables:
             if variable.linear.name == name:
                 return variable
         known = ", ".join(variable.linear.name for variable in self.variables) or "none"
         raise ExperimentError(
-            f"sensor {self.name!r}: expected the variable {name!r}, the experiment states {known}; "
+            f"sensor {self.name!r}: expected the variable {name!r}, the experiment specifies {known}; "
             "add it as [[sensor.variable]]"
         )
 
@@ -149,9 +149,9 @@ class ExperimentContact:
     intervals: tuple[str, ...] | None = None
     """Labels of the intervals in which it may touch; None for all."""
     noise: FloatArray | None = None
-    """Standard deviation of a known wrench from sample to sample, as the file states it; shape (6,); N, N m."""
+    """Standard deviation of a known wrench from sample to sample, as the file specifies it; shape (6,); N, N m."""
     deviation: FloatArray | None = None
-    """Standard deviation of what a known wrench is off all along, as the file states it; shape (6,); N, N m."""
+    """Standard deviation of what a known wrench is off all along, as the file specifies it; shape (6,); N, N m."""
 
 
 class AttachedLoads(Protocol):
@@ -170,10 +170,10 @@ class AttachedLoads(Protocol):
         """Whether nothing of any load is to be estimated."""
 
     def nominal_model(self, stated: RobotModel) -> RobotModel:
-        """Give the robot with a load that moves the reading as the stated one does, or as any load would.
+        """Give the robot with a load that moves the reading as the specified one does, or as any load would.
 
         Args:
-            stated: The robot with what the file says of the load.
+            stated: The robot with the load as the file specifies it.
 
         Returns:
             The robot.
@@ -281,7 +281,7 @@ class Experiment:
     def model_on(self, support: Support | MovingSupport) -> RobotModel:
         """Give the robot as it stands on a support, with what hangs on a wrist sensor or on its links then.
 
-        A load that nobody stated is estimated when it is first asked for, and once.
+        A load that the file does not specify is estimated when it is first needed, and once.
 
         Args:
             support: Support of an interval.
@@ -320,7 +320,7 @@ class Experiment:
             label: Label of the interval; None for what lies in none.
 
         Returns:
-            The session that the file states; else the name of the recording, with as much of the path of its file as
+            The session that the file specifies; else the name of the recording, with as much of the path of its file as
             told several recordings of that name apart, longest first, and by itself.
         """
         role = None if label is None else self.roles.get(label)

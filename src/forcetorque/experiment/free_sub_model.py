@@ -270,7 +270,7 @@ class FreeSubModel:
 
 
 def possible_touch(run: SensorRun) -> str | None:
-    """Say where a contact that the file states would be beyond a sensor that is fitted as if nothing touched.
+    """Report a contact of the file that would be beyond a sensor which is fitted as if nothing touched.
 
     Args:
         run: The sensor.

@@ -70,12 +70,12 @@ def _file_type() -> type[UnrecordedFile]:
     )
 
 
-def load_unrecorded(file: Path, stated: Collection[str]) -> Experiment:
+def load_unrecorded(file: Path, specified: Collection[str]) -> Experiment:
     """Read an experiment file that lacks what was recorded.
 
     Args:
         file: TOML file.
-        stated: Names of its tables.
+        specified: Names of its tables.
 
     Returns:
         The experiment, without streams and intervals.
@@ -85,7 +85,7 @@ def load_unrecorded(file: Path, stated: Collection[str]) -> Experiment:
         FormatError: If a file does not have its form.
         ExperimentError: If the file contradicts itself or the robot.
     """
-    for recipe in sorted({"clock", "transform"}.intersection(stated)):
+    for recipe in sorted({"clock", "transform"}.intersection(specified)):
         raise ExperimentError(
             f"{file}: expected [recording], to whose streams [[{recipe}]] is done, got none; leave it out to plan what "
             "was not recorded yet"
@@ -183,9 +183,9 @@ def load_experiment(path: Path | str, purpose: Purpose = Purpose.SENSORS) -> Exp
         ExperimentError: If it lacks what the purpose needs, or contradicts itself, the robot or the recording.
     """
     file = Path(path)
-    stated = _tables(file) if purpose is Purpose.PLANNING else None
-    if stated is not None and not {"recording", "interval", "load"} & stated:
-        return load_unrecorded(file, stated)
+    specified = _tables(file) if purpose is Purpose.PLANNING else None
+    if specified is not None and not {"recording", "interval", "load"} & specified:
+        return load_unrecorded(file, specified)
     parsed = parse_experiment(file)
     if parsed.sensor:
         return _load(parsed, file)
@@ -206,7 +206,7 @@ def load_experiment(path: Path | str, purpose: Purpose = Purpose.SENSORS) -> Exp
 
 
 def _tables(file: Path) -> set[str] | None:
-    """What the file states; None of one that cannot be read, which is left to the reader that says why."""
+    """Names of the tables of a file; None for a file that cannot be read, which its reader reports."""
     try:
         return set(toml_content(file)[1])
     except (ForceTorqueError, OSError, ValueError, RecursionError):

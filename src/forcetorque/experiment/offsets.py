@@ -168,7 +168,7 @@ def sensor_offset(run: SensorRun, correction: Correction, policy: OffsetPolicy) 
 
     Raises:
         ExperimentError: If there is no such interval; if it is not known there what the sensor must read: something
-            else touches, no IMU tells gravity, nobody states it, or nothing is still.
+            else touches, no IMU tells gravity, the file does not specify it, or nothing is still.
         FitError: If there are too few samples to tell an error.
     """
     interval = labelled(run.experiment, policy.interval)
@@ -279,12 +279,12 @@ def one_link_interval(experiment: Experiment, policy: OffsetPolicy) -> Interval:
 
 def _support(experiment: Experiment, policy: OffsetPolicy, support: Support | MovingSupport) -> Support | MovingSupport:
     if policy.offset is Offset.ONE_LINK_FIXED_FRAME:
-        stated = [support] if isinstance(support, Support) else experiment.supports
-        fixed = next((one for one in stated if one.frame == support.frame), None)
+        specified = [support] if isinstance(support, Support) else experiment.supports
+        fixed = next((one for one in specified if one.frame == support.frame), None)
         if fixed is None:
             raise ExperimentError(
                 f"offset {policy}: expected [[support]] {support.frame!r} with gravity_direction, in its axes; it has "
-                f"an IMU: take {Offset.ONE_LINK_IMU}:{policy.interval}, or state the direction"
+                f"an IMU: take {Offset.ONE_LINK_IMU}:{policy.interval}, or specify the direction"
             )
         return fixed
     if isinstance(support, MovingSupport):

@@ -133,14 +133,14 @@ def full_scale_of(sensor: ExperimentSensor, accuracy: FloatArray | None, *, chan
 
     Args:
         sensor: The sensor.
-        accuracy: Accuracy of its reference, as the file states it; shape (6,); N, N m; None where it does not.
+        accuracy: Accuracy of its reference, as the file specifies it; shape (6,); N, N m; None where it does not.
         channels: Number c of channels of a raw reading.
 
     Returns:
         Full scales; shape (c,); counts, or N and N m where the logged wrench takes the place of counts.
 
     Raises:
-        ExperimentError: If a wrench takes the place of counts, and neither its full scale nor an accuracy is stated.
+        ExperimentError: If a wrench takes the place of counts, and neither full scale nor accuracy is specified.
     """
     if sensor.prior_source != "identity":
         return np.full(channels, sensor.limit_counts)

@@ -28,7 +28,7 @@ IDENTITY = "identity"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class StatedPrior:
+class SpecifiedPrior:
     """The prior matrix of a sensor."""
 
     matrix: FloatArray
@@ -36,10 +36,10 @@ class StatedPrior:
     source: str
     """Its file, as the experiment names it; `identity` where the reading itself takes the place of counts."""
     full_scale: FloatArray | None = None
-    """Full scale that a maker states; shape (6,); N, N m; None to take it from the counts that a channel can have."""
+    """Full scale by the maker; shape (6,); N, N m; None to take it from the counts that a channel can have."""
 
 
-def read_prior(where: str, entry: Sensor, inputs: Inputs) -> StatedPrior | None:
+def read_prior(where: str, entry: Sensor, inputs: Inputs) -> SpecifiedPrior | None:
     """Read the prior matrix of a sensor.
 
     Args:
@@ -48,7 +48,7 @@ def read_prior(where: str, entry: Sensor, inputs: Inputs) -> StatedPrior | None:
         inputs: Resolves and remembers the files.
 
     Returns:
-        The matrix; None where the file states none.
+        The matrix; None where the file specifies none.
 
     Raises:
         ExperimentError: If it is that of another sensor, or takes something else than counts.
@@ -56,23 +56,25 @@ def read_prior(where: str, entry: Sensor, inputs: Inputs) -> StatedPrior | None:
     if entry.prior is None:
         return None
     if entry.prior == IDENTITY:
-        return StatedPrior(matrix=np.eye(6), source=IDENTITY)
-    stated = entry.prior if isinstance(entry.prior, PriorTable) else PriorTable(path=Path(entry.prior))
+        return SpecifiedPrior(matrix=np.eye(6), source=IDENTITY)
+    specified = entry.prior if isinstance(entry.prior, PriorTable) else PriorTable(path=Path(entry.prior))
     with stated_in(where):
-        _require_serial(serial_number_in_name(stated.path), entry, stated.path)
-        file = read_prior_file(inputs.file(stated.path), force_unit=stated.force_unit, moment_unit=stated.moment_unit)
-        _require_serial(file.serial, entry, stated.path)
-        scale = _volts_per_count(file, stated)
+        _require_serial(serial_number_in_name(specified.path), entry, specified.path)
+        file = read_prior_file(
+            inputs.file(specified.path), force_unit=specified.force_unit, moment_unit=specified.moment_unit
+        )
+        _require_serial(file.serial, entry, specified.path)
+        scale = _volts_per_count(file, specified)
     maker = file.raw_unit is RawUnit.VOLTS
-    return StatedPrior(
+    return SpecifiedPrior(
         matrix=file.matrix * scale,
-        source=stated.path.as_posix(),
+        source=specified.path.as_posix(),
         # counts that a board's channel can have say its full scale; volts that a card may see do not
         full_scale=file.full_scale if maker else None,
     )
 
 
-def full_scale_of(entry: Sensor, prior: StatedPrior | None) -> FloatArray | None:
+def full_scale_of(entry: Sensor, prior: SpecifiedPrior | None) -> FloatArray | None:
     """Give the full scale of a sensor.
 
     Args:
@@ -95,24 +97,24 @@ def _require_serial(serial: str | None, entry: Sensor, path: Path) -> None:
         )
 
 
-def _volts_per_count(file: PriorFile, stated: PriorTable) -> float:
+def _volts_per_count(file: PriorFile, specified: PriorTable) -> float:
     """What makes the matrix per count."""
     if file.raw_unit is RawUnit.WRENCH:
         raise ExperimentError(
             f"prior: expected a matrix that takes counts, got {file.form}, which corrects wrenches of another "
-            'calibration; apply it to the log, or leave it out, and state prior = "identity" for a stream of wrenches'
+            'calibration; apply it to the log, or leave it out, and specify prior = "identity" for a stream of wrenches'
         )
     if file.raw_unit is RawUnit.COUNTS:
-        if stated.volts_per_count is not None:
+        if specified.volts_per_count is not None:
             raise ExperimentError(f"prior: expected no volts_per_count: {file.form} is per count; delete it")
         return 1.0
-    if stated.volts_per_count is None:
+    if specified.volts_per_count is None:
         raise ExperimentError(
             f"prior: expected volts_per_count, for {file.form} is per volt; write prior = {{ path = "
-            f'"{stated.path.as_posix()}", volts_per_count = ... }}: the span of the converter over its steps, 1.0 for '
-            "a log in volts"
+            f'"{specified.path.as_posix()}", volts_per_count = ... }}: the span of the converter over its steps, 1.0 '
+            "for a log in volts"
         )
-    return stated.volts_per_count
+    return specified.volts_per_count
 
 
 def declare_sensors(sensors: Sequence[Sensor], file: Path, model: RobotModel) -> RobotModel:
@@ -219,14 +221,15 @@ def _sensor(
 
 
 def _require_own_frame(where: str, entry: Sensor, model: RobotModel, frame: str | None, *, of_load: bool) -> None:
-    """Refuse a wrench that is stated in a frame which is known not to be the sensor's: nothing would move it there."""
+    """Refuse a wrench in a frame that is known not to be the sensor's: nothing would move it there."""
     joint = model.joints[model.sensor(entry.name).joint]
     if frame in {None, entry.name, entry.stream, joint.parent, joint.child}:
         return
     if of_load or frame in model.links:  # other names are those of ports and devices
         raise ExperimentError(
             f"{where}: expected a wrench in the frame of {entry.name!r}, {joint.parent!r} or {joint.child!r}, got one "
-            f"in {frame!r} from the stream {entry.stream!r}; state [[transform]] to move it, or the frame that it is in"
+            f"in {frame!r} from the stream {entry.stream!r}; specify [[transform]] to move it, or "
+            "the frame that it is in"
         )
 
 

@@ -52,11 +52,11 @@ def read_streams(
         joint_units={name: joint.type.unit for name, joint in model.joints.items()} if model else {},
     )
     reading = read_log(log, context)
-    stated = {"format": log.format, "path": log.path.as_posix()}
+    specified = {"format": log.format, "path": log.path.as_posix()}
     logged = Recording(
         streams=_by_name(file, reading.streams),
         findings=reading.findings,
-        origin=stated if reading.origin is None else reading.origin,
+        origin=specified if reading.origin is None else reading.origin,
     )
     return follow_recipes(parsed, file, logged, model, clocks_must_tell=clocks_must_tell)
 

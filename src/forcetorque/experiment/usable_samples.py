@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which samples of a sensor belong into fits and evaluations, and what results state of those left out."""
+"""Which samples of a sensor belong into fits and evaluations, and what results report of those left out."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ class Offset(StrEnum):
     """From the still seconds of an interval in which the world touches one link alone, be it the foot that the robot
     stands on or the link that it hangs from; an IMU tells gravity (thesis 5.6)."""
     ONE_LINK_FIXED_FRAME = "one-link-fixed-frame"
-    """The same with gravity as it is stated for that link, such as along the normal of the sole (thesis 5.6)."""
+    """The same with gravity as it is specified for that link, such as along the normal of the sole (thesis 5.6)."""
 
 
 KNOWN_BEFORE = (Offset.FIRST_SECOND, Offset.FITTED)

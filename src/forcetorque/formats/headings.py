@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Headings of tables that state a unit, such as `fx [N]`, `time_s` or `elbow (rad)`; none is inferred for others."""
+"""Headings of tables that specify a unit, such as `fx [N]`, `time_s` or `elbow (rad)`; none is inferred for others."""
 
 from __future__ import annotations
 
@@ -91,8 +91,8 @@ def read_heading(text: str) -> Heading:
     name, _, last = plain.rpartition("_")
     small = last.lower()
     # `_N` is newton and `_n` may be a number
-    stated = small in _BEHIND_LOW_LINE and (small != "n" or last == "N")
-    if name and (stated or (small in _TIMES and name.lower() in _TIME_NAMES)):
+    specified = small in _BEHIND_LOW_LINE and (small != "n" or last == "N")
+    if name and (specified or (small in _TIMES and name.lower() in _TIME_NAMES)):
         return Heading(text, name, _SPELLINGS[small])
     return Heading(text, plain, None)
 

@@ -46,7 +46,7 @@ class LogReading:
     findings: tuple[Finding, ...] = ()
     """What was found while reading them."""
     origin: Mapping[str, str] | None = None
-    """What the log itself states about its origin; None if nothing."""
+    """What the log itself specifies about its origin; None if nothing."""
 
     @classmethod
     def of(
@@ -79,13 +79,13 @@ class LogDescription:
     """A log without an experiment file, under names that are made up from its files."""
 
     table: LogTable
-    """What the `[recording]` table of an experiment file would state of it."""
+    """What the `[recording]` table of an experiment file would specify of it."""
     reading: LogReading
     """What is in it, and what could not be read as a finding."""
 
 
 class LogContext(Protocol):
-    """What a reader may know of the experiment that states a log.
+    """What a reader may know of the experiment that specifies a log.
 
     Paths are as the file has them. Files that are resolved here are the inputs of the experiment: all that is read must
     be, for they are what is hashed.
@@ -112,15 +112,15 @@ class LogContext(Protocol):
         """Put the table of `[recording]` that is being read, such as `stream[2]`, in front of errors."""
 
 
-StatedLog = TypeVar("StatedLog", bound=LogTable)
+SpecifiedLog = TypeVar("SpecifiedLog", bound=LogTable)
 
 
-class LogFormat(Protocol[StatedLog]):
+class LogFormat(Protocol[SpecifiedLog]):
     """A format of logs; `forcetorque.formats.registry` lists them all."""
 
     @property
-    def table(self) -> type[StatedLog]:
-        """Form of the `[recording]` table that states such a log; its `format` is the name of the format."""
+    def table(self) -> type[SpecifiedLog]:
+        """Form of the `[recording]` table that specifies such a log; its `format` is the name of the format."""
 
     @property
     def sign(self) -> str | None:
@@ -143,17 +143,17 @@ class LogFormat(Protocol[StatedLog]):
             path: File or folder that is recognised.
 
         Returns:
-            What is in it, and how an experiment file would state that.
+            What is in it, and how an experiment file would specify that.
 
         Raises:
             ForceTorqueError: If nothing of it can be read.
         """
 
-    def read(self, stated: StatedLog, context: LogContext) -> LogReading:
+    def read(self, specified: SpecifiedLog, context: LogContext) -> LogReading:
         """Read what an experiment file states.
 
         Args:
-            stated: The `[recording]` table.
+            specified: The `[recording]` table.
             context: What else the experiment file specifies; resolves the files.
 
         Returns:
@@ -193,7 +193,7 @@ class SketchedColumns:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LogSketch:
-    """A log that does not state what it holds."""
+    """A log that does not specify what it holds."""
 
     path: Path
     """The file."""
@@ -214,7 +214,7 @@ class LogSketch:
     quaternion: tuple[int, ...] = ()
     """Places of the first columns of four that have norm 1 in each of the first rows, as quaternions do."""
     skipped_arrays: Mapping[str, str] = field(default_factory=dict)
-    """Of a file of arrays what no experiment file can state, such as `1 x 3 struct array`, by its name."""
+    """Of a file of arrays what no experiment file can specify, such as `1 x 3 struct array`, by its name."""
     ranged_rows: int | None = None
     """How many rows, from the first, the smallest, largest and mean numbers are of; None for all."""
     stopped: str | None = None
@@ -294,7 +294,7 @@ def not_read_message(skipped: Mapping[str, str]) -> str:
 
 @runtime_checkable
 class SketchingFormat(Protocol):
-    """A format whose logs state no units."""
+    """A format whose logs specify no units."""
 
     def sketch(self, path: Path) -> LogSketch:
         """Look at a log that is recognised.

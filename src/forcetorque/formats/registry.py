@@ -41,7 +41,7 @@ class ParquetLog(LogTable):
 
 
 class ParquetFormat:
-    """Folders that `write_recording` wrote; their intervals are not read, an experiment states its own."""
+    """Folders that `write_recording` wrote; their intervals are not read, an experiment specifies its own."""
 
     table = ParquetLog
     sign = INDEX_FILE
@@ -54,9 +54,9 @@ class ParquetFormat:
         """Read all of it: its index lists what is in it."""
         return LogDescription(table=ParquetLog(format="parquet", path=path), reading=_read(path))
 
-    def read(self, stated: ParquetLog, context: LogContext) -> LogReading:
+    def read(self, specified: ParquetLog, context: LogContext) -> LogReading:
         """Read all of it."""
-        return _read(context.below(stated.path, "*.parquet", INDEX_FILE))
+        return _read(context.below(specified.path, "*.parquet", INDEX_FILE))
 
 
 def _read(folder: Path) -> LogReading:
@@ -84,8 +84,8 @@ def not_a_log_reason(path: Path) -> str | None:
         return f"{path}: expected a log, got the URDF of a robot: `forcetorque init LOG --urdf {path}`"
     if holds_prior(path):
         return (
-            f"{path}: expected a log, got the calibration that a sensor came with: state it as prior of the sensor in "
-            f"the file that `forcetorque init LOG` begins; `forcetorque inspect {path}` shows it"
+            f"{path}: expected a log, got the calibration that a sensor came with: specify it as prior of the sensor "
+            f"in the file that `forcetorque init LOG` begins; `forcetorque inspect {path}` shows it"
         )
     return None
 
@@ -144,22 +144,22 @@ def format_named(name: str) -> LogFormat[Any]:
     return formats[name]
 
 
-def read_log(stated: LogTable, context: LogContext) -> LogReading:
+def read_log(specified: LogTable, context: LogContext) -> LogReading:
     """Read the log that an experiment file states, by its format.
 
     Args:
-        stated: The `[recording]` table.
+        specified: The `[recording]` table.
         context: What else the experiment file specifies; resolves the files.
 
     Returns:
         Streams and findings.
     """
-    log_format = format_named(stated.format)
-    if not stated.continued_in:
-        return log_format.read(stated, context)
-    paths = (stated.path, *stated.continued_in)
+    log_format = format_named(specified.format)
+    if not specified.continued_in:
+        return log_format.read(specified, context)
+    paths = (specified.path, *specified.continued_in)
     readings = [
-        log_format.read(stated.model_copy(update={"path": path, "continued_in": ()}), context) for path in paths
+        log_format.read(specified.model_copy(update={"path": path, "continued_in": ()}), context) for path in paths
     ]
     with context.stated_in("continued_in"):
         return _joined(readings, [path.as_posix() for path in paths])

@@ -19,7 +19,7 @@ from forcetorque.recording.frames import ROLL_PITCH_YAW, EulerAxes, OrientationF
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Labels, Quantity
 
-STATE_SENSE = 'orientation = { sense = "sensor_to_world" } or "world_to_sensor"'
+SPECIFY_SENSE = 'orientation = { sense = "sensor_to_world" } or "world_to_sensor"'
 """What to specify of orientations whose sense a log does not state."""
 
 
@@ -95,7 +95,7 @@ class OrientationTable(SenseTable):
         return self.applied_to(self._form())
 
 
-class StatedSignal(Table):
+class SpecifiedSignal(Table):
     """Columns that make up one quantity."""
 
     quantity: Text
@@ -106,7 +106,7 @@ class StatedSignal(Table):
     """Of the quantity `orientation`, which needs it, how it is written; the stream then has `gravity` too."""
 
     @model_validator(mode="after")
-    def _orientation_is_stated(self) -> StatedSignal:
+    def _orientation_is_specified(self) -> SpecifiedSignal:
         if (self.quantity == "orientation") != (self.orientation is not None):
             raise PydanticCustomError(
                 "orientation_rules", "orientation, with form and sense, is for the quantity orientation, which needs it"
@@ -120,7 +120,7 @@ _LATEST_S = 9.2e9
 """Later instants do not fit into 64 bits of nanoseconds."""
 
 
-class StatedRate(Table):
+class SpecifiedRate(Table):
     """Rows that were taken at even steps of time."""
 
     rate_hz: Positive | None = None
@@ -129,7 +129,7 @@ class StatedRate(Table):
     """With `rate_hz`: time of the first row since the epoch of the clock; s; of several files one for each."""
 
     @model_validator(mode="after")
-    def _rate_has_a_start(self) -> StatedRate:
+    def _rate_has_a_start(self) -> SpecifiedRate:
         if (self.rate_hz is None) != (self.start_s is None):
             raise PydanticCustomError(
                 "rate_rules",
@@ -183,7 +183,7 @@ def even_stamps(count: int, *, rate_hz: float, start_s: float) -> IntArray:
     return round(start_s * 1e9) + np.rint(np.arange(count) * (1e9 / rate_hz)).astype(np.int64)
 
 
-def stated_quantity(name: str, *, where: str, columns: int) -> Quantity:
+def specified_quantity(name: str, *, where: str, columns: int) -> Quantity:
     """Find a quantity that has as many columns as are specified.
 
     Args:

@@ -177,7 +177,7 @@ def estimate_delay(
     if abs(best) == most:
         raise RecordingError(
             f"the delay that explains most lies at the end of what was looked through, {around_s + best * step:.3g} s; "
-            "state around_s, where it is to be looked for, or a larger within_s"
+            "specify around_s, where it is to be looked for, or a larger within_s"
         )
     equation = DelayEquation(
         [at[most:-most] for at in grids],

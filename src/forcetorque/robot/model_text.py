@@ -58,7 +58,7 @@ def _add_link(robot: Element, name: str, inertia: Inertia) -> None:
     if inertia.mass == 0.0 and inertia.first_moment.any():
         raise RobotError(
             f"link {name!r}: expected a mass where there is a first moment, got 0 kg with "
-            f"{inertia.first_moment.tolist()} kg m; URDF states a centre of mass"
+            f"{inertia.first_moment.tolist()} kg m; URDF specifies a centre of mass"
         )
     centre = inertia.first_moment / (inertia.mass or 1.0)
     hat = skew(centre)

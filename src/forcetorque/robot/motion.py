@@ -137,7 +137,7 @@ class RootMotion:
 
 
 ONE_TURN = 2.0 * np.pi
-"""rad; a joint that stands still is stated within it."""
+"""rad; a joint that stands still is specified within it."""
 
 
 def fix_joints(model: RobotModel, positions: Mapping[str, float]) -> RobotModel:
@@ -165,7 +165,7 @@ def fix_joints(model: RobotModel, positions: Mapping[str, float]) -> RobotModel:
                 f"joint {name!r}: expected rad within one turn, got {positions[name]:g}; is that in degrees?"
             )
         if (mimic := joints[name].mimic) is not None:
-            raise RobotError(f"joint {name!r}: it mimics {mimic.leader!r}; state that one")
+            raise RobotError(f"joint {name!r}: it mimics {mimic.leader!r}; specify that one")
     still = dict(positions)
     while still:
         for name, position in still.items():
@@ -193,7 +193,7 @@ def _displacement(joint: Joint, position: float) -> FloatArray:
 
 
 CHECK_JOINT_UNIT = (
-    "check the unit of the joints (degrees or radians, as units of [[recording.stream]] or recording.json state it; "
+    "check the unit of the joints (degrees or radians, as units of [[recording.stream]] or recording.json specify it; "
     "arrays are in radians)"
 )
 """What is to be done where joints may be in another unit."""
@@ -273,7 +273,7 @@ def _holders(recording: Recording, joints: Sequence[str], source: str) -> list[t
             if source == "position":
                 hint = ""
                 still = (
-                    "; if it stood still all along, state where in fixed of [robot], among arrays repeat its position"
+                    "; if it stood still all along, specify where in fixed of [robot], among arrays repeat its position"
                 )
             raise RecordingError(
                 f"no stream holds the {source} of joint {joint!r}{hint}; {known_names(joint, signals)}{still}"

@@ -135,7 +135,7 @@ def optional_number(place: UrdfPlace, element: Element, attribute: str) -> float
 
 
 def origin(place: UrdfPlace, element: Element | None) -> FloatArray:
-    """Give the pose that an element's `<origin>` states; the identity where there is none.
+    """Give the pose that an element's `<origin>` specifies; the identity where there is none.
 
     Args:
         place: Where the element is.
@@ -251,7 +251,7 @@ def _simulated_pose(place: UrdfPlace, tag: Element) -> FloatArray:
 
 
 def _read_common(place: UrdfPlace, tag: Element, *, name: str, joint: str, pose: FloatArray) -> ForceTorqueSensor:
-    # child and child_to_parent are the defaults that the SDF specification states
+    # child and child_to_parent are the defaults that the SDF specification defines
     frame = (tag.findtext("force_torque/frame") or SensorFrame.CHILD).strip()
     direction = (tag.findtext("force_torque/measure_direction") or MeasureDirection.CHILD_TO_PARENT).strip()
     if frame not in list(SensorFrame):

@@ -111,8 +111,8 @@ DAMAGED = {
     "negative size": (SOUND.replace(struct.pack("<2i", 3, 3), struct.pack("<2i", -3, -3)), "dimensions"),
     "numbers of no type": (SOUND.replace(struct.pack("<2I", 9, 72), struct.pack("<2I", 8, 72)), "numbers of type 8"),
     "packed, cut": (_packed(SOUND)[:-9], "beyond its end"),
-    "packed, longer than it says": (_packed(SOUND + SOUND), "not as many as its tag states"),
-    "packed, shorter than it says": (_packed(SOUND[:-16]), "not as many as its tag states"),
+    "packed, longer than it says": (_packed(SOUND + SOUND), "not as many as its tag specifies"),
+    "packed, shorter than it says": (_packed(SOUND[:-16]), "not as many as its tag specifies"),
     "packed twice": (_packed(_packed(SOUND)), "a packed element of type 15"),
 }
 

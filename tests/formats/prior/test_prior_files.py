@@ -243,7 +243,7 @@ def test_a_model_that_no_matrix_does_is_refused(tmp_path: Path, old: str, new: s
 def test_a_plain_table_needs_its_units(tmp_path: Path) -> None:
     """They are stated or it is refused; millimetres become metres, and any number of channels is taken."""
     text = "\n".join("\t".join(map(repr, row)) for row in np.hstack([MATRIX, MATRIX]).tolist())
-    with pytest.raises(FormatError, match="expected its units, which plain numbers do not state"):
+    with pytest.raises(FormatError, match="expected its units, which plain numbers do not specify"):
         _read(tmp_path, text)
     read = _read(tmp_path, text, force_unit="kN", moment_unit="N mm")
     np.testing.assert_allclose(read.matrix, np.hstack([MATRIX, MATRIX]) * np.repeat([1e3, 1e-3], 3)[:, None])

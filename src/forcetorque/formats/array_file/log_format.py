@@ -140,7 +140,7 @@ def _rows_and_columns(shape: tuple[int, ...], *, matlab: bool) -> tuple[int, int
 
 
 class _ArrayFormat(ABC):
-    """Single files of arrays, which state no units: they are recognised to report what must be specified."""
+    """Single files of arrays, which specify no units: they are recognised to report what must be specified."""
 
     sign: ClassVar[str]
 
@@ -177,18 +177,18 @@ class _ArrayFormat(ABC):
         """Refuse: nothing is inferred from names or numbers; list which there are."""
         names = [f"{name} ({rows} x {columns})" for name, (rows, columns) in self._contents(path)[0].items()]
         raise FormatError(
-            f"{path}: expected a log that states what it holds, got the variables {', '.join(names) or 'none'}; "
+            f"{path}: expected a log that specifies what it holds, got the variables {', '.join(names) or 'none'}; "
             "specify their columns and units in an experiment file; `forcetorque init` begins one"
         )
 
-    def read(self, stated: ArrayLog, context: LogContext) -> LogReading:
+    def read(self, specified: ArrayLog, context: LogContext) -> LogReading:
         """Read every array that is specified."""
-        path = context.file(stated.path)
+        path = context.file(specified.path)
         shapes, skipped = self._contents(path)
-        arrays = self._read(path, shapes, wanted_arrays(stated.stream))
+        arrays = self._read(path, shapes, wanted_arrays(specified.stream))
         streams: dict[str, Stream] = {}
         findings: list[Finding] = []
-        for k, entry in enumerate(stated.stream):
+        for k, entry in enumerate(specified.stream):
             with context.stated_in(f"stream[{k}]"):
                 for name in wanted_arrays((entry,)):
                     if name in skipped:

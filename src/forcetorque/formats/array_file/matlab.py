@@ -174,7 +174,7 @@ def _unpacked(path: Path, where: str, data: bytes, order: str, before: int) -> b
     except zlib.error as error:
         raise _damaged(where, str(error)) from error
     if len(content) != size or more or not unpacker.eof:
-        raise _damaged(where, "packed bytes that are not as many as its tag states")
+        raise _damaged(where, "packed bytes that are not as many as its tag specifies")
     return content
 
 

@@ -17,7 +17,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.formats.log_format import LogTable, StreamReading
-from forcetorque.formats.signals import StatedRate, StatedSignal, even_stamps, stated_quantity, units_in_si
+from forcetorque.formats.signals import SpecifiedRate, SpecifiedSignal, even_stamps, specified_quantity, units_in_si
 from forcetorque.recording.frames import orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
@@ -41,7 +41,7 @@ class TimeTable(Table):
     """Unit of the times, since the epoch of the clock."""
 
 
-class ArraySignal(StatedSignal):
+class ArraySignal(SpecifiedSignal):
     """Columns of an array that make up one quantity."""
 
     variable: Text | None = None
@@ -67,7 +67,7 @@ class ArraySignal(StatedSignal):
         return self
 
 
-class ArrayStream(StatedRate):
+class ArrayStream(SpecifiedRate):
     """One array of the file, or several with the same rows."""
 
     name: Text
@@ -273,10 +273,10 @@ def _variables(entry: ArrayStream) -> list[str]:
 def _signals(
     path: Path, entry: ArrayStream, arrays: Mapping[str, FloatArray]
 ) -> tuple[dict[str, Signal], tuple[Finding, ...]]:
-    stated = [signal.quantity for signal in entry.signal]
-    if len(set(stated)) != len(stated):
+    specified = [signal.quantity for signal in entry.signal]
+    if len(set(specified)) != len(specified):
         raise FormatError(f"{path}: {entry.name}: expected every quantity once, got one of them twice")
-    if {"orientation", "gravity"} <= set(stated):
+    if {"orientation", "gravity"} <= set(specified):
         raise FormatError(
             f"{path}: {entry.name}: expected orientation or gravity, which follows from it, got both; specify one"
         )
@@ -301,21 +301,21 @@ def _signals(
     return signals, findings
 
 
-def _signal(place: str, stated: ArraySignal, values: FloatArray) -> Signal:
-    first, last = stated.columns
+def _signal(place: str, specified: ArraySignal, values: FloatArray) -> Signal:
+    first, last = specified.columns
     count = last - first + 1
-    quantity = stated_quantity(stated.quantity, where=place, columns=count)
+    quantity = specified_quantity(specified.quantity, where=place, columns=count)
     _column(place, values, last)
-    labels = (stated.unit,) * count if isinstance(stated.unit, str) else stated.unit
+    labels = (specified.unit,) * count if isinstance(specified.unit, str) else specified.unit
     factors = units_in_si(quantity, labels, where=place, columns=range(first, last + 1))
     with np.errstate(invalid="ignore", over="ignore"):  # damaged files hold signalling NaN
         scaled = values[:, first - 1 : last] * [factor for _, factor in factors]
     return Signal(
-        quantity=stated.quantity,
+        quantity=specified.quantity,
         values=scaled,
-        columns=quantity.columns or stated.names or tuple(str(k) for k in range(count)),
+        columns=quantity.columns or specified.names or tuple(str(k) for k in range(count)),
         units=tuple(unit for unit, _ in factors),
-        frame=stated.frame,
+        frame=specified.frame,
     )
 
 

@@ -105,14 +105,14 @@ def _matrix(calibration: Element, version: str, gauges: int) -> tuple[FloatArray
             )
         return moved, np.array([_positive(axis, "max") for axis in axes])
     users = _by_name(calibration, "UserAxis")
-    stated = np.stack([_values(axis, gauges) for axis in users])
-    if moved is not None and not np.allclose(stated, moved, rtol=1e-4, atol=_ROUNDING):
-        row = int(np.abs(stated - moved).max(axis=1).argmax())
+    specified = np.stack([_values(axis, gauges) for axis in users])
+    if moved is not None and not np.allclose(specified, moved, rtol=1e-4, atol=_ROUNDING):
+        row = int(np.abs(specified - moved).max(axis=1).argmax())
         raise FormatError(
             f"UserAxis {_AXES[row]}: expected what Axis and BasicTransform give, got numbers that differ by up to "
-            f"{np.abs(stated - moved).max():.3g}; the file was changed, get another copy"
+            f"{np.abs(specified - moved).max():.3g}; the file was changed, get another copy"
         )
-    return stated, np.array([_positive(axis, "max") for axis in users])
+    return specified, np.array([_positive(axis, "max") for axis in users])
 
 
 def _moved(matrix: FloatArray, transform: Element | None, calibration: Element) -> FloatArray:

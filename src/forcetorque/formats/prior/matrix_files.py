@@ -77,7 +77,7 @@ class PlainTable:
             raise FormatError(f"{path}: expected {self.sign}")
         if force_unit is None or moment_unit is None:
             raise FormatError(
-                f"{path}: expected its units, which plain numbers do not state; write "
+                f"{path}: expected its units, which plain numbers do not specify; write "
                 f'prior = {{ path = "{path.name}", force_unit = "N", moment_unit = "N m" }}'
             )
         factors = [_factor(path, unit, si) for unit, si in ((force_unit, "N"), (moment_unit, "N m"))]
@@ -242,7 +242,7 @@ def _read(root: Element | None) -> PolynomialModel:
         raise FormatError(
             f"expected a linear model (np 1) of six outputs without memory (na 0, nb 0 or 1), got np {order}, "
             f"ny {outputs}, na {lags[0]}, nb {lags[1]}; no matrix does what that does: apply it to the log, "
-            'and state prior = "identity" for a stream of wrenches'
+            'and specify prior = "identity" for a stream of wrenches'
         )
     rows = sorted((int(match[1]), text) for name, text in params.items() if (match := _ROW.fullmatch(name)))
     if len(rows) != inputs + 1 or [k for k, _ in rows] != list(range(rows[0][0], rows[0][0] + len(rows))):

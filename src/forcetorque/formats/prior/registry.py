@@ -58,7 +58,7 @@ def read_prior_file(path: Path | str, *, force_unit: str | None = None, moment_u
 
     Args:
         path: File.
-        force_unit: Unit of the first three rows, for plain numbers, which state none.
+        force_unit: Unit of the first three rows, for plain numbers, which specify none.
         moment_unit: Unit of the last three rows, for plain numbers.
 
     Returns:
@@ -81,7 +81,7 @@ def read_prior_file(path: Path | str, *, force_unit: str | None = None, moment_u
         return known[0].read(file, text, force_unit=force_unit, moment_unit=moment_unit)
     if force_unit or moment_unit:
         raise FormatError(
-            f"{file}: expected no force_unit nor moment_unit: it is {known[0].sign}, which states its own"
+            f"{file}: expected no force_unit nor moment_unit: it is {known[0].sign}, which specifies its own"
         )
     return known[0].read(file, text)
 

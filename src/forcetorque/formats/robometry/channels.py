@@ -328,11 +328,11 @@ def orientation_stream(
 
 
 def _in_si(
-    channel: Channel, stated: Mapping[str, Sequence[str]], allowed: Sequence[str]
+    channel: Channel, specified: Mapping[str, Sequence[str]], allowed: Sequence[str]
 ) -> tuple[FloatArray, tuple[str, ...]]:
     """Samples in SI units, by the labels of the file."""
     width = channel.values.shape[1]
-    labels = _known_labels(channel, stated.get(channel.path))
+    labels = _known_labels(channel, specified.get(channel.path))
     units = [si_factor(label) for label in (labels * width if len(labels) == 1 else labels)]
     if len(units) != width or not {unit for unit, _ in units} <= set(allowed):
         raise UnitError(
@@ -344,20 +344,20 @@ def _in_si(
     return values, tuple(unit for unit, _ in units)
 
 
-def _known_labels(channel: Channel, stated: Sequence[str] | None) -> tuple[str, ...]:
+def _known_labels(channel: Channel, specified: Sequence[str] | None) -> tuple[str, ...]:
     labels = tuple(_spelled(label) for label in channel.labels)
     known = bool(labels) and all(label in SI_FACTORS for label in labels)
-    if known and stated is not None and labels != tuple(stated):
+    if known and specified is not None and labels != tuple(specified):
         raise UnitError(
-            f"{channel.path}: the file labels it {', '.join(labels)}, units has {', '.join(stated)}; delete it"
+            f"{channel.path}: the file labels it {', '.join(labels)}, units has {', '.join(specified)}; delete it"
         )
-    if not known and stated is None:
+    if not known and specified is None:
         got = f"got {', '.join(map(repr, labels[:6]))}" if labels else "the file has none"
         raise UnitError(
             f"{channel.path}: expected a unit as label, {got}; specify it, such as "
             f'units = {{ "{channel.path}" = "..." }}'
         )
-    return labels if known or stated is None else tuple(stated)
+    return labels if known or specified is None else tuple(specified)
 
 
 def _spelled(label: str) -> str:

@@ -27,7 +27,7 @@ from forcetorque.formats.robometry.channels import (
     sensor_stream,
     texts,
 )
-from forcetorque.formats.signals import STATE_SENSE, SenseTable
+from forcetorque.formats.signals import SPECIFY_SENSE, SenseTable
 from forcetorque.recording.frames import ROLL_PITCH_YAW
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Stream
@@ -97,17 +97,17 @@ class RobometryFormat:
             reading=LogReading.of(readings.values(), unread=unread, origin=origin),
         )
 
-    def read(self, stated: RobometryLog, context: LogContext) -> LogReading:
+    def read(self, specified: RobometryLog, context: LogContext) -> LogReading:
         """Read every channel that is specified."""
-        path = context.file(stated.path)
-        units = {channel: (unit,) if isinstance(unit, str) else unit for channel, unit in stated.units.items()}
+        path = context.file(specified.path)
+        units = {channel: (unit,) if isinstance(unit, str) else unit for channel, unit in specified.units.items()}
         readings = []
         with opened_hdf5(path) as file:
             group = _group(file)
             require_readable(datasets(group))
             paths = tuple(channel_paths(group))
             _require_known(path, "units", units, paths)
-            for k, entry in enumerate(stated.stream):
+            for k, entry in enumerate(specified.stream):
                 with context.stated_in(f"stream[{k}]"):
                     framed = entry.model_copy(update={"frame": entry.frame or context.sensors.get(entry.name)})
                     reading = _read(group, paths, framed, units=units)
@@ -142,8 +142,8 @@ def _read(
     quantity = sensor_quantity(entry.channel)
     if (quantity == "orientation") != (entry.orientation is not None):
         raise FormatError(
-            f"{file}: {entry.channel}: expected {STATE_SENSE} for roll, pitch and yaw, of which the file does not say "
-            "what they turn into what, and for nothing else"
+            f"{file}: {entry.channel}: expected {SPECIFY_SENSE} for roll, pitch and yaw, whose sense the file "
+            "does not specify, and for nothing else"
         )
     if entry.channel == JOINTS:
         joints = [f"{JOINTS}/{leaf}" for leaf in JOINT_QUANTITIES if f"{JOINTS}/{leaf}" in paths]

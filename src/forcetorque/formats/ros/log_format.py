@@ -26,7 +26,7 @@ from forcetorque.formats.ros.messages import (
     decode,
     not_measured,
 )
-from forcetorque.formats.signals import STATE_SENSE, WorldTable
+from forcetorque.formats.signals import SPECIFY_SENSE, WorldTable
 from forcetorque.recording.frames import QUATERNION_XYZW, OrientationLayout, OrientationSense, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream
@@ -242,7 +242,7 @@ def _by_joint(samples: Samples, quantity: str) -> FloatArray:
 
 
 class RosOrientation(WorldTable):
-    """The world of an orientation, and what the message does not state of it."""
+    """The world of an orientation, and what the message does not specify of it."""
 
     sense: OrientationSense | None = None
     """Of Imu and QuaternionStamped, which need it: `sensor_to_world` where the quaternion rotates vectors along the
@@ -319,13 +319,13 @@ class RosFormat:
             reading=LogReading.of(readings.values(), unread=unread, origin={"format": "ros", "path": str(path)}),
         )
 
-    def read(self, stated: RosLog, context: LogContext) -> LogReading:
+    def read(self, specified: RosLog, context: LogContext) -> LogReading:
         """Read every topic that is specified."""
-        is_file = bool(stated.path.suffix in (".bag", ".mcap", ".db3"))
-        path = context.file(stated.path) if is_file else context.below(stated.path, *bag_files())
+        is_file = bool(specified.path.suffix in (".bag", ".mcap", ".db3"))
+        path = context.file(specified.path) if is_file else context.below(specified.path, *bag_files())
         readings = []
         with opened_bag(path) as bag:
-            for k, entry in enumerate(stated.stream):
+            for k, entry in enumerate(specified.stream):
                 with context.stated_in(f"stream[{k}]"):
                     framed = entry.model_copy(update={"frame": entry.frame or context.sensors.get(entry.name)})
                     readings.append(_read(bag, framed, context.joint_units))
@@ -336,7 +336,7 @@ def _not_described(kind: str) -> str | None:
     if kind in POSE_TYPES:
         return "poses: specify frame, whose they are, and world, in which they are seen, for each that is wanted"
     if kind == QUATERNION_TYPE:
-        return f"orientations: specify frame, whose they are, and {STATE_SENSE}"
+        return f"orientations: specify frame, whose they are, and {SPECIFY_SENSE}"
     return None if kind in MESSAGES else f"nothing reads messages of {kind}"
 
 
@@ -360,24 +360,24 @@ def _read(bag: Bag, entry: RosStream, joint_units: Mapping[str, str]) -> StreamR
 
 def _layout(place: str, kind: str, entry: RosStream) -> OrientationLayout | None:
     """What the quaternions of a topic mean, if they are wanted; ROS fixes their order, and the sense of poses."""
-    poses, stated = kind in POSE_TYPES, entry.orientation
+    poses, specified = kind in POSE_TYPES, entry.orientation
     if poses != (entry.world is not None) or (poses and entry.frame is None):
         raise FormatError(
             f"{place}: expected frame and world for poses and transforms of tf, and world for nothing else"
         )
     if poses:
-        if stated is not None and stated.sense is not None:
+        if specified is not None and specified.sense is not None:
             raise FormatError(f"{place}: expected no sense: a pose rotates vectors from its frame to the world")
-        return QUATERNION_XYZW if stated is None else stated.applied_to(QUATERNION_XYZW)
-    if kind == QUATERNION_TYPE and (stated is None or entry.frame is None):
-        raise FormatError(f"{place}: expected frame, whose orientations these are, and {STATE_SENSE}")
-    if stated is None:
+        return QUATERNION_XYZW if specified is None else specified.applied_to(QUATERNION_XYZW)
+    if kind == QUATERNION_TYPE and (specified is None or entry.frame is None):
+        raise FormatError(f"{place}: expected frame, whose orientations these are, and {SPECIFY_SENSE}")
+    if specified is None:
         return None
     if kind not in (IMU_TYPE, QUATERNION_TYPE):
         raise FormatError(f"{place}: expected no orientation for messages of {kind}, which have none")
-    if stated.sense is None:
-        raise FormatError(f"{place}: expected {STATE_SENSE}: messages do not state which")
-    return stated.applied_to(replace(QUATERNION_XYZW, sense=stated.sense))
+    if specified.sense is None:
+        raise FormatError(f"{place}: expected {SPECIFY_SENSE}: messages do not specify which")
+    return specified.applied_to(replace(QUATERNION_XYZW, sense=specified.sense))
 
 
 def _unread_orientations(bag: Bag, topic: str, kind: str) -> str | None:
@@ -389,4 +389,4 @@ def _unread_orientations(bag: Bag, topic: str, kind: str) -> str | None:
         _read(bag, RosStream(name=topic, topic=topic, orientation=sense), {})
     except FormatError:
         return None
-    return f"orientations of an IMU: specify, in a stream of its own, {STATE_SENSE}"
+    return f"orientations of an IMU: specify, in a stream of its own, {SPECIFY_SENSE}"

@@ -30,7 +30,7 @@ from forcetorque.formats.log_format import (
     median_step,
     sketched_numbers,
 )
-from forcetorque.formats.signals import StatedRate, StatedSignal
+from forcetorque.formats.signals import SpecifiedRate, SpecifiedSignal
 from forcetorque.formats.tabular.dialect import LOOKED_AT, MOST_COLUMNS, first_lines, rejection_reason, table_form
 from forcetorque.formats.tabular.numbers import ISO8601, column_of_dates
 from forcetorque.formats.tabular.row_readers import (
@@ -189,7 +189,7 @@ def _with_extents(sketch: LogSketch, batches: Iterator[Any], names: Sequence[str
         sketch_rows: Rows that were looked at.
 
     Returns:
-        The sketch, which states why rows are left out if some are.
+        The sketch, with the reason where rows are left out.
     """
     extents = {name: Extent() for name in names}
     rows, most, stopped = 0, unpacked_limit(sketch.path) // (8 * max(len(names), 1)), None
@@ -261,10 +261,10 @@ class StampTable(Table):
     """Name of the column."""
     unit: StampUnit
     """Unit of the times, since the epoch of the clock; `iso8601` for dates with a time of day, such as
-    2026-11-23T10:05:03.123, which count as UTC where they state no zone."""
+    2026-11-23T10:05:03.123, which count as UTC where they have no zone."""
 
 
-class SignalTable(StatedSignal):
+class SignalTable(SpecifiedSignal):
     """Columns of a table that make up one quantity."""
 
     columns: Annotated[tuple[Text, ...], Field(min_length=1)]
@@ -275,7 +275,7 @@ class SignalTable(StatedSignal):
     """Names in the recording, such as joints of the URDF; those of the quantity if left out."""
 
 
-class TabularStream(StatedRate):
+class TabularStream(SpecifiedRate):
     """One text file of numbers, or several that follow each other."""
 
     name: Text
@@ -345,7 +345,7 @@ class TabularLog(LogTable):
 
 
 class TabularFormat:
-    """Text tables and Parquet, which do not state what they hold: the experiment file specifies all that is read."""
+    """Text tables and Parquet, which do not specify what they hold: the experiment file specifies all that is read."""
 
     table = TabularLog
     sign = "a table of numbers (CSV, TSV, Parquet)"
@@ -362,19 +362,19 @@ class TabularFormat:
         """Refuse: nothing is inferred from names or numbers."""
         names = f"the columns {', '.join(table_columns(path)[:200])}" if path.is_file() else "text tables"
         raise FormatError(
-            f"{path}: expected a log that states what it holds, got {names}; specify their columns and units in an "
+            f"{path}: expected a log that specifies what it holds, got {names}; specify their columns and units in an "
             "experiment file; `forcetorque init` begins one"
         )
 
-    def read(self, stated: TabularLog, context: LogContext) -> LogReading:
+    def read(self, specified: TabularLog, context: LogContext) -> LogReading:
         """Read every file that is specified."""
-        context.folder(stated.path)
-        return LogReading.of([_read_stream(k, stated, context) for k in range(len(stated.stream))])
+        context.folder(specified.path)
+        return LogReading.of([_read_stream(k, specified, context) for k in range(len(specified.stream))])
 
 
-def _read_stream(k: int, stated: TabularLog, context: LogContext) -> StreamReading:
-    entry = stated.stream[k]
-    paths = [context.file(stated.path / file) for file in entry.files]
+def _read_stream(k: int, specified: TabularLog, context: LogContext) -> StreamReading:
+    entry = specified.stream[k]
+    paths = [context.file(specified.path / file) for file in entry.files]
     with context.stated_in(f"stream[{k}]"):
         readings = [
             read_table(path, _layout(entry, number), stream=entry.name, clock=entry.clock)

@@ -57,10 +57,10 @@ def date_stamps(column: Any, place: Callable[[int], str]) -> IntArray:
         place: Gives the location of a row, with which an error begins.
 
     Returns:
-        Nanoseconds since 1970, as if the dates were in UTC where they state no zone; shape (n,).
+        Nanoseconds since 1970, as if the dates were in UTC where they have no zone; shape (n,).
 
     Raises:
-        FormatError: If one is missing or no date, or some state a zone and others none.
+        FormatError: If one is missing or no date, or some have a zone and others none.
     """
     return _instants(pc.replace_substring(pc.utf8_trim(column, characters=_AROUND), ",", "."), place)
 

@@ -16,7 +16,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.formats.log_format import LogReading
-from forcetorque.formats.signals import even_stamps, stated_quantity, units_in_si
+from forcetorque.formats.signals import even_stamps, specified_quantity, units_in_si
 from forcetorque.formats.tabular.numbers import column_floats, column_stamps
 from forcetorque.formats.tabular.row_readers import (
     frame_rows,
@@ -155,7 +155,7 @@ def _factors(name: str, declared: TableSignal) -> Sequence[tuple[str, float]]:
                 f"{', '.join(declared.units)}"
             )
         return ()
-    quantity = stated_quantity(declared.quantity, where=name, columns=len(declared.columns))
+    quantity = specified_quantity(declared.quantity, where=name, columns=len(declared.columns))
     return units_in_si(quantity, declared.units, where=name, columns=declared.columns)
 
 

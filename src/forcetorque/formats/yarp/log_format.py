@@ -22,7 +22,7 @@ from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError
 from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable, StreamReading
-from forcetorque.formats.signals import STATE_SENSE
+from forcetorque.formats.signals import SPECIFY_SENSE
 from forcetorque.formats.yarp.measures import READ_LISTS, MeasuresList, sensor_sizes
 from forcetorque.formats.yarp.message import Bottle, is_number
 from forcetorque.formats.yarp.plain_ports import INERTIAL_COLUMNS, read_inertial
@@ -157,7 +157,7 @@ def _with_unread_angles(reading: StreamReading, found: FoundPort) -> StreamReadi
     rotated = read_inertial(found.folder, stream=found.path, frame=found.path, orientation=ROLL_PITCH_YAW).stream
     if (rotated.signal("orientation").values == np.eye(3).ravel()).all():
         return reading
-    text = f"roll, pitch and yaw of an inertial sensor: specify, in a stream of its own, {STATE_SENSE}"
+    text = f"roll, pitch and yaw of an inertial sensor: specify, in a stream of its own, {SPECIFY_SENSE}"
     unread = Finding(stream=found.path, kind="not_read", message=text, count=0)
     return reading._replace(findings=(*reading.findings, unread))
 
@@ -306,12 +306,12 @@ class YarpFormat:
             reading=LogReading.of(readings, unread=unread, origin={"format": "yarp", "path": str(path)}),
         )
 
-    def read(self, stated: YarpLog, context: LogContext) -> LogReading:
+    def read(self, specified: YarpLog, context: LogContext) -> LogReading:
         """Read every port that is specified."""
-        context.folder(stated.path)
+        context.folder(specified.path)
         readings: list[StreamReading] = []
-        for k, port in enumerate(stated.stream):
-            folder = context.below(stated.path / port.port, "data.log", "data.log.gz", "info.log")
+        for k, port in enumerate(specified.stream):
+            folder = context.below(specified.path / port.port, "data.log", "data.log.gz", "info.log")
             with context.stated_in(f"stream[{k}]"):
                 readings += read_port(port, folder, frames=context.sensors, joint_units=context.joint_units)
         _require_one_clock(readings)

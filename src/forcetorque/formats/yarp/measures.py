@@ -128,7 +128,7 @@ def read_measures(port_dir: str | Path, *, sensors: Sequence[MeasuresSensor]) ->
     """Read the log of a device with several sensors.
 
     Angular velocities are logged in deg/s and given in rad/s, orientations as roll, pitch and yaw in deg and given as
-    rotation matrix and gravity. The messages do not state whether the
+    rotation matrix and gravity. The messages do not specify whether the
     device calibrates its force-torque sensors: that they hold N and N m is assumed.
 
     Where messages carry the sender's and the dumper's stamp, the sender's is taken if it is

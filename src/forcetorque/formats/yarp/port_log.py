@@ -65,7 +65,7 @@ _STAMPS = {"tx": ("tx",), "rx": ("rx",), "tx+rx": ("tx", "rx"), "rx+tx": ("rx", 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PortFolder:
-    """What a port folder states about its log before a message is read."""
+    """What a port folder specifies about its log before a message is read."""
 
     data: Path
     """The file of messages, `data.log` or `data.log.gz`."""

@@ -192,6 +192,6 @@ def _require_determined(question: Question, activity: BoolArray) -> None:
         if most > MOST_UNKNOWNS:
             raise EstimationError(
                 f"sub-model {part.name!r} has {most} unknowns in {', '.join(repr(c.name) for c in contacts)} and six "
-                "equations; make contacts pure forces, or state minimum_norm with the length_scale in m that says how "
-                "much a moment weighs"
+                "equations; make contacts pure forces, or specify minimum_norm with a length_scale in m, which "
+                "weighs moments against forces"
             )
