@@ -57,7 +57,7 @@ def follow_recipes(
         file: The experiment file, for messages.
         logged: The streams as they were logged.
         model: The robot, with its joints that stand still; None for a wrist sensor.
-        clocks_must_tell: Whether a delay that the recording does not tell is refused.
+        clocks_must_tell: Whether a delay that the recording does not determine is refused.
 
     Returns:
         The recording, with a finding for everything that was added.

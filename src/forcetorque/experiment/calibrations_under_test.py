@@ -40,7 +40,7 @@ class WrenchErrors(ArrayRecord):
     force_mean_error: float
     """Standard error of that mean; N; NaN for one sample."""
     force_mean_half_width: float
-    """Half-width of its 95 % interval; N; infinite where it cannot be told."""
+    """Half-width of its 95 % interval; N; infinite where it is not identifiable."""
     force_largest: float
     """Largest norm of the force error; N."""
     moment_mean: float
@@ -48,7 +48,7 @@ class WrenchErrors(ArrayRecord):
     moment_mean_error: float
     """Standard error of that mean; N m; NaN for one sample."""
     moment_mean_half_width: float
-    """Half-width of its 95 % interval; N m; infinite where it cannot be told."""
+    """Half-width of its 95 % interval; N m; infinite where it is not identifiable."""
     moment_largest: float
     """Largest norm of the moment error; N m."""
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One sensor over any number of recordings, which are fitted and judged together."""
+"""One sensor over any number of recordings, which are fitted and validated together."""
 
 from __future__ import annotations
 

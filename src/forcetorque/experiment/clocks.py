@@ -253,7 +253,7 @@ def aligned_clocks(
 
     Raises:
         ExperimentError: If a stream is brought to two clocks, or to one that is moved itself later on.
-        RecordingError: If a delay is to be estimated and the recording does not tell it.
+        RecordingError: If a delay is to be estimated and the recording does not determine it.
     """
     _require_order(parsed.clock, file)
     shifts = []

@@ -279,7 +279,7 @@ class Experiment:
         return bool(self.supports) and not (self.loads is not None and self.loads.in_place_of_robot)
 
     def model_on(self, support: Support | MovingSupport) -> RobotModel:
-        """Give the robot as it stands on a support, with what hangs on a wrist sensor or on its links then.
+        """Give the robot as it stands on a support, with the payloads of a wrist sensor or of its links.
 
         A load that the file does not specify is estimated when it is first needed, and once.
 

@@ -200,7 +200,7 @@ def load_experiment(path: Path | str, purpose: Purpose = Purpose.SENSORS) -> Exp
     if not parsed.support and not any(one.touched for one in parsed.interval):
         raise ExperimentError(
             f"{file}: expected [[support]], the link whose motion is known, got none: at rest with gravity_direction, "
-            "or moving with imu, the streams of an IMU; without it nobody knows what moves the robot, skin or not"
+            "or moving with imu, the streams of an IMU; without it the motion of the robot is unknown, with skin too"
         )
     return _load(parsed, file)
 

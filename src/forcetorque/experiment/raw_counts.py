@@ -98,7 +98,7 @@ def _counts(sensor: ExperimentSensor, values: FloatArray) -> FloatArray:
     if sensor.prior is None or sensor.prior_source == "identity":
         raise ExperimentError(
             f"sensor {sensor.name!r}: expected raw counts, or the matrix file with which its wrench was made; without "
-            "them nobody knows how far its channels are from their limits"
+            "them the distance of its channels from their limits is unknown"
         )
     return recover_raw(values, sensor.prior)
 

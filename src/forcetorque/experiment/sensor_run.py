@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One sensor of one experiment: what every question to it needs, computed when it is first asked for, and once."""
+"""One sensor of one experiment: what every analysis needs of it, computed when it is first needed, and once."""
 
 from __future__ import annotations
 

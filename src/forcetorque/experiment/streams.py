@@ -39,7 +39,7 @@ def read_streams(
         file: The experiment file, for messages.
         model: The robot, whose joints tell rad from m; None for a wrist sensor.
         inputs: Resolves and remembers the files.
-        clocks_must_tell: Whether a delay that the recording does not tell is refused.
+        clocks_must_tell: Whether a delay that the recording does not determine is refused.
 
     Returns:
         The recording, with what the file adds to its log, without intervals.
@@ -123,13 +123,13 @@ def load_recorded(path: Path | str) -> RecordedLog:
 
 
 def load_tried_clocks(path: Path | str) -> Recording:
-    """Read the streams of an experiment, also where its log does not tell a delay that is to be estimated.
+    """Read the streams of an experiment, also where its log does not determine a delay that is to be estimated.
 
     Args:
         path: TOML file; the paths in it are relative to its folder.
 
     Returns:
-        The recording; its `clocks` say of each whether it was told, and why not.
+        The recording; its `clocks` say of each whether it was determined, and why not.
 
     Raises:
         MissingFileError: If a file is not there.

@@ -28,7 +28,7 @@ class Offset(StrEnum):
     JUDGED_MEAN = "judged-mean"
     """Mean of the judged samples themselves: what is left when nothing constant counts; nobody has it beforehand."""
     NONE = "none"
-    """None was removed: whatever the sensor has is in the error."""
+    """None was removed: the offset of the sensor is part of the error."""
     TARE = "tare"
     """From an interval at rest, in which the sensor is to read what the model says of the load beyond it."""
     ONE_LINK_IMU = "one-link-imu"

@@ -71,7 +71,7 @@ _DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (6, 2, 1, 2)), (0, (2, 1.5)), 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Look:
-    """How one of several curves or clouds is told from the others."""
+    """How one of several curves or clouds differs from the others."""
 
     colour: str
     """Colour that the colour-blind tell from the neighbours'."""

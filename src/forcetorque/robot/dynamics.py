@@ -347,7 +347,7 @@ def in_parent(state: BodyState, wrench: FloatArray) -> FloatArray:
 
 
 def in_body(state: BodyState, wrench: FloatArray) -> FloatArray:
-    """Express wrenches in a parent's frame in the frame of a body that hangs on it.
+    """Express wrenches in a parent's frame in the frame of its child body.
 
     Args:
         state: Where the body is in its parent; n samples.

@@ -19,11 +19,11 @@ from forcetorque.base.wrench import reading_sign
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
 
 _TREES: Final = 32
-"""Trees that are remembered: one robot is asked about over and over, from a few of its links."""
+"""Trees that are cached: one robot is computed over and over, from a few of its links."""
 
 
 class Connection(StrEnum):
-    """How a body hangs on its parent."""
+    """How a body is attached to its parent."""
 
     ROOT = "root"
     CUT = "cut"
@@ -50,9 +50,9 @@ class Body:
     parent: int
     """Index of the parent body, smaller than its own; -1 for the root."""
     connection: Connection
-    """How it hangs on its parent."""
+    """How it is attached to its parent."""
     joint: str | None
-    """Joint that it hangs on; None for the root and for a cut."""
+    """Joint to its parent; None for the root and for a cut."""
     coordinate: Coordinate | None
     """Coordinate of its joint; None for the root and for a cut."""
     parent_R_joint: FloatArray
@@ -239,7 +239,7 @@ class _Builder:
 
 
 def _shared(pose: FloatArray) -> FloatArray:
-    """A pose of a tree that many hold: nobody may change it."""
+    """A pose of a tree that is shared and so read-only."""
     pose.setflags(write=False)
     return pose
 
@@ -374,7 +374,7 @@ def cut_of(tree: BodyTree, sensor: str) -> int:
 
 
 def outboard_bodies(tree: BodyTree, body: int) -> BoolArray:
-    """Mark a body and everything that hangs on it.
+    """Mark a body and its distal bodies.
 
     Args:
         tree: The robot.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which unknowns of a sub-model its equation cannot tell apart."""
+"""Unknowns of a sub-model that its equation does not separate."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import SubModel
 
 _POSES = 64
-"""Poses that are looked at, evenly over the samples: what cannot be told apart depends on the pose alone."""
+"""Poses that are looked at, evenly over the samples: which unknowns are inseparable depends on the pose alone."""
 
 _PART = 1e-6
 """An unknown takes part in a motion that the equation does not see if this share of it does."""

@@ -76,7 +76,7 @@ def checked_inputs(
     for joint in needed:
         if joint not in joints.names:
             raise RobotError(
-                f"what is asked needs joint {joint!r}, seen from {question.tree.root_link!r}, which the motion lacks; "
+                f"the estimate needs joint {joint!r}, seen from {question.tree.root_link!r}, which the motion lacks; "
                 f"{known_names(joint, joints.names)}"
             )
     activity = activity_of(question, active, n)
@@ -181,7 +181,7 @@ def activity_of(question: Question, active: Mapping[str, Any] | None, n: int) ->
 
 
 def _require_determined(question: Question, activity: BoolArray) -> None:
-    """Refuse more unknowns than equations where nobody said what is then to be least."""
+    """Refuse more unknowns than equations without `minimum_norm`."""
     if question.minimum_norm is not None:
         return
     for part in question.parts:

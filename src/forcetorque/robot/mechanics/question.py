@@ -167,7 +167,7 @@ def _require_known(
         if name not in names:
             raise error(f"the robot has no {what} {name!r}; {known_names(name, names)}")
         if once and name in seen:
-            raise error(f"{what} {name!r}: expected each once, it is asked for twice")
+            raise error(f"{what} {name!r}: expected each once, got it twice")
         seen.add(name)
 
 
@@ -229,7 +229,7 @@ def required_joints_of(question: Question) -> tuple[str, ...]:
 
 
 def closed_form(question: Question, part: SubModel) -> bool:
-    """Tell whether one full wrench takes up whatever the equation of a sub-model demands.
+    """Check whether one full wrench is the exact solution of the equation of a sub-model.
 
     Args:
         question: The question.
@@ -300,7 +300,7 @@ def _takes_up_all(question: Question, part: SubModel, switched: Collection[str])
 
 
 def _with_content(question: Question) -> BoolArray:
-    """Mark bodies that carry a wrench: of their own inertia, of a contact, of a reading, or of what hangs on them."""
+    """Mark bodies that carry a wrench: of their own inertia, of a contact, of a reading, or of their distal bodies."""
     tree = question.tree
     content = np.array([not body.inertia.is_zero for body in tree.bodies])
     for contact in question.contacts:

@@ -305,7 +305,7 @@ def expected_wrench(
     processing: Processing,
     applied: str | None = None,
 ) -> FloatArray:
-    """Give the wrench that a sensor is expected to read, whatever it read.
+    """Give the expected wrench of a sensor, which does not depend on its readings.
 
     Args:
         recording: As of `sensor_samples`.
