@@ -116,5 +116,5 @@ def blank_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Make pictures of a document or study, but leave them blank: drawing takes most of either, and words need none."""
     blank = io.BytesIO()
     Image.new("RGB", (1, 1)).save(blank, format="png")
-    for module in ("results.document.picture", "study.figures"):
+    for module in ("results.document.content", "study.figures"):
         monkeypatch.setattr(f"forcetorque.{module}.png_bytes", lambda figure: blank.getvalue())
