@@ -22,7 +22,7 @@ def gain_figure(sensors: Sequence[SensorGains]) -> Figure:
     """Draw the raw channels against their limits, with the present and with the recommended gains [1].
 
     Args:
-        sensors: Samples and advice of each sensor; one row each.
+        sensors: Samples and channels of each sensor; one row each.
 
     Returns:
         The figure, `ROW_INCHES` times the number of rows at `DOTS_PER_INCH`.
@@ -36,7 +36,7 @@ def gain_figure(sensors: Sequence[SensorGains]) -> Figure:
     figure = new_figure(ROW_INCHES[1] * len(sensors))
     panels = figure.subplots(len(sensors), 2, squeeze=False, sharey="row")
     for (before, after), gains in zip(panels, sensors, strict=True):
-        known = all(advised.recommended is not None for advised in gains.advice)
+        known = all(channel.recommended_gain is not None for channel in gains.channels)
         _draw(before, gains, gains.counts, title=f"{gains.sensor} ({gains.serial}), as recorded")
         _draw(
             after, gains, gains.counts * gains.factors, title=f"with the recommended {'gains' if known else 'factors'}"
@@ -52,11 +52,11 @@ def _draw(panel: Axes, gains: SensorGains, counts: FloatArray, *, title: str) ->
         panel.axhline(sign * limit, color="black", linestyle="--", linewidth=1.0)
         panel.axhspan(sign * (1.0 - gains.margin) * limit, sign * limit, color="black", alpha=0.08, linewidth=0.0)
     time, drawn = thinned_line(gains.time_s, counts)
-    for k, advised in enumerate(gains.advice):
+    for k, channel in enumerate(gains.channels):
         # channels beyond the palette share a colour and differ in style
         style = ("-", ":", "-.")[k // len(COLOURS) % 3]
         colour = COLOURS[k % len(COLOURS)]
-        panel.plot(time, drawn[:, k], style, color=colour, linewidth=0.9, label=advised.channel)
+        panel.plot(time, drawn[:, k], style, color=colour, linewidth=0.9, label=channel.channel)
     reach = max(1.1 * limit, float(np.abs(counts).max()))
     panel.set_ylim(-reach, reach)
     panel.set_title(title)
