@@ -29,7 +29,7 @@ from forcetorque.sensor.bandwidth.frequency_response import (
     overlapping,
     require_coherence,
 )
-from forcetorque.sensor.bandwidth.result import DecayCurve, EventRow, InverseRow, ResponseCurve, ResponseNumber
+from forcetorque.sensor.bandwidth.result import DecayCurve, EventRow, ResponseCurve, ResponseNumber
 from forcetorque.sensor.bandwidth.second_order import MISFIT, InverseFilter, SecondOrder, inverse_filter, jackknifed
 
 BEFORE_S = 0.05
@@ -152,7 +152,7 @@ class Response(Result):
     """Natural frequency, damping, gain, bandwidth, by what tells them."""
     curve: ResponseCurve | None = Field(repr=False)
     """Frequency response; null where it is not told."""
-    inverse: InverseRow | None = Field(repr=False)
+    inverse: InverseFilter | None = Field(repr=False)
     """Filter that undoes the response; null where it is not told well enough."""
     refused: tuple[str, ...]
     """What is not told, and why."""
@@ -270,7 +270,9 @@ def response(
     rate = records[0].wrench.rate_hz
     inverse = None
     try:
-        inverse = None if fit is None else inverse_filter(fit, rate, cut_off_hz=cut_off_hz, name=run.sensor.name)
+        if fit is not None:
+            quiet = None if decays is None else decays.quiet
+            inverse = inverse_filter(fit, rate, cut_off_hz=cut_off_hz, name=run.sensor.name, quiet=quiet)
     except FitError as error:
         refused.append(str(error))
     answer = Response(
@@ -285,7 +287,7 @@ def response(
         events=() if decays is None else decays.rows,
         numbers=tuple(numbers(decays, fit if transfer is not None else None, _gain_unit(records, mass_kg))),
         curve=None if transfer is None else _curve(transfer, fit),
-        inverse=None if inverse is None else _inverse(inverse, decays),
+        inverse=inverse,
         refused=tuple(refused),
         decays=() if decays is None else decays.curves,
     )
@@ -345,22 +347,6 @@ def _curve(transfer: FrequencyResponse, fit: SecondOrder | None) -> ResponseCurv
         driven=transfer.driven.astype(np.float64),
         explained_share=transfer.explained,
         averages=transfer.averages,
-    )
-
-
-def _inverse(inverse: InverseFilter, decays: Decays | None) -> InverseRow:
-    quiet = None if decays is None else decays.quiet
-    at_rest = float(inverse.numerator.sum() / inverse.denominator.sum())
-    ratio = None
-    if quiet is not None and quiet.std() > 0.0:
-        ratio = float(inverse.apply(quiet).std() / quiet.std() / abs(at_rest))
-    return InverseRow(
-        rate_hz=inverse.rate_hz,
-        cut_off_hz=inverse.cut_off_hz,
-        noise_gain=inverse.noise_gain / abs(at_rest),
-        quiet_gain=ratio,
-        numerator=inverse.numerator,
-        denominator=inverse.denominator,
     )
 
 

@@ -5,11 +5,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import numpy as np
-
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.results.table import FloatOrNull, Row, Shown, Values
-from forcetorque.sensor.bandwidth.second_order import InverseFilter
 
 
 class EventRow(Row):
@@ -94,36 +91,3 @@ class DecayCurve(Row):
     """Reading; shape (m,)."""
     fitted: Annotated[FloatArray, ArrayField((None,))]
     """Fit; shape (m,)."""
-
-
-class InverseRow(Row):
-    """Filter that undoes the response: `corrected[t] = b0 y[t] + b1 y[t-1] + b2 y[t-2] - a1 c[t-1] - a2 c[t-2]`."""
-
-    rate_hz: Annotated[float, Shown("rate", "Hz", digits=2)]
-    """Rate for which it is made."""
-    cut_off_hz: Annotated[float, Shown("cut-off", "Hz", digits=2)]
-    """Cut-off of the Butterworth low-pass of second order that the corrected sensor is."""
-    noise_gain: Annotated[float, Shown("white noise times", digits=3)]
-    """What it does to the standard deviation of white noise."""
-    quiet_gain: Annotated[float | None, Shown("quiet reading times", digits=3)]
-    """What it did to that of the quiet stretch before an event, over its static gain; null without an event."""
-    numerator: Annotated[FloatArray, ArrayField((3,))]
-    """Coefficients b."""
-    denominator: Annotated[FloatArray, ArrayField((3,))]
-    """Coefficients a."""
-
-    def apply(self, reading: FloatArray) -> FloatArray:
-        """Correct a reading; it starts as if the first sample had always been there.
-
-        Args:
-            reading: Samples at its rate, without missing values; shape (n,) or (n, k).
-
-        Returns:
-            Force; the same shape.
-        """
-        return InverseFilter(
-            rate_hz=self.rate_hz,
-            cut_off_hz=self.cut_off_hz,
-            numerator=np.asarray(self.numerator),
-            denominator=np.asarray(self.denominator),
-        ).apply(reading)
