@@ -11,12 +11,17 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, RecordingError
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.locomotion.logged_signals import MotionSignal
 from forcetorque.locomotion.oscillation.oscillation import OscillationSearch, find_oscillations
-from forcetorque.locomotion.oscillation.settling import Settling, command_steps, settlings, tracking_error
+from forcetorque.locomotion.oscillation.settling import (
+    SettlingRow,
+    TrackingRow,
+    command_steps,
+    settlings,
+    tracking_error,
+)
 from forcetorque.locomotion.oscillation.spectrum import EvenedSignal, evened
 from forcetorque.results.result import Result
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, Values, table_of
@@ -61,58 +66,6 @@ class OscillationRow(Row):
     """Samples of the interval."""
     duration_s: float
     """How long it lasts."""
-
-
-class SettlingRow(Row):
-    """What a column did after one step."""
-
-    interval: Annotated[str, Shown("interval")]
-    """Label of the interval."""
-    column: Annotated[str, Shown("column")]
-    """Name of the column."""
-    step_at_s: Annotated[float, Shown("step at", "s", digits=3)]
-    """Instant of the step, from the start of the recording."""
-    step: Annotated[float, Shown("step", digits=5)]
-    """How far it went, in `unit`."""
-    unit: Annotated[str, Shown("unit")]
-    """Unit of the column."""
-    settling_s: Annotated[float | None, Shown("settles in", "s", digits=3)]
-    """Time after which it stays within the band; null if it does not before the next step."""
-    earliest_s: Annotated[float, Shown("from", "s", digits=3)]
-    """Lower end of its 95 % interval."""
-    latest_s: Annotated[float | None, Shown("to", "s", digits=3)]
-    """Upper end; null if noise may hide that it has not settled."""
-    band: float
-    """Half of the band about the end, in `unit`."""
-    overshoot_percent: Annotated[float, Shown("overshoot", "%", digits=1)]
-    """How far it went beyond its end, of the step."""
-    left_error: Annotated[float | None, Shown("left error", digits=5)]
-    """Where it ended less what was wanted there, in `unit`; null where nothing says what was wanted."""
-
-
-class TrackingRow(Row):
-    """How far a column is from what was wanted of it."""
-
-    interval: Annotated[str, Shown("interval")]
-    """Label of the interval."""
-    column: Annotated[str, Shown("column")]
-    """Name of the column."""
-    desired: Annotated[str, Shown("desired")]
-    """Column of what was wanted."""
-    rms: Annotated[float, Shown("RMS error", digits=5)]
-    """Root mean square of the difference, in `unit`."""
-    rms_lower_95: Annotated[float, Shown("from", digits=5)]
-    """Lower end of its 95 % interval."""
-    rms_upper_95: Annotated[float, Shown("to", digits=5)]
-    """Upper end."""
-    mean_error: Annotated[float, Shown("mean error", digits=5)]
-    """Mean of the difference."""
-    unit: Annotated[str, Shown("unit")]
-    """Unit of both."""
-    samples: Annotated[int, Shown("samples")]
-    """Samples with both."""
-    effective_samples: Annotated[float, Shown("worth", digits=0)]
-    """Independent samples with a mean as well known."""
 
 
 class MotionCurve(Row):
@@ -256,8 +209,8 @@ class _Answer:
         settling, untold = _settled(signal, own, steps_s, band_share)
         return cls(
             oscillations=tuple(row for name, even, search in searched for row in _rows(signal, name, even, search)),
-            settling=tuple(_settling(signal, row) for row in settling),
-            tracking=None if desired is None else _tracking(signal, desired),
+            settling=tuple(settling),
+            tracking=None if desired is None else tracking_error(signal),
             curves=tuple(_curve(signal, name, even, search) for name, even, search in searched),
             doubts=(*(doubt for entry in searched for doubt in _doubts(signal, *entry)), *untold),
         )
@@ -265,10 +218,10 @@ class _Answer:
 
 def _settled(
     signal: MotionSignal, even: EvenedSignal, steps_s: Sequence[float], band_share: float
-) -> tuple[list[Settling], list[str]]:
+) -> tuple[list[SettlingRow], list[str]]:
     """What it did after each step, or why that is not told."""
     try:
-        return settlings(even, _steps(signal, steps_s), band_share=band_share, name=signal.name), []
+        return settlings(signal, even, _steps(signal, steps_s), band_share=band_share), []
     except RecordingError as error:
         return [], [f"no settling time: {error}"]
 
@@ -322,51 +275,6 @@ def _rows(signal: MotionSignal, name: str, even: EvenedSignal, search: Oscillati
                 "seen_amplitude": search.seen_amplitude(one.frequency_hz),
             }
         )
-
-
-def _settling(signal: MotionSignal, row: Settling) -> SettlingRow:
-    desired = signal.desired_values
-    wanted = None
-    if desired is not None:
-        held = np.isfinite(desired) & (signal.time_s >= row.time_s)
-        wanted = float(desired[held][_before_next(desired[held])]) if held.any() else None
-    return SettlingRow(
-        interval=signal.interval,
-        column=signal.column,
-        step_at_s=row.time_s,
-        step=row.step,
-        unit=signal.unit,
-        settling_s=row.settling_s,
-        earliest_s=row.earliest_s,
-        latest_s=row.latest_s if math.isfinite(row.latest_s) else None,
-        band=row.band,
-        overshoot_percent=100.0 * row.overshoot,
-        left_error=None if wanted is None else row.end - wanted,
-    )
-
-
-def _before_next(command: FloatArray) -> int:
-    """Index of the value that a command holds after a step: the one that stays longest before it changes again."""
-    changes = np.flatnonzero(np.diff(command) != 0.0)
-    edges = np.concatenate([[-1], changes, [len(command) - 1]])
-    held = np.diff(edges)
-    return int(edges[1 + int((held > 1).argmax())])
-
-
-def _tracking(signal: MotionSignal, desired: FloatArray) -> TrackingRow:
-    error = tracking_error(signal.time_s, desired, signal.values, name=signal.name)
-    return TrackingRow(
-        interval=signal.interval,
-        column=signal.column,
-        desired=signal.desired or "",
-        rms=error.rms,
-        rms_lower_95=error.lower,
-        rms_upper_95=error.upper,
-        mean_error=error.mean,
-        unit=signal.unit,
-        samples=error.count,
-        effective_samples=error.effective_count,
-    )
 
 
 def _curve(signal: MotionSignal, name: str, even: EvenedSignal, search: OscillationSearch) -> MotionCurve:
