@@ -114,8 +114,8 @@ def settlings(
         after = (time >= start) & (time < end)
         if len(before) < LEAST_SAMPLES or after.sum() < LEAST_SAMPLES:
             raise RecordingError(
-                f"{signal.name}: step at {start:.3f} s: expected at least {LEAST_SAMPLES} samples before and behind it, "
-                f"got {len(before)} and {int(after.sum())}"
+                f"{signal.name}: step at {start:.3f} s: expected at least {LEAST_SAMPLES} samples before and behind "
+                f"it, got {len(before)} and {int(after.sum())}"
             )
         level = float(before[-max(1, round(END_SHARE * len(before))) :].mean())
         rows.append(_settling(signal, even.time_s[after] - start, even.values[after], level, start, band_share))
