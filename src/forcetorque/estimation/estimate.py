@@ -10,9 +10,15 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.section import LENGTH_SCALE
-from forcetorque.estimation.skin_contacts import SkinSource, frames_of_patches, sources_at, uncertainty_of, with_skin
+from forcetorque.estimation.skin_contacts import (
+    SkinSource,
+    clock_stream,
+    frames_of_patches,
+    sources_at,
+    uncertainty_of,
+    with_skin,
+)
 from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact

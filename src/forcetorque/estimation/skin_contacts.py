@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contacts on skin as known wrenches of an estimation: the push is measured, the tangential force is not."""
+"""Contacts on skin as known wrenches of an estimation, and the stream at whose instants is estimated.
+
+The push of a contact on skin is measured, its tangential force is not.
+"""
 
 from __future__ import annotations
 
@@ -11,15 +14,16 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.base.errors import EstimationError
+from forcetorque.base.errors import EstimationError, ExperimentError
 from forcetorque.estimation.uncertain.estimate import UncertainEstimates
 from forcetorque.estimation.uncertain.uncertainty import SLIPPING, Tangents, Uncertainty, square_root, tangent_maps
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_reading import Correction
+from forcetorque.recording.stream import Stream
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.skin.contact.contacts import SkinContacts
-from forcetorque.skin.experiment import PATCHES
+from forcetorque.skin.experiment import PATCHES, force_patches
 from forcetorque.skin.wrench.wrench import PatchFrames, patch_frames
 
 TILT_RAD: Final = 0.011
@@ -332,3 +336,26 @@ def with_skin(plain: Estimates, answer: UncertainEstimates) -> Estimates:
     fields = {name: getattr(plain, name) for name in plain.layout.shapes(0)}
     fields |= {"contact_wrenches": wrenches, "torques": np.ascontiguousarray(answer.torques)}
     return Estimates(layout=plain.layout, **fields)
+
+
+def clock_stream(experiment: Experiment) -> Stream:
+    """Give the stream at whose instants is estimated.
+
+    Args:
+        experiment: The experiment.
+
+    Returns:
+        The stream of the first sensor, or of the first patch where there is none.
+
+    Raises:
+        ExperimentError: If there is neither.
+    """
+    if experiment.sensors:
+        return experiment.recording.stream(experiment.sensors[0].stream)
+    patches = force_patches(experiment)
+    if not patches:
+        raise ExperimentError(
+            f"experiment {experiment.name!r}: expected [[sensor]], or a [[patch]] with a table, got neither; "
+            "`forcetorque skin calibrate` makes a table"
+        )
+    return experiment.recording.stream(patches[0].counts)

@@ -35,7 +35,7 @@ from forcetorque.results.document.content import Block, Document, Figure, List, 
 from forcetorque.results.document.picture import Picture
 from forcetorque.results.table import Table, short_names, table_of, without_vague
 from forcetorque.sensor.bandwidth.bandwidth import Response
-from forcetorque.sensor.bandwidth.figure import response_figure
+from forcetorque.sensor.figures import response_figure
 from forcetorque.skin.report_blocks import skin_section
 from forcetorque.viewer.page import MOST_SAMPLES, page_of
 from forcetorque.viewer.scene_builder import scene_of

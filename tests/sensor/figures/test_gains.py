@@ -15,8 +15,8 @@ from forcetorque.base.errors import MissingExtraError
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.results.figures import COLOURS, png_bytes
+from forcetorque.sensor.figures import gain_figure
 from forcetorque.sensor.gains.amplifier_gains import GainChange
-from forcetorque.sensor.gains.figure import gain_figure
 from forcetorque.sensor.gains.gains import SensorGains, sensor_gains
 from tests.report.drawing import count_of, pixels, size_of
 from tests.scenes.experiments import PARQUET, write_experiments
@@ -86,7 +86,7 @@ def test_drawing_leaves_the_program_as_it_is(experiment: Path) -> None:
 import sys
 from forcetorque.experiment import SensorRun, load_experiment
 from forcetorque.sensor import sensor_gains
-from forcetorque.sensor.gains.figure import gain_figure
+from forcetorque.sensor.figures import gain_figure
 experiment = load_experiment({str(experiment)!r})
 gains = sensor_gains(SensorRun(experiment, experiment.sensors[0]))
 assert "matplotlib" not in sys.modules

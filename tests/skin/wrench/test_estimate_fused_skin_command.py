@@ -12,10 +12,9 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
-from forcetorque.estimation.skin_contacts import frames_of_patches
+from forcetorque.estimation.skin_contacts import clock_stream, frames_of_patches
 from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_models import corrections_of

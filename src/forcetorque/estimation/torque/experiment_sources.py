@@ -11,9 +11,8 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.section import FUSION, MOTORS, FusionTable
-from forcetorque.estimation.skin_contacts import SkinSource, frames_of_patches, sources_at
+from forcetorque.estimation.skin_contacts import SkinSource, clock_stream, frames_of_patches, sources_at
 from forcetorque.estimation.torque.motor import Friction, drive_torque, fit_friction, motor_source
 from forcetorque.estimation.torque.source import TorqueSource, wrench_source
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty

@@ -12,8 +12,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import transform_wrench
-from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.estimate import IntervalQuestion
+from forcetorque.estimation.skin_contacts import clock_stream
 from forcetorque.experiment.applicability import one_per_sensor, overlapping
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR

@@ -15,8 +15,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import invert_pose, make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import transform_wrench
-from forcetorque.estimation.clock_stream import clock_stream
-from forcetorque.estimation.skin_contacts import uncertainty_of
+from forcetorque.estimation.skin_contacts import clock_stream, uncertainty_of
 from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_determined
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor

@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import EstimationError, ExperimentError, known_names
 from forcetorque.base.pose import invert_pose
-from forcetorque.estimation.clock_stream import clock_stream
+from forcetorque.estimation.skin_contacts import clock_stream
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact
 from forcetorque.locomotion.section import SOLES

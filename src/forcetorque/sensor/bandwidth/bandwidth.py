@@ -19,17 +19,17 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
-from forcetorque.sensor.bandwidth.decays import Decays, free_decays, numbers
+from forcetorque.sensor.bandwidth.decays import DecayCurve, Decays, EventRow, ResponseNumber, free_decays, numbers
 from forcetorque.sensor.bandwidth.excited_records import ExcitationKind, ExcitedRecord, component_index, excited_records
 from forcetorque.sensor.bandwidth.frequency_response import (
     HIGHEST_SHARE,
     LEAST_AVERAGES,
     FrequencyResponse,
+    ResponseCurve,
     frequency_response,
     overlapping,
     require_coherence,
 )
-from forcetorque.sensor.bandwidth.result import DecayCurve, EventRow, ResponseCurve, ResponseNumber
 from forcetorque.sensor.bandwidth.second_order import MISFIT, InverseFilter, SecondOrder, inverse_filter, jackknifed
 
 BEFORE_S = 0.05

@@ -10,6 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.base.noise.slow_noise import CONFIDENCE
+from forcetorque.results.table import Row, Values
 
 LEAST_AVERAGES = 4
 """Averages of a spectrum; of one the coherence is 1, whatever was measured."""
@@ -85,6 +86,33 @@ class FrequencyResponse(ArrayRecord):
         from scipy.ndimage import uniform_filter1d
 
         return uniform_filter1d(self.noise_power, 2 * _BINS + 1, mode="nearest")
+
+
+class ResponseCurve(Row):
+    """Frequency response with coherence, for the figure and for whoever fits something else to it."""
+
+    frequency_hz: Values
+    """Frequencies; shape (m,); Hz."""
+    real: Values
+    """Real part of the response; shape (m,)."""
+    imaginary: Values
+    """Imaginary part; shape (m,)."""
+    fitted_real: Values | None = None
+    """Real part of the second order that is fitted to it; shape (m,); null without a fit."""
+    fitted_imaginary: Values | None = None
+    """Imaginary part of that; shape (m,)."""
+    radius_95: Values
+    """Radius of the circle that holds it with 95 %; shape (m,)."""
+    coherence: Values
+    """Shape (m,)."""
+    chance: float
+    """Coherence that chance alone exceeds in 5 % of the frequencies."""
+    driven: Values
+    """1 where the force drives the sensor; only these are fitted; shape (m,)."""
+    explained_share: float
+    """Share of the power of the reading that the force explains."""
+    averages: float
+    """Independent averages."""
 
 
 def overlapping(series: FloatArray, segment: int) -> FloatArray:
