@@ -152,7 +152,7 @@ class IntervalQuestion:
         length_scale: float | None = None,
         patches: Sequence[PatchFrames] = (),
     ) -> IntervalQuestion:
-        """Ask what touches the robot over an interval.
+        """Set up the estimation of contacts over an interval.
 
         Args:
             experiment: The experiment.
@@ -227,7 +227,7 @@ class IntervalQuestion:
         return Wrenches.of(readings) if readings else Wrenches(names=(), values=np.empty((len(self.joints), 0, 6)))
 
     def estimates(self, measured: Wrenches, *, progress: Callable[[int], None] | None = None) -> Estimates:
-        """Answer it.
+        """Estimate.
 
         Args:
             measured: What the sensors measured; n samples.

@@ -77,7 +77,7 @@ def skin_rows(span: IntervalEstimates) -> Iterator[SkinContactSummary]:
 
 
 def skin_warnings(span: IntervalEstimates, exact: tuple[str, ...], resting: tuple[str, ...]) -> Iterator[str]:
-    """Say what makes estimates with skin doubtful.
+    """Give warnings about estimates with skin.
 
     Args:
         span: Estimates over an interval.
@@ -295,7 +295,7 @@ def summarise_estimates(
     fusions: Sequence[IntervalFusion] = (),
     frictions: tuple[Friction, ...] = (),
 ) -> EstimateSummary:
-    """Say what estimates amount to, and write every sample of them to a file.
+    """Summarise estimates, and write every sample of them to a file.
 
     Args:
         experiment: The experiment.

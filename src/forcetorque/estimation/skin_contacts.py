@@ -287,7 +287,7 @@ def uncertainty_of(
     *,
     label: str,
 ) -> Uncertainty:
-    """Say what skin and sensors err by: sensors as their calibration predicts at these readings.
+    """Give the errors of skin and sensors: sensors as their calibration predicts at these measurements.
 
     Args:
         experiment: The experiment.

@@ -22,7 +22,7 @@ from forcetorque.locomotion.oscillation.settling import (
     settlings,
     tracking_error,
 )
-from forcetorque.locomotion.oscillation.spectrum import EvenedSignal, evened
+from forcetorque.locomotion.oscillation.spectrum import ResampledSignal, resampled
 from forcetorque.results.result import Result
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, Values, table_of
 
@@ -144,7 +144,7 @@ class Motion(Result):
 
 @with_recording_notes
 def motion(signals: Sequence[MotionSignal], *, steps_s: Sequence[float] = (), band_share: float = BAND_SHARE) -> Motion:
-    """Say how columns move: `motion(motion_signals("walk.toml", ["com.y"]))`.
+    """Analyse the motion of columns: `motion(motion_signals("walk.toml", ["com.y"]))`.
 
     Of a column of which something was wanted the difference is looked at too: a command that swings is no oscillation
     of the robot.
@@ -197,18 +197,20 @@ class _Answer:
 
     @classmethod
     def of(cls, signal: MotionSignal, steps_s: Sequence[float], band_share: float) -> _Answer:
-        own = evened(signal.time_s, signal.values, name=signal.name)
+        own = resampled(signal.time_s, signal.values, name=signal.name)
         searched = [(signal.column, own, find_oscillations(own, name=signal.name))]
         desired = signal.desired_values
         if desired is not None:
             error = signal.values - desired
             if np.nanmax(error, initial=-math.inf) > np.nanmin(error, initial=math.inf):
                 name = f"{signal.column} - {signal.desired}"
-                left = evened(signal.time_s, error, name=f"{signal.interval}: {name}")
+                left = resampled(signal.time_s, error, name=f"{signal.interval}: {name}")
                 searched.append((name, left, find_oscillations(left, name=f"{signal.interval}: {name}")))
         settling, untold = _settled(signal, own, steps_s, band_share)
         return cls(
-            oscillations=tuple(row for name, even, search in searched for row in _rows(signal, name, even, search)),
+            oscillations=tuple(
+                row for name, even, search in searched for row in _oscillation_rows(signal, name, even, search)
+            ),
             settling=tuple(settling),
             tracking=None if desired is None else tracking_error(signal),
             curves=tuple(_curve(signal, name, even, search) for name, even, search in searched),
@@ -217,7 +219,7 @@ class _Answer:
 
 
 def _settled(
-    signal: MotionSignal, even: EvenedSignal, steps_s: Sequence[float], band_share: float
+    signal: MotionSignal, even: ResampledSignal, steps_s: Sequence[float], band_share: float
 ) -> tuple[list[SettlingRow], list[str]]:
     """What it did after each step, or why that is not told."""
     try:
@@ -237,7 +239,9 @@ def _steps(signal: MotionSignal, steps_s: Sequence[float]) -> list[float]:
     return [float(at) for at in command_steps(signal.time_s[known], signal.desired_values[known], name=name)]
 
 
-def _rows(signal: MotionSignal, name: str, even: EvenedSignal, search: OscillationSearch) -> Iterator[OscillationRow]:
+def _oscillation_rows(
+    signal: MotionSignal, name: str, even: ResampledSignal, search: OscillationSearch
+) -> Iterator[OscillationRow]:
     nothing = OscillationRow(
         interval=signal.interval,
         column=name,
@@ -277,7 +281,7 @@ def _rows(signal: MotionSignal, name: str, even: EvenedSignal, search: Oscillati
         )
 
 
-def _curve(signal: MotionSignal, name: str, even: EvenedSignal, search: OscillationSearch) -> MotionCurve:
+def _curve(signal: MotionSignal, name: str, even: ResampledSignal, search: OscillationSearch) -> MotionCurve:
     swing = None
     if search.oscillations:
         line = np.polynomial.Polynomial.fit(even.time_s, even.values, 1)
@@ -287,7 +291,7 @@ def _curve(signal: MotionSignal, name: str, even: EvenedSignal, search: Oscillat
     )
 
 
-def _doubts(signal: MotionSignal, name: str, even: EvenedSignal, search: OscillationSearch) -> Iterator[str]:
+def _doubts(signal: MotionSignal, name: str, even: ResampledSignal, search: OscillationSearch) -> Iterator[str]:
     where = f"{signal.interval}: {name}"
     if not even.even:
         yield (

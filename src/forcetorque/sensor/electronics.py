@@ -297,7 +297,7 @@ class Adc:
         return self.step * (whole + middle)
 
     def at_limit(self, counts: Any) -> BoolArray:
-        """Say which counts cannot be told from a voltage beyond the range: that is saturation.
+        """Find the counts that a voltage beyond the range gives too: they are saturated.
 
         Args:
             counts: Counts; any shape.

@@ -236,7 +236,7 @@ class Coverage(ArrayRecord):
 
 
 def coverage(limits: RawLimits, wrench: Any) -> Coverage:
-    """Say which part of a motion's loads a sensor can measure, and what room each channel has left.
+    """Compute the share of a motion's loads that a sensor can measure, and the head-room of each channel.
 
     Args:
         limits: Calibration and limits of the channels.

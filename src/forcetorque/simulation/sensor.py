@@ -138,7 +138,7 @@ class SimulatedSensor(ArrayRecord):
         return hold_on_saturation(within, lowest=-self.limit_counts, highest=self.limit_counts)
 
     def matrix_error(self, matrix: FloatArray) -> FloatArray:
-        """Tell what a matrix makes of a true wrench w: it reads the counts as `(1 + E) w + bias`.
+        """Compute the error of a matrix for a true wrench w: it reads the counts as `(1 + E) w + bias`.
 
         Args:
             matrix: Matrix that readings are made with; shape (6, 6); N/count, N m/count.
@@ -149,7 +149,7 @@ class SimulatedSensor(ArrayRecord):
         return matrix_error(matrix, self.matrix)
 
     def bias(self, matrix: FloatArray) -> FloatArray:
-        """Tell what a matrix reads where nothing loads the sensor, beside `(1 + E) w`.
+        """Compute the wrench by a matrix where nothing loads the sensor, beside `(1 + E) w`.
 
         Args:
             matrix: Matrix that readings are made with; shape (6, 6); N/count, N m/count.

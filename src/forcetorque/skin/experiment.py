@@ -313,7 +313,7 @@ def links_side_by_side(links: Iterable[str]) -> RobotModel:
 
 
 def is_skin_alone(model: RobotModel) -> bool:
-    """Tell links side by side from a robot.
+    """Check whether links are a row of separate links rather than a robot.
 
     Args:
         model: A robot.

@@ -428,7 +428,7 @@ def rim_strip(surface: SkinSurface) -> Rim:
 
 
 def edge_taxels(surface: SkinSurface) -> BoolArray:
-    """Tell the taxels at the edge of a patch, beyond which pressure is not felt.
+    """Find the taxels at the edge of a patch, beyond which pressure is not measured.
 
     A hole between four taxels is none: the strip fills it where corners of modules meet.
 

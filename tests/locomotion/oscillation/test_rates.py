@@ -8,7 +8,7 @@ import pytest
 from scipy.signal import lfilter
 
 from forcetorque.locomotion.oscillation.oscillation import OscillationSearch, find_oscillations
-from forcetorque.locomotion.oscillation.spectrum import evened
+from forcetorque.locomotion.oscillation.spectrum import resampled
 from tests.locomotion.oscillation.noises import COLOURS, noise, swing
 from tests.locomotion.oscillation.test_settling_and_tracking import settled, settled_after, step_response, tracked
 
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.long
 
 
 def _search(values: np.ndarray, rate_hz: float = 100.0) -> OscillationSearch:  # type: ignore[type-arg]
-    return find_oscillations(evened(np.arange(len(values)) / rate_hz, values, name="x"), name="x")
+    return find_oscillations(resampled(np.arange(len(values)) / rate_hz, values, name="x"), name="x")
 
 
 @pytest.mark.parametrize("colour", COLOURS)

@@ -16,7 +16,7 @@ from forcetorque.locomotion.oscillation.settling import (
     settlings,
     tracking_error,
 )
-from forcetorque.locomotion.oscillation.spectrum import evened
+from forcetorque.locomotion.oscillation.spectrum import resampled
 from tests.locomotion.oscillation.noises import noise
 
 TIME_S = np.arange(2000) / 100.0
@@ -53,7 +53,7 @@ def settled(
 ) -> list[SettlingRow]:
     """Settling after steps of a column."""
     signal = a_signal(time_s, values, desired)
-    return settlings(signal, evened(time_s, values, name=signal.name), steps_s, band_share=band_share)
+    return settlings(signal, resampled(time_s, values, name=signal.name), steps_s, band_share=band_share)
 
 
 def tracked(time_s: FloatArray, desired: FloatArray, values: FloatArray) -> TrackingRow:

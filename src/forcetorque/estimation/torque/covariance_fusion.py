@@ -26,7 +26,7 @@ class WindowMeans:
     """Means of what its lasting errors add; shape (w, j, p); N m."""
 
     def window(self, index: int) -> WindowMeans:
-        """Look at one window.
+        """Select one window.
 
         Args:
             index: Its place.
@@ -207,7 +207,7 @@ class Disagreement:
         )
 
     def alarms(self, false_alarm: float) -> bool:
-        """Tell whether there is more of it than chance makes.
+        """Check whether it is larger than chance makes it.
 
         Args:
             false_alarm: Largest rate at which chance does.
@@ -301,7 +301,7 @@ class Conflict:
 
 
 def conflict_between(sources: Mapping[str, WindowMeans], false_alarm: float) -> Conflict:
-    """Look for a conflict, and for the source without which there is none.
+    """Find a conflict, and the source without which there is none.
 
     Sums of squared normalised innovations are distributed as chi-squared if covariances are right and errors normal, so
     the rate of false alarms is the one asked for. Of two sources, nothing tells which is wrong.

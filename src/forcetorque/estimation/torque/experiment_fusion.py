@@ -143,7 +143,7 @@ class TorqueFusion(Row):
             yield table_of(self.friction, "friction, fitted on the calibration intervals")
 
     def warnings(self) -> Iterator[str]:
-        """Say which sources are in conflict.
+        """Give warnings about sources in conflict.
 
         Yields:
             Sentences.
@@ -191,7 +191,7 @@ def fuse_experiment(
 def summarise_fusion(
     experiment: Experiment, fusions: list[IntervalFusion], frictions: tuple[Friction, ...]
 ) -> TorqueFusion:
-    """Say what fused torques amount to.
+    """Summarise fused torques.
 
     Args:
         experiment: The experiment.

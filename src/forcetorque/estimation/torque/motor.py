@@ -51,7 +51,7 @@ class Friction(ArrayRecord):
     coefficients; part of their covariance; shape (4, s)."""
 
     def moves(self, velocity: FloatArray) -> BoolArray:
-        """Tell where the joint moves fast enough.
+        """Find the samples in which the joint moves fast enough.
 
         Args:
             velocity: Velocities; shape (n,); rad/s.

@@ -53,7 +53,7 @@ class NetContact:
 
     @classmethod
     def of(cls, experiment: Experiment, interval: Interval) -> NetContact:
-        """Ask what touches over an interval.
+        """Set up the estimation of contacts over an interval.
 
         Args:
             experiment: The experiment.
@@ -109,7 +109,7 @@ class NetContact:
         }
 
     def leans_deg(self) -> dict[str, float]:
-        """Tell how far links that are stated to stand on level ground lean by the joints.
+        """Compute the lean by the joints of links that are specified to stand on level ground.
 
         Returns:
             Angle by name of the contact, in the mean; deg.
@@ -140,7 +140,7 @@ class NetContact:
         }
 
     def answers(self, row: int) -> FloatArray:
-        """Tell how the net wrench answers the readings at one instant.
+        """Compute the sensitivity of the net wrench to the measurements at one instant.
 
         Args:
             row: Place of the instant.
@@ -269,7 +269,7 @@ class Reader:
     """Calibration intervals of the experiment."""
 
     def evidence(self, experiment: Experiment, interval: Interval) -> bool:
-        """Tell whether neither offset nor matrix come from a phase.
+        """Check whether neither offset nor matrix come from a phase.
 
         Args:
             experiment: The experiment.
@@ -385,7 +385,7 @@ def contact_doubts(phases: Sequence[NetContact], readers: Sequence[Reader], weig
 
 
 def leans(phases: Sequence[NetContact]) -> Iterator[str]:
-    """Say which links stand on level ground and lean by the joints.
+    """Give warnings about links that stand on level ground and lean by the joints.
 
     Args:
         phases: The phases.
@@ -403,7 +403,7 @@ def leans(phases: Sequence[NetContact]) -> Iterator[str]:
 
 
 def reading_doubts(readers: Sequence[Reader], summary: Sequence[CoherenceSummary]) -> Iterator[str]:
-    """Say what makes readings doubtful, and which candidates err more than the prior.
+    """Give warnings about measurements, and about calibrations under test that err more than the prior matrix.
 
     Args:
         readers: All that read the sensors.

@@ -17,7 +17,7 @@ from forcetorque.locomotion.oscillation.spectrum import (
     LEAST_CYCLES,
     Candidate,
     ComplexArray,
-    EvenedSignal,
+    ResampledSignal,
     Sensitivity,
     growth_pattern,
     pieces,
@@ -27,7 +27,7 @@ from forcetorque.locomotion.oscillation.spectrum import (
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TaperedSwings:
+class TaperedOscillations:
     """Swings of one record; the shape of one is its cycles per record, and the growth of its logarithm per record."""
 
     place: FloatArray
@@ -51,7 +51,7 @@ class TaperedSwings:
         return cls(place=place, carrier=carrier)
 
     def seen(self, signals: FloatArray) -> FloatArray:
-        """Tell what the tapers see of signals.
+        """Compute the coefficients of signals under the tapers.
 
         Args:
             signals: Signals; shape (n, ...).
@@ -78,7 +78,7 @@ class TaperedSwings:
         return detrend(np.column_stack([envelope * np.cos(angle), envelope * np.sin(angle)]), axis=0)
 
     def columns(self, shape: Any) -> FloatArray:
-        """Tell what the tapers see of these two.
+        """Compute the coefficients of these two under the tapers.
 
         Args:
             shape: Cycles and growth.
@@ -134,7 +134,7 @@ def fit_oscillation(values: FloatArray, rate_hz: float, candidate: Candidate) ->
     Returns:
         The oscillation.
     """
-    swings = TaperedSwings.about(candidate, len(values))
+    swings = TaperedOscillations.about(candidate, len(values))
     data = swings.seen(values)
     shape, squares = _closest_shape(swings, data, candidate)
     columns = swings.columns(shape)
@@ -162,7 +162,7 @@ def fit_oscillation(values: FloatArray, rate_hz: float, candidate: Candidate) ->
     )
 
 
-def _closest_shape(swings: TaperedSwings, data: FloatArray, candidate: Candidate) -> tuple[FloatArray, float]:
+def _closest_shape(swings: TaperedOscillations, data: FloatArray, candidate: Candidate) -> tuple[FloatArray, float]:
     """Cycles and growth of the swing nearest to the data, and the sum of squares that it leaves."""
     from scipy.optimize import least_squares  # here because importing it takes longer than most commands
 
@@ -328,7 +328,7 @@ class OscillationSearch:
         return float(np.interp(frequency_hz * self.duration_s, known.cycles, known.amplitude))
 
 
-def find_oscillations(signal: EvenedSignal, *, name: str) -> OscillationSearch:
+def find_oscillations(signal: ResampledSignal, *, name: str) -> OscillationSearch:
     """Find what swings in a signal.
 
     Args:

@@ -14,7 +14,7 @@ from forcetorque.base.errors import RecordingError
 from forcetorque.base.noise.autocorrelation import autocorrelation
 from forcetorque.base.units import NORMAL_95
 from forcetorque.locomotion.logged_signals import MotionSignal
-from forcetorque.locomotion.oscillation.spectrum import EvenedSignal
+from forcetorque.locomotion.oscillation.spectrum import ResampledSignal
 from forcetorque.results.table import Row, Shown
 
 END_SHARE = 1.0 / 3.0
@@ -82,7 +82,7 @@ def command_steps(time_s: FloatArray, command: FloatArray, *, name: str) -> Floa
 
 
 def settlings(
-    signal: MotionSignal, even: EvenedSignal, steps_s: Sequence[float], *, band_share: float
+    signal: MotionSignal, even: ResampledSignal, steps_s: Sequence[float], *, band_share: float
 ) -> list[SettlingRow]:
     """Measure how long a signal takes after each step until it stays where it ends.
 

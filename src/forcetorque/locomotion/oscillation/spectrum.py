@@ -38,7 +38,7 @@ LEAST_SAMPLES = 32
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class EvenedSignal(ArrayRecord):
+class ResampledSignal(ArrayRecord):
     """One signal at even instants."""
 
     start_s: float
@@ -65,7 +65,7 @@ class EvenedSignal(ArrayRecord):
         return self.start_s + np.arange(len(self.values)) / self.rate_hz
 
 
-def evened(time_s: Any, values: Any, *, name: str) -> EvenedSignal:
+def resampled(time_s: Any, values: Any, *, name: str) -> ResampledSignal:
     """Bring a signal to even instants.
 
     Samples that are even, as `even_record` takes them for, stay as they are. Others are read off straight lines at the
@@ -106,7 +106,7 @@ def evened(time_s: Any, values: Any, *, name: str) -> EvenedSignal:
     except RecordingError:
         rate = (len(time) - 1) / float(time[-1] - time[0])
         grid = time[0] + np.arange(len(time)) / rate
-        return EvenedSignal(
+        return ResampledSignal(
             start_s=float(time[0]),
             rate_hz=rate,
             values=np.interp(grid, time, signal),
@@ -114,7 +114,7 @@ def evened(time_s: Any, values: Any, *, name: str) -> EvenedSignal:
             longest_step_s=longest,
             even=False,
         )
-    return EvenedSignal(
+    return ResampledSignal(
         start_s=record.start_s,
         rate_hz=record.rate_hz,
         values=signal,
@@ -335,7 +335,7 @@ def _chances(values: FloatArray, parts: int, family: TaperFamily) -> tuple[Float
 
 
 def _inflation(chance: FloatArray, cycles: FloatArray) -> float:
-    """Tell how much more than by chance all frequencies seem to swing, where noise comes in bursts or grows.
+    """Compute by how much all frequencies seem to oscillate beyond chance, where noise comes in bursts or grows.
 
     Such noise looks alike under several tapers, at all frequencies. Logarithms of p-values are divided by what makes
     their upper tenth that of chance, as genomic control does [1]; too few frequencies cannot tell it.
@@ -356,7 +356,7 @@ def _inflation(chance: FloatArray, cycles: FloatArray) -> float:
 
 
 def sensitivity(noise: FloatArray, highest: float) -> Sensitivity:
-    """Tell which amplitudes would be seen.
+    """Compute the detectable amplitudes.
 
     Args:
         noise: The signal without mean, trend and what swings in it; shape (n,).

@@ -96,7 +96,7 @@ class PlaneTolerance:
 
 
 def coplanar(ground_H_soles: Sequence[FloatArray], down: BoolArray, tolerance: PlaneTolerance) -> BoolArray:
-    """Tell when all soles that are down lie in one plane, that of the ground's frame.
+    """Find the samples in which all soles that are down lie in one plane, that of the ground's frame.
 
     Args:
         ground_H_soles: Poses of the soles in the frame of the ground, that of one of them; shape (n, 4, 4) each; m.
@@ -173,7 +173,7 @@ class Sole(ArrayRecord):
         return Contact.at_point(self.frame, self.position)
 
     def beyond(self, points: FloatArray) -> FloatArray:
-        """Tell how far points lie outside the sole.
+        """Compute how far points lie outside the sole.
 
         Args:
             points: Points of its plane; shape (n, 2); m.
@@ -254,7 +254,7 @@ class ComAcceleration(ArrayRecord):
 
 
 def stays_in_band(height_m: FloatArray, time_s: FloatArray, *, band_m: float) -> BoolArray:
-    """Tell when the height of the centre of mass stays within a band around its median.
+    """Find the samples in which the height of the centre of mass stays within a band around its median.
 
     Args:
         height_m: Height over the ground; NaN where it is not known; shape (n,); m.

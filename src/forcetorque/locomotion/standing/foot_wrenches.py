@@ -86,7 +86,7 @@ class FootForces:
 
 
 def has_foot_forces(path: Path | str) -> bool:
-    """Tell whether an experiment file is about feet whose vertical forces alone were logged.
+    """Check whether an experiment file is about feet whose vertical forces alone were logged.
 
     Args:
         path: TOML file.

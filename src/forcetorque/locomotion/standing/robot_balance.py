@@ -229,7 +229,7 @@ class BalanceScene:
 
 
 def _whole(tree: BodyTree, contact: Contact) -> Question:
-    """Ask what one contact has to do that bears the whole robot."""
+    """The wrench of one contact that bears the whole robot, as an estimation problem."""
     return Question(tree=tree, contacts=(contact,), equations=())
 
 

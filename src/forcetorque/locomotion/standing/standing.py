@@ -130,7 +130,7 @@ def balance(
     corrections: Sequence[Mapping[str, Correction]] = (),
     options: BalanceOptions | None = None,
 ) -> Balance:
-    """Say how a robot stood, over all intervals that are not to be ignored.
+    """Compute how a robot stood, over all intervals that are not ignored.
 
     Recordings that hold the same forces, sample for sample, under two names are noticed, and counted once.
 

@@ -47,7 +47,7 @@ class ContactThresholds:
 
 
 def contact_state(force_N: Any, time_s: Any, thresholds: ContactThresholds) -> BoolArray:
-    """Tell when a foot is down.
+    """Find the samples in which a foot is down.
 
     Pauses shorter than the dwell time are filled first, then contacts that are shorter still are dropped; stretches at
     an end of the log, or at a gap of it, are kept, because nobody saw how long they were.

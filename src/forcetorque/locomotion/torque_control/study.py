@@ -14,7 +14,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.locomotion.oscillation.oscillation import find_oscillations
-from forcetorque.locomotion.oscillation.spectrum import evened
+from forcetorque.locomotion.oscillation.spectrum import resampled
 from forcetorque.locomotion.torque_control.balancing import Phase, Reference, standing, switching
 from forcetorque.locomotion.torque_control.closed_loop import (
     LoopRun,
@@ -298,7 +298,7 @@ def _amplitudes(pushed: LoopRun) -> FloatArray:
             continue
         lasting = []
         for axis in (0, 1):
-            signal = evened(time_s, pushed.centre_error[k, first::_EVERY, axis], name="centre of mass")
+            signal = resampled(time_s, pushed.centre_error[k, first::_EVERY, axis], name="centre of mass")
             lasting += [
                 swing.amplitude
                 for swing in find_oscillations(signal, name="centre of mass").oscillations

@@ -225,7 +225,7 @@ def response(
     name: str | None = None,
     calibration: Calibration | None = None,
 ) -> Response:
-    """Tell what a sensor does to fast forces.
+    """Compute the response of a sensor to fast forces.
 
     Args:
         runs: The sensor, in one or several recordings.
@@ -389,7 +389,7 @@ def _doubts(
 
 
 def kept_swing(fit: SecondOrder, transfer: FrequencyResponse) -> float:
-    """Tell how much of a vibration is left at the end of a segment.
+    """Compute the share of a vibration that is left at the end of a segment.
 
     Args:
         fit: The sensor.

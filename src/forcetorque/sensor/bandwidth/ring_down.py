@@ -102,7 +102,7 @@ def _event(height: FloatArray, start: int, end: int, before: int, after: int, gu
 
 
 def outstanding(record: EvenRecord) -> FloatArray:
-    """Tell by how much the fast part of signals stands out.
+    """Compute by how much the fast part of signals stands out.
 
     Args:
         record: Signals.
@@ -424,7 +424,7 @@ def step_direction(record: EvenRecord, events: tuple[Event, ...]) -> FloatArray:
 def gains(
     record: EvenRecord, events: tuple[Event, ...], decays: Sequence[RingDown], weight_N: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Tell what the sensor reads of a newton of each released weight.
+    """Compute the measurement per newton of each released weight.
 
     Args:
         record: One signal; shape (n, 1).

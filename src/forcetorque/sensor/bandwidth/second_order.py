@@ -60,7 +60,7 @@ class SecondOrder(ArrayRecord):
         return self.gain / (1.0 + 2j * self.damping * ratio - ratio**2)
 
     def bandwidth(self) -> tuple[float, float]:
-        """Tell up to which frequency the response is within 3 dB, a factor of `sqrt(0.5)`, of that at rest, or above.
+        """Compute the bandwidth: the response is within 3 dB, a factor of `sqrt(0.5)`, of that at rest, or above it.
 
         Returns:
             Frequency, Hz, and half of its 95 % interval, by its gradient.

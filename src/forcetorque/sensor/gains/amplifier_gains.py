@@ -234,7 +234,7 @@ def advise_gains(
 
 
 def axis_resolution(matrix: FloatArray, *, factors: Sequence[float] | None = None) -> AxisResolution:
-    """Tell what one count is worth.
+    """Compute the wrench of one count.
 
     Args:
         matrix: Matrix for the present gains; shape (6, c); N/count, N m/count.

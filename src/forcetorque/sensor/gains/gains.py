@@ -48,7 +48,7 @@ _INSTANTS = 400
 
 
 def moved_channels(run: SensorRun, counts: RawCounts) -> BoolArray:
-    """Tell in which channels the recording shows a load that moves.
+    """Find the channels in which the recording shows a load that moves.
 
     Args:
         run: The sensor.
@@ -66,7 +66,7 @@ def moved_channels(run: SensorRun, counts: RawCounts) -> BoolArray:
 
 
 def has_contact(run: SensorRun) -> bool:
-    """Tell whether the file says of any interval that something touches the robot beyond the sensor.
+    """Check whether the file specifies a contact distal to the sensor in any interval.
 
     Args:
         run: The sensor.
@@ -183,7 +183,7 @@ class SensorGains(ArrayRecord):
 def select_gains(
     run: SensorRun, *, margin: float = MARGIN, calibration: tuple[str, Calibration] | None = None
 ) -> Gains:
-    """Look how a sensor uses its range over all intervals that are not ignored.
+    """Compute how a sensor uses its range over all intervals that are not ignored, and recommend gains.
 
     Args:
         run: The sensor, with its present and allowed gains if they are known.

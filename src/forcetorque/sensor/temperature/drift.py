@@ -229,7 +229,7 @@ class LoadStep:
 
 
 def find_load_step(cycles: Cycles, residual: FloatArray) -> LoadStep | None:
-    """Look for a step in the residual of a fit.
+    """Find a step in the residual of a fit.
 
     Args:
         cycles: Means that were fitted.

@@ -15,8 +15,8 @@ from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import Row, Shown
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import WAKING, PatchReader, PressureFrame
-from forcetorque.skin.temperature.heat_compensation import HeatGains, TaxelDrift
 from forcetorque.skin.temperature.pad_lags import PadFilter
+from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, TaxelDrift
 from forcetorque.skin.wrench.patch import SkinPatch
 
 RELEASED_SHARE: Final = 0.5
@@ -73,7 +73,7 @@ class _HeldContact:
             self.course.popleft()
 
     def release(self) -> ReleaseRow | None:
-        """Tell whether it was let go and has settled."""
+        """Check whether the contact was released and has settled."""
         times, forces, limits = np.array(self.course).T
         settled = times > min(times[-1] - SETTLED_S, times[-2:][0] - _JUST)
         before = float(np.median(forces[: max(1, len(forces) // 4)]))

@@ -72,7 +72,7 @@ class LayoutFindingRow(Row):
 
 
 def counted(count: int, noun: str) -> str:
-    """Say how many.
+    """Count items, with a noun.
 
     Args:
         count: How many.

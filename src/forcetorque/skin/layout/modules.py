@@ -144,7 +144,7 @@ TEMPLATE_M = 5e-4
 
 
 def are_boards(taxels: IntArray, modules: IntArray) -> bool:
-    """Tell whether a patch is of triangular modules, which have twelve columns each.
+    """Check whether a patch consists of triangular modules, which have twelve columns each.
 
     Args:
         taxels: Column of each taxel; shape (n,).
@@ -157,7 +157,7 @@ def are_boards(taxels: IntArray, modules: IntArray) -> bool:
 
 
 def has_ten(taxels: IntArray) -> bool:
-    """Tell whether a module has the ten taxels of the triangle.
+    """Check whether a module has the ten taxels of the triangle.
 
     Args:
         taxels: Columns of its taxels, increasing; shape (k,).

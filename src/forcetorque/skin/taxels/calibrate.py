@@ -218,7 +218,7 @@ def _artefact(
 
 def _taxel(column: int, k: int, curve: TaxelCurve | None, samples: FittedSamples) -> CalibratedTaxel:
     if curve is None:
-        return CalibratedTaxel(taxel=column, left_out=tuple(reason.value for reason in samples.ailments[k]))
+        return CalibratedTaxel(taxel=column, left_out=tuple(reason.value for reason in samples.faults[k]))
     return calibrated_taxel(column, curve, samples.fall[:, k], samples.pressure, samples.unloading)
 
 

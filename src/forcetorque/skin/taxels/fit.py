@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve, fit_curve
-from forcetorque.skin.taxels.health import Ailment
+from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.patch_calibration import ROWS, CalibratedTaxel
 from forcetorque.skin.taxels.recording import REST_SHARE, TOP_SHARE, PatchRecording
 from forcetorque.skin.taxels.result import CandidateRow, in_kPa, recording_name
@@ -29,7 +29,7 @@ class FittedSamples:
     """Pressure above that at rest; shape (n,); Pa."""
     unloading: BoolArray
     """Whether each was reached from above; shape (n,)."""
-    ailments: tuple[tuple[Ailment, ...], ...]
+    faults: tuple[tuple[TaxelFault, ...], ...]
     """What is wrong with each taxel in any of the recordings."""
     highest: float
     """Highest fitted pressure; Pa."""
@@ -51,7 +51,7 @@ class FittedSamples:
             None
             if reasons
             else fit_curve(kind, self.fall[loaded, k], self.pressure[loaded], range_counts=float(reach[k]))
-            for k, reasons in enumerate(self.ailments)
+            for k, reasons in enumerate(self.faults)
         ]
 
 
@@ -72,16 +72,16 @@ def fitted_samples(recordings: Sequence[PatchRecording], highest: float | None) 
     used = np.ones(len(pressure), dtype=bool) if highest is None else pressure <= highest
     if not used.any() or pressure[used].max() <= 0.0:
         raise FitError(f"highest pressure to fit: expected one of up to {pressure.max():.0f} Pa, got {highest} Pa")
-    by_taxel = zip(*(recording.ailments for recording in recordings), strict=True)
-    ailments = tuple(tuple(name for name in Ailment if any(name in log for log in logs)) for logs in by_taxel)
-    if all(ailments):
-        reasons = ", ".join(name for name in Ailment if any(name in taxel for taxel in ailments))
-        raise FitError(f"expected a sound taxel to fit, got none of {len(ailments)}: they are {reasons}")
+    by_taxel = zip(*(recording.faults for recording in recordings), strict=True)
+    faults = tuple(tuple(name for name in TaxelFault if any(name in log for log in logs)) for logs in by_taxel)
+    if all(faults):
+        reasons = ", ".join(name for name in TaxelFault if any(name in taxel for taxel in faults))
+        raise FitError(f"expected a sound taxel to fit, got none of {len(faults)}: they are {reasons}")
     return FittedSamples(
         fall=np.concatenate([recording.cycle.fall for recording in recordings])[used],
         pressure=pressure[used],
         unloading=np.concatenate([recording.cycle.unloading for recording in recordings])[used],
-        ailments=ailments,
+        faults=faults,
         highest=float(pressure[used].max()),
     )
 

@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names
 from forcetorque.results.table import Row, Shown
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
-from forcetorque.skin.taxels.health import Ailment
+from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.patch_calibration import CalibratedTaxel
 from forcetorque.skin.taxels.recording import PatchRecording
 
@@ -34,7 +34,7 @@ class SkinRecordingRow(Row):
     sound: Annotated[int, Shown("sound")]
     """Taxels with which nothing is wrong in it."""
     wraps: Annotated[int, Shown("wrap")]
-    """Taxels that run below 0 and go on at 255; a taxel may have several ailments."""
+    """Taxels that run below 0 and go on at 255; a taxel may have several faults."""
     rails: Annotated[int, Shown("at rails")]
     """Taxels that read 0 or 255."""
     jumps: Annotated[int, Shown("jump")]
@@ -102,7 +102,7 @@ def recording_row(recording: PatchRecording) -> SkinRecordingRow:
     Returns:
         Its row.
     """
-    number = Counter(reason for reasons in recording.ailments for reason in reasons)
+    number = Counter(reason for reasons in recording.faults for reason in reasons)
     return SkinRecordingRow(
         recording=recording_name(recording),
         use=recording.use.value,
@@ -110,7 +110,7 @@ def recording_row(recording: PatchRecording) -> SkinRecordingRow:
         highest_kPa=1e-3 * recording.cycle.highest,
         rest_kPa=1e-3 * recording.cycle.rest_pressure,
         sound=int(np.count_nonzero(recording.sound)),
-        **{name.name.lower(): number[name] for name in Ailment},
+        **{name.name.lower(): number[name] for name in TaxelFault},
     )
 
 

@@ -19,7 +19,8 @@ from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_p
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.layout.normals import rebuilt_normals
-from forcetorque.skin.temperature.heat_compensation import (
+from forcetorque.skin.temperature.pad_lags import PadFilter, lagged, means_of, pad_lags
+from forcetorque.skin.temperature.taxel_temperature_drift import (
     LEAST_CHANGE_COUNTS,
     LEAST_SHARE,
     HeatGains,
@@ -30,7 +31,6 @@ from forcetorque.skin.temperature.heat_compensation import (
     require_pads,
     valid_columns,
 )
-from forcetorque.skin.temperature.pad_lags import PadFilter, lagged, means_of, pad_lags
 from forcetorque.skin.wrench.frames import patch_messages
 
 BLOCK_S: Final = 1.0

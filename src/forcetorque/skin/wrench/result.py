@@ -18,7 +18,7 @@ from forcetorque.results.table import AxisValues, FloatOrNull, Row, Shown, Wrenc
 from forcetorque.skin.contact.contacts import SkinContacts, lobes
 from forcetorque.skin.contact.pressure_frame import PressureFrame
 from forcetorque.skin.contact.tracking import ContactLife, followed_places
-from forcetorque.skin.temperature.heat_compensation import HeatRule
+from forcetorque.skin.temperature.taxel_temperature_drift import HeatRule
 from forcetorque.skin.wrench.frames import SkinFrames
 from forcetorque.skin.wrench.patch import SkinPatch
 
@@ -269,7 +269,7 @@ HEATING: Final = 1.25
 
 
 def heat_warnings(frames: SkinFrames, rows: Sequence[SkinContactRow], *, has_pads: bool) -> tuple[str, ...]:
-    """Say what heat makes doubtful.
+    """Give warnings about heat on the skin.
 
     Args:
         frames: Frames of a recording.

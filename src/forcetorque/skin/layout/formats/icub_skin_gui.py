@@ -39,7 +39,7 @@ class IcubPositions:
     """What it is recognised by."""
 
     def recognises(self, text: str) -> bool:
-        """Look for its line."""
+        """Whether the file has its line."""
         return _SIGN in text
 
     def read(self, path: Path, text: str) -> PatchDescription:
@@ -135,7 +135,7 @@ class SkinGuiPlan:
     """What it is recognised by."""
 
     def recognises(self, text: str) -> bool:
-        """Look for a line of a module."""
+        """Whether the file has a line of a module."""
         return re.search(rf"^{_MODULE}\s", text, re.MULTILINE) is not None
 
     def read(self, path: Path, text: str) -> PatchDescription:

@@ -57,7 +57,7 @@ class UrdfFrames:
     """What it is recognised by."""
 
     def recognises(self, text: str) -> bool:
-        """Look for the schema."""
+        """Whether the file has the schema."""
         return re.search(rf'^schema\s*=\s*"{_SCHEMA}"', text, re.MULTILINE) is not None
 
     def read(self, path: Path, text: str) -> PatchDescription:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Heat taken off the counts of taxels: thermal pads that work, and the gains from their change to the drift."""
+"""What temperature does to a taxel: its drift with heat, and the compensation by gains from thermal pads."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import SkinError
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.taxels.health import taxel_ailments
+from forcetorque.skin.taxels.faults import taxel_faults
 
 LEAST_CHANGE_COUNTS: Final = 4.0
 """Change of pads below which they tell nothing of gains: noise of means over a second then is 5 % of it; counts."""
@@ -24,7 +24,7 @@ LEAST_SHARE: Final = 0.3
 
 
 def valid_columns(counts: FloatArray) -> BoolArray:
-    """Tell which columns are at no rail, nowhere jump or wrap, and are not noisy.
+    """Find the columns that are at no rail, do not jump or wrap, and are not noisy.
 
     Args:
         counts: Messages of taxels or pads; shape (n, c); counts.
@@ -33,11 +33,11 @@ def valid_columns(counts: FloatArray) -> BoolArray:
         Whether each is; shape (c,).
     """
     never_judged = np.full(counts.shape[1], np.inf)
-    return np.array([not reasons for reasons in taxel_ailments(counts, never_judged)], dtype=np.bool_)
+    return np.array([not reasons for reasons in taxel_faults(counts, never_judged)], dtype=np.bool_)
 
 
 def stuck_pads(counts: FloatArray) -> BoolArray:
-    """Tell which thermal pads are dead in a recording: not sound, or at one number while others change.
+    """Find the dead thermal pads of a recording: faulty ones, and constant ones while others change.
 
     Args:
         counts: Messages of the pads; shape (n, t); counts.

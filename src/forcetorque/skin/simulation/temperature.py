@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Heat on simulated skin: from motors inside, which pads feel, and from a hand outside, which they hardly do."""
+"""Temperature of simulated skin: heat from motors inside, which pads measure, and from a hand, which they hardly do."""
 
 from __future__ import annotations
 
