@@ -321,20 +321,20 @@ def _predicted(correction: Correction, readings: FloatArray, sessions: Sequence[
     return np.where(whole[:, None, None], predicted, np.nan)
 
 
-def with_skin(plain: Estimates, answer: UncertainEstimates) -> Estimates:
+def with_skin(plain: Estimates, uncertain: UncertainEstimates) -> Estimates:
     """Put what skin and sensors say together in place of what sensors say beside the push of the skin.
 
     Args:
         plain: Estimates in which skin has no friction and no error.
-        answer: Estimates with both, of the same samples.
+        uncertain: Estimates with both, of the same samples.
 
     Returns:
         The former with contacts and torques of the latter.
     """
-    columns = [answer.contacts.index(name) for name in plain.layout.contacts]
-    wrenches = np.ascontiguousarray(answer.contact_wrenches[:, columns])
+    columns = [uncertain.contacts.index(name) for name in plain.layout.contacts]
+    wrenches = np.ascontiguousarray(uncertain.contact_wrenches[:, columns])
     fields = {name: getattr(plain, name) for name in plain.layout.shapes(0)}
-    fields |= {"contact_wrenches": wrenches, "torques": np.ascontiguousarray(answer.torques)}
+    fields |= {"contact_wrenches": wrenches, "torques": np.ascontiguousarray(uncertain.torques)}
     return Estimates(layout=plain.layout, **fields)
 
 

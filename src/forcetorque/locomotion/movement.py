@@ -171,32 +171,32 @@ def motion(signals: Sequence[MotionSignal], *, steps_s: Sequence[float] = (), ba
             raise ExperimentError(
                 f"step at {step:g} s: expected an instant within an interval, from the first sample on"
             )
-    answers = [_Answer.of(signal, sorted(steps_s), band_share) for signal in signals]
+    analysed = [_SignalMotion.of(signal, sorted(steps_s), band_share) for signal in signals]
     return Motion(
-        oscillations=tuple(row for answer in answers for row in answer.oscillations),
-        settling=tuple(row for answer in answers for row in answer.settling),
-        tracking=tuple(answer.tracking for answer in answers if answer.tracking is not None),
+        oscillations=tuple(row for column in analysed for row in column.oscillations),
+        settling=tuple(row for column in analysed for row in column.settling),
+        tracking=tuple(column.tracking for column in analysed if column.tracking is not None),
         band_percent=100.0 * band_share,
-        curves=tuple(curve for answer in answers for curve in answer.curves),
+        curves=tuple(curve for column in analysed for curve in column.curves),
         warnings=(
-            *dict.fromkeys(doubt for answer in answers for doubt in answer.doubts),
+            *dict.fromkeys(warning for column in analysed for warning in column.warnings),
             *dict.fromkeys(sentence for signal in signals for sentence in signal.added),
         ),
     )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Answer:
+class _SignalMotion:
     """What one signal does."""
 
     oscillations: tuple[OscillationRow, ...]
     settling: tuple[SettlingRow, ...]
     tracking: TrackingRow | None
     curves: tuple[MotionCurve, ...]
-    doubts: tuple[str, ...]
+    warnings: tuple[str, ...]
 
     @classmethod
-    def of(cls, signal: MotionSignal, steps_s: Sequence[float], band_share: float) -> _Answer:
+    def of(cls, signal: MotionSignal, steps_s: Sequence[float], band_share: float) -> _SignalMotion:
         own = resampled(signal.time_s, signal.values, name=signal.name)
         searched = [(signal.column, own, find_oscillations(own, name=signal.name))]
         desired = signal.desired_values
@@ -206,7 +206,7 @@ class _Answer:
                 name = f"{signal.column} - {signal.desired}"
                 left = resampled(signal.time_s, error, name=f"{signal.interval}: {name}")
                 searched.append((name, left, find_oscillations(left, name=f"{signal.interval}: {name}")))
-        settling, untold = _settled(signal, own, steps_s, band_share)
+        settling, refused = _settled(signal, own, steps_s, band_share)
         return cls(
             oscillations=tuple(
                 row for name, even, search in searched for row in _oscillation_rows(signal, name, even, search)
@@ -214,7 +214,7 @@ class _Answer:
             settling=tuple(settling),
             tracking=None if desired is None else tracking_error(signal),
             curves=tuple(_curve(signal, name, even, search) for name, even, search in searched),
-            doubts=(*(doubt for entry in searched for doubt in _doubts(signal, *entry)), *untold),
+            warnings=(*(warning for entry in searched for warning in _warnings(signal, *entry)), *refused),
         )
 
 
@@ -291,7 +291,7 @@ def _curve(signal: MotionSignal, name: str, even: ResampledSignal, search: Oscil
     )
 
 
-def _doubts(signal: MotionSignal, name: str, even: ResampledSignal, search: OscillationSearch) -> Iterator[str]:
+def _warnings(signal: MotionSignal, name: str, even: ResampledSignal, search: OscillationSearch) -> Iterator[str]:
     where = f"{signal.interval}: {name}"
     if not even.even:
         yield (

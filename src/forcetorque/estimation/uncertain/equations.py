@@ -37,7 +37,7 @@ class Scene:
     """What acts on which body, and what the bodies need."""
 
     question: Question
-    """What is asked."""
+    """What is estimated."""
     actors: Sequence[Actor]
     """What acts."""
     actions: Sequence[Action]
@@ -168,11 +168,11 @@ class Posterior:
     residual: FloatArray
     """What neither unknowns nor errors explain; shape (n, r)."""
 
-    def answers(self, rows: Affine) -> tuple[FloatArray, FloatArray]:
-        """Give answers that are linear in unknowns and errors.
+    def linear(self, rows: Affine) -> tuple[FloatArray, FloatArray]:
+        """Evaluate quantities that are linear in unknowns and errors.
 
         Args:
-            rows: The answers; shape (n, r).
+            rows: The quantities; shape (n, r).
 
         Returns:
             Means, shape (n, r), and what one standard deviation of each error leaves them wrong by, shape (n, r, m),

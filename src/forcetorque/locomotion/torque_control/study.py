@@ -160,27 +160,27 @@ def torque_loop(
         MissingExtraError: If MuJoCo is not installed.
         ControlError: If gains are unstable without any error.
     """
-    asked = TorqueLoopFile() if file is None else file
-    rng = np.random.default_rng(asked.seed)
-    unit = drawn_matrices(1.0, asked.sensor.lever_m, rng, asked.seeds)
+    settings = TorqueLoopFile() if file is None else file
+    rng = np.random.default_rng(settings.seed)
+    unit = drawn_matrices(1.0, settings.sensor.lever_m, rng, settings.seeds)
     rows: list[TorqueLoopRow] = []
     onsets: list[TorqueLoopOnsetRow] = []
-    for tilt_deg in asked.tilt_deg:
+    for tilt_deg in settings.tilt_deg:
         biped = Biped.on_soles(tilt_deg)
-        reference = switching(biped, asked.timing, PERIOD_S)
-        for gain_factor in asked.gain_factors:
-            setting = asked.setting(biped, gain_factor)
-            case = _Case(file=asked, biped=biped, setting=setting, reference=reference, gain_factor=gain_factor)
+        reference = switching(biped, settings.timing, PERIOD_S)
+        for gain_factor in settings.gain_factors:
+            setting = settings.setting(biped, gain_factor)
+            case = _Case(file=settings, biped=biped, setting=setting, reference=reference, gain_factor=gain_factor)
             progress(f"soles at {tilt_deg:g} degrees, gains times {gain_factor:g}: the linear loop")
             robots = case.linear_robots()
             onsets += case.onset_rows(robots, unit)
             rows += case.rows(unit, rng, progress)
     weight_N = biped.mass * STANDARD_GRAVITY
     return TorqueLoopStudy(
-        name=asked.name,
+        name=settings.name,
         weight_N=weight_N,
-        duration_s=asked.timing.duration_s,
-        delay_s=asked.estimator.delay_s + 1.0 / asked.estimator.rate_hz - PERIOD_S,
+        duration_s=settings.timing.duration_s,
+        delay_s=settings.estimator.delay_s + 1.0 / settings.estimator.rate_hz - PERIOD_S,
         rows=tuple(rows),
         onsets=tuple(onsets),
     )

@@ -118,7 +118,7 @@ def _segments(
     return force, reading
 
 
-LEAST_SWING = 0.02
+LEAST_VIBRATION = 0.02
 """Share of a vibration that may be left at the end of a segment."""
 
 FOLDED_SHARE = 0.35
@@ -275,7 +275,7 @@ def response(
             inverse = inverse_filter(fit, rate, cut_off_hz=cut_off_hz, name=run.sensor.name, quiet=quiet)
     except FitError as error:
         refused.append(str(error))
-    answer = Response(
+    result = Response(
         sensor=run.sensor.name,
         serial=run.sensor.serial,
         reading=correction.source,
@@ -291,7 +291,7 @@ def response(
         refused=tuple(refused),
         decays=() if decays is None else decays.curves,
     )
-    return answer.model_copy(update={"warnings": tuple(_doubts(answer, fit, transfer, decays))})
+    return result.model_copy(update={"warnings": tuple(_warnings(result, fit, transfer, decays))})
 
 
 def _excitation(name: ExcitationKind | str) -> ExcitationKind:
@@ -350,45 +350,48 @@ def _curve(transfer: FrequencyResponse, fit: SecondOrder | None) -> ResponseCurv
     )
 
 
-def _doubts(
-    answer: Response, fit: SecondOrder | None, transfer: FrequencyResponse | None, decays: Decays | None
+def _warnings(
+    result: Response, fit: SecondOrder | None, transfer: FrequencyResponse | None, decays: Decays | None
 ) -> Iterator[str]:
-    yield from (row.untold for row in answer.events if row.untold is not None)
-    for row in answer.events:
-        if row.frequency_hz is not None and row.frequency_hz > FOLDED_SHARE * answer.rate_hz:
+    yield from (row.untold for row in result.events if row.untold is not None)
+    for row in result.events:
+        if row.frequency_hz is not None and row.frequency_hz > FOLDED_SHARE * result.rate_hz:
             yield (
                 f"{row.recording}: at {row.time_s:.3f} s it rings at {row.frequency_hz:.4g} Hz, near half of the rate, "
-                f"{0.5 * answer.rate_hz:.4g} Hz: it may be one from above, folded back; sample faster"
+                f"{0.5 * result.rate_hz:.4g} Hz: it may be one from above, folded back; sample faster"
             )
     if decays is not None and decays.ring_downs:
         frequency = decays.frequency
         if frequency.scatter is not None and frequency.scatter > 0.1 * frequency.mean:
             frequencies = [ring_down.frequency_hz for ring_down in decays.ring_downs]
             yield (
-                f"{answer.sensor}: events ring at {min(frequencies):.3g} to {max(frequencies):.3g} Hz: they are not "
+                f"{result.sensor}: events ring at {min(frequencies):.3g} to {max(frequencies):.3g} Hz: they are not "
                 "one vibration; strike one place in one posture, or choose another component"
             )
     if fit is None or transfer is None:
         return
     if fit.misfit is not None and fit.misfit > MISFIT:
         yield (
-            f"{answer.sensor}: one resonance leaves {fit.misfit:.2g} times the noise: there are more, or a delay; "
+            f"{result.sensor}: one resonance leaves {fit.misfit:.2g} times the noise: there are more, or a delay; "
             "intervals are widened for it"
         )
     reached = float(transfer.frequency_hz[transfer.driven].max())
     if fit.natural_frequency_hz > reached:
         yield (
-            f"{answer.sensor}: its natural frequency, {fit.natural_frequency_hz:.4g} Hz, lies above what the force "
+            f"{result.sensor}: its natural frequency, {fit.natural_frequency_hz:.4g} Hz, lies above what the force "
             f"drove, {reached:.4g} Hz: it is extrapolated by the form of the fit; confirm it by taps"
         )
-    if decays is not None and kept_swing(fit, transfer) > LEAST_SWING:
+    if decays is None:
+        return
+    remaining = remaining_vibration(fit, transfer)
+    if remaining > LEAST_VIBRATION:
         yield (
-            f"{answer.sensor}: {100 * kept_swing(fit, transfer):.0f} % of a vibration is left when its segment ends, "
+            f"{result.sensor}: {100 * remaining:.0f} % of a vibration is left when its segment ends, "
             "which makes damping look larger; leave more time between events"
         )
 
 
-def kept_swing(fit: SecondOrder, transfer: FrequencyResponse) -> float:
+def remaining_vibration(fit: SecondOrder, transfer: FrequencyResponse) -> float:
     """Compute the share of a vibration that is left at the end of a segment.
 
     Args:

@@ -221,7 +221,7 @@ def select_gains(
         experiment=run.experiment.name,
         margin=margin,
         sensors=(row,),
-        warnings=tuple(_doubts(row, run.sensor.prior_source)),
+        warnings=tuple(_warnings(row, run.sensor.prior_source)),
     )
 
 
@@ -287,7 +287,7 @@ def _resolution_rows(matrix: FloatArray, channels: Sequence[ChannelGain]) -> tup
     )
 
 
-def _doubts(row: SensorRow, prior: str | None) -> Iterator[str]:
+def _warnings(row: SensorRow, prior: str | None) -> Iterator[str]:
     """What the recording cannot tell."""
     if row.recovered:
         yield (

@@ -252,8 +252,8 @@ def thermal(
         ),
     )
     step = find_load_step(settled, fit.residual)
-    doubts = _doubts(sensor, settled, fit, step)
-    return Thermal(experiment=run.experiment.name, sensors=(sensor,), warnings=tuple(doubts))
+    warnings = _warnings(sensor, settled, fit, step)
+    return Thermal(experiment=run.experiment.name, sensors=(sensor,), warnings=tuple(warnings))
 
 
 def _temperature(run: SensorRun, wanted: str | None) -> SensorVariable:
@@ -307,7 +307,7 @@ def _row(k: int, signal: str, unit: str, fit: DriftFit) -> ThermalDriftRow:
     )
 
 
-def _doubts(sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: LoadStep | None) -> Iterator[str]:
+def _warnings(sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: LoadStep | None) -> Iterator[str]:
     if cycles.range_degC < LEAST_RANGE_DEGC:
         yield (
             f"{sensor.sensor}: its temperature went through {cycles.range_degC:.2g} degC only: coefficients are worth "

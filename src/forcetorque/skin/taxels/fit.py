@@ -207,11 +207,11 @@ def compare_curves(
     for kind, own in curves.items():
         falling = _falling(own)
         errors = [held_out_errors(own, log, highest) for log in held_out]
-        sound = [error.of(log.sound) for error, log in zip(errors, held_out, strict=True)]
-        for log, error, kept in zip(held_out, errors, sound, strict=True):
+        valid = [error.of(log.valid) for error, log in zip(errors, held_out, strict=True)]
+        for log, error, kept in zip(held_out, errors, valid, strict=True):
             rows.append(_row(kind, recording_name(log), kept, error, falling))
         if held_out:
-            pooled[kind] = reduce(add, sound)
+            pooled[kind] = reduce(add, valid)
             rows.append(_row(kind, ALL, pooled[kind], reduce(add, errors), falling))
     return CurveComparison(rows=tuple(rows), pooled=pooled, taxels=len(next(iter(curves.values()))))
 

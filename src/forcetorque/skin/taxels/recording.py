@@ -174,7 +174,7 @@ class PatchRecording:
     """What is wrong with each taxel here."""
 
     @property
-    def sound(self) -> BoolArray:
+    def valid(self) -> BoolArray:
         """Taxels with which nothing is wrong; shape (c,)."""
         return np.array([not reasons for reasons in self.faults])
 

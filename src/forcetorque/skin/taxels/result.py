@@ -109,7 +109,7 @@ def recording_row(recording: PatchRecording) -> SkinRecordingRow:
         messages=len(recording.seconds),
         highest_kPa=1e-3 * recording.cycle.highest,
         rest_kPa=1e-3 * recording.cycle.rest_pressure,
-        sound=int(np.count_nonzero(recording.sound)),
+        sound=int(np.count_nonzero(recording.valid)),
         **{name.name.lower(): number[name] for name in TaxelFault},
     )
 
