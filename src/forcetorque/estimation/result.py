@@ -41,7 +41,7 @@ class SkinContactSummary(Row):
     push_mean_N: Annotated[float, Shown("push", "N", digits=2)]
     """Mean norm of the force that skin feels."""
     force_mean_N: Annotated[float | None, Shown("force", "N", digits=2)]
-    """Mean norm of the force with what sensors tell of its tangential part; none where that is not determined."""
+    """Mean norm of the force with what sensors show of its tangential part; none where that is not determined."""
     force_sd_N: Annotated[float | None, Shown("sd", "N", digits=2)]
     """Root mean square of the standard deviation of that force, all components together."""
     beyond_range: Annotated[int, Shown("beyond range")]
@@ -81,7 +81,7 @@ def skin_warnings(span: IntervalEstimates, exact: tuple[str, ...], resting: tupl
 
     Args:
         span: Estimates over an interval.
-        exact: Sensors whose errors nobody predicts.
+        exact: Sensors whose errors no calibration predicts.
         resting: Sensors whose offset is that of the calibration intervals, in which nothing is to touch the robot.
 
     Yields:

@@ -34,7 +34,7 @@ PLACE_M: Final = 0.0006
 """The same of the place of a contact along either tangent, of the same contacts; m."""
 TWIST_M: Final = 7e-5
 """Moment about the normal over the push that the covariance of pressures lacks: with it normalised errors of 489 such
-contacts are 1 in root mean square, and were 1.4 without; judged on others; m."""
+contacts are 1 in root mean square, and were 1.4 without; evaluated on others; m."""
 OLDEST_S: Final = 0.5
 """How much older than a pose the frame of pressures that belongs to it may be; s."""
 

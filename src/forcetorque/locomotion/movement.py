@@ -35,29 +35,30 @@ class OscillationRow(Row):
     column: Annotated[str, Shown("column")]
     """Name of the column; `A - B` is a tracking error."""
     oscillates: Annotated[bool, Shown("oscillates")]
-    """Whether a swing stands out of the noise; if not, numbers of it are null."""
+    """Whether an oscillation stands out of the noise; if not, numbers of it are null."""
     frequency_hz: Annotated[float | None, Shown("frequency", "Hz", digits=4, error="frequency_half_width_95_hz")]
     """Its frequency."""
     frequency_half_width_95_hz: float | None
     """Half-width of that."""
     amplitude: Annotated[float | None, Shown("amplitude", digits=5, error="amplitude_half_width_95")]
-    """Half of peak to peak of a steady swing with its mean square, in `unit`."""
+    """Half of peak to peak of a steady oscillation with its mean square, in `unit`."""
     amplitude_half_width_95: float | None
     """Half-width of that."""
     unit: Annotated[str, Shown("unit")]
     """Unit of the column."""
     damping: Annotated[float | None, Shown("damping", digits=4, error="damping_half_width_95")]
-    """Damping ratio; about 0 of a swing that stays, below 0 of one that grows; null of one that does not keep its
-    phase."""
+    """Damping ratio; about 0 of an oscillation that stays, below 0 of one that grows; null of one that does not keep
+    its phase."""
     damping_half_width_95: float | None
     """Half-width of that."""
     phase_kept_s: Annotated[float | None, Shown("phase kept", "s", digits=1)]
     """Time over which it keeps its phase: that of the interval, or of a part of it."""
     seen_amplitude: Annotated[FloatOrNull, Shown("seen from", digits=5)]
     """Amplitude from which on a further steady swing of that frequency would be seen in 95 % of such records; where
-    nothing swings, one of any frequency that was looked at."""
+    nothing oscillates, one of any frequency that was looked at."""
     seen_amplitude_middle: float
-    """The same at the geometric middle of the frequencies that were looked at: slow drift hides slow swings most."""
+    """The same at the geometric middle of the frequencies that were looked at: slow drift hides slow oscillations
+    most."""
     lowest_hz: float
     """Lowest frequency that was looked at."""
     highest_hz: float
@@ -69,7 +70,7 @@ class OscillationRow(Row):
 
 
 class MotionCurve(Row):
-    """A column with the swings that were told of it, for the figure."""
+    """A column with its oscillations, for the figure."""
 
     title: str
     """Interval and column."""
@@ -80,7 +81,7 @@ class MotionCurve(Row):
     values: Values
     """The column; shape (n,)."""
     swing: Values | None
-    """Mean, trend and all swings; shape (n,); null where it does not oscillate."""
+    """Mean, trend and all oscillations; shape (n,); null where it does not oscillate."""
 
 
 BAND_SHARE = 0.05
@@ -96,7 +97,7 @@ class Motion(Result):
     schema_name: Literal["forcetorque/motion/1"] = Field(default="forcetorque/motion/1", alias="schema")
     """Form of the result."""
     oscillations: tuple[OscillationRow, ...]
-    """Swings of every interval and column, the largest first; one row that says so where there is none."""
+    """Oscillations of every interval and column, the largest first; one row that says so where there is none."""
     settling: tuple[SettlingRow, ...]
     """A row for every step."""
     tracking: tuple[TrackingRow, ...]
@@ -106,7 +107,7 @@ class Motion(Result):
     figure: str | None = None
     """File of the figure."""
     curves: tuple[MotionCurve, ...] = Field(default=(), exclude=True, repr=False)
-    """Columns with their swings, for the figure."""
+    """Columns with their oscillations, for the figure."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give tables of oscillations, settling times and tracking errors.
@@ -221,7 +222,7 @@ class _SignalMotion:
 def _settled(
     signal: MotionSignal, even: ResampledSignal, steps_s: Sequence[float], band_share: float
 ) -> tuple[list[SettlingRow], list[str]]:
-    """What it did after each step, or why that is not told."""
+    """What it did after each step, or why that is not determined."""
     try:
         return settlings(signal, even, _steps(signal, steps_s), band_share=band_share), []
     except RecordingError as error:
@@ -229,7 +230,7 @@ def _settled(
 
 
 def _steps(signal: MotionSignal, steps_s: Sequence[float]) -> list[float]:
-    """Instants of steps in the interval: those that are stated, else those of what was wanted."""
+    """Instants of steps in the interval: those that are specified, else those of what was wanted."""
     if steps_s:
         return [step for step in steps_s if signal.time_s[0] <= step <= signal.time_s[-1]]
     if signal.desired_values is None:

@@ -196,7 +196,7 @@ class Amplifier(ArrayRecord):
         return self.amplifier_gain * volts + self.offset
 
     def input(self, output: Any) -> FloatArray:
-        """Give the input that an output tells.
+        """Give the input of an output.
 
         Args:
             output: Voltages at the output; shape (..., c); V.

@@ -213,5 +213,5 @@ def _decay(panel: Axes, decay: DecayCurve, *, first: bool, signal: str) -> None:
 
 
 def _short(title: str) -> str:
-    """The end of a title, which tells the event."""
+    """The end of a title, which shows the event."""
     return shown_name(title if len(title) <= 28 else f"…{title[-27:]}")

@@ -55,7 +55,7 @@ def full_scale(inverse: Callable[[float], float], *, lowest: float, highest: flo
     """Give what a channel can measure between the limits of its output, thesis (3.10)-(3.12).
 
     Args:
-        inverse: Stimulus that an output tells, at the chosen gain; monotone.
+        inverse: Stimulus of an output, at the chosen gain; monotone.
         lowest: Lowest output; V.
         highest: Highest output; V.
         bits: Bits of the converter.
@@ -64,7 +64,7 @@ def full_scale(inverse: Callable[[float], float], *, lowest: float, highest: flo
         Lowest and highest stimulus, in the unit that `inverse` gives.
 
     Raises:
-        SensorError: If the outputs tell one stimulus only.
+        SensorError: If the outputs show one stimulus only.
     """
     ends = sorted((float(inverse(lowest)), float(inverse(highest))))
     return FullScale(lowest=ends[0], highest=ends[1], bits=bits)
@@ -136,7 +136,7 @@ def _checked(matrix: Any) -> FloatArray:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RawLimits(ArrayRecord):
-    """Counts at which the channels of a sensor saturate, with the calibration that tells a load from counts."""
+    """Counts at which the channels of a sensor saturate, with the calibration that gives a load from counts."""
 
     matrix: FloatArray = field(metadata=array(6, 6))
     """Calibration matrix, `wrench = matrix raw + offset`; shape (6, 6); N/count, N m/count."""

@@ -30,12 +30,12 @@ def matrix_error(workbench: FloatArray, mounted: FloatArray) -> FloatArray:
 
 
 def random_matrix_error(share: float, lever_m: float, rng: np.random.Generator) -> FloatArray:
-    """Draw an error of a size that is stated.
+    """Draw an error of a given size.
 
     Args:
         share: Root mean square of its coefficients, moments over the lever taken for forces.
         lever_m: Moment over force; m.
-        rng: Source of the error; the same draw whatever the size.
+        rng: Source of the error; the same draw for every size.
 
     Returns:
         E; shape (6, 6); 1, 1/m above on the right, m below on the left.

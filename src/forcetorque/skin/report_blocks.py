@@ -22,7 +22,7 @@ def skin_section(experiment: ExperimentAssessment) -> Section:
     """Give the contacts on the skin of an experiment.
 
     Args:
-        experiment: The answers about it.
+        experiment: The results about it.
 
     Returns:
         The section; empty without skin.

@@ -84,7 +84,7 @@ class SourceRow(Row):
     source: Annotated[str, Shown("source")]
     """The source."""
     innovation: Annotated[float, Shown("innovation^2", digits=2)]
-    """Mean squared normalised innovation against the others together: about 1 if all is as stated."""
+    """Mean squared normalised innovation against the others together: about 1 if all is as specified."""
     degrees_of_freedom: int
     """Number of innovations."""
     windows_percent: Annotated[float, Shown("windows", "%", digits=1)]
@@ -119,7 +119,7 @@ class TorqueFusion(Row):
     """Joint torques of all sources beside each other and fused."""
 
     false_alarm: float
-    """Largest rate of intervals, or windows, with a conflict though all is as stated."""
+    """Largest rate of intervals, or windows, with a conflict though all is as specified."""
     torques: tuple[JointTorqueRow, ...]
     """One per interval, joint and source, and one for all together."""
     sources: tuple[SourceRow, ...]

@@ -168,7 +168,7 @@ class TorqueSources:
         )
 
     def _skinned(self, stated: Sequence[Contact]) -> list[Contact]:
-        """Links under skin that no stated contact is on: what touches them, sensors have to tell without skin."""
+        """Links under skin that no specified contact is on: their contacts are estimated from sensors without skin."""
         links = dict.fromkeys(patch.link for patch in force_patches(self.experiment) if patch.link is not None)
         return [Contact(link=link) for link in links if link not in {contact.link for contact in stated}]
 
@@ -295,7 +295,7 @@ class TorqueSources:
 
 
 def _unknown(contact: Contact) -> Contact:
-    """The same contact as the sensors see it: with a wrench that nobody knows."""
+    """The same contact as the sensors see it: with an unknown wrench."""
     if contact.type is not ContactType.KNOWN:
         return contact
     return Contact(link=contact.link, name=contact.name, link_H_contact=contact.link_H_contact)

@@ -160,7 +160,7 @@ def wrench_source(
 ) -> TorqueSource:
     """Estimate torques, and carry the errors of wrenches to them.
 
-    Torques that are not determined, as of a joint between two contacts that nobody knows, are left to other sources.
+    Torques that are not determined, as of a joint between two unknown contacts, are left to other sources.
 
     Args:
         name: Name of the source.

@@ -17,7 +17,7 @@ from forcetorque.robot.mechanics.question import Question
 
 SLIPPING: Final = 1.0 / np.sqrt(2.0)
 """Standard deviation of each tangential component, over friction coefficient times normal force, of a contact that
-slips in a direction that nobody knows: the most that friction allows, so a contact that holds is covered too."""
+slips in an unknown direction: the most that friction allows, so a contact that holds is covered too."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -46,7 +46,7 @@ class NetContact:
     problem: IntervalProblem
     """The estimation of its contacts; n samples."""
     upright_R_support: FloatArray
-    """Rotation from the support frame to upright axes; shape (3, 3), or (n, 3, 3) where an IMU tells gravity."""
+    """Rotation from the support frame to upright axes; shape (3, 3), or (n, 3, 3) where an IMU measures gravity."""
     demanded: FloatArray | None
     """Wrench that all contacts must have together for the robot to move as it does, upright, about the origin of the
     support frame; shape (n, 6); N, N m; None where a joint that it depends on is in no stream."""
@@ -63,8 +63,8 @@ class NetContact:
             Its links.
 
         Raises:
-            ExperimentError: If a contact that is named cannot be told from the sensors, or two links that touch move
-                against each other.
+            ExperimentError: If a contact that is named is not identifiable from the sensors, or two links that touch
+                move against each other.
         """
         samples = padded_samples(experiment.recording, clock_stream(experiment), interval, None)
         problem = IntervalProblem.of(experiment, interval, samples, experiment.contacts, only_named=True)
@@ -198,7 +198,7 @@ class NetContact:
     def _refuse_slip(self) -> None:
         problem = self.problem
         if not isinstance(problem.interval.support, Support):
-            return  # an IMU tells how the robot moves, whatever its feet do
+            return  # an IMU measures how the robot moves, independently of its feet
         for contact in problem.question.contacts:
             place = link_pose(problem.question.tree, problem.joints, contact.link)[:, :3, 3]
             travel = float(np.nanmax(np.linalg.norm(place - np.nanmedian(place, axis=0), axis=1)))
@@ -219,7 +219,7 @@ def _shortest_rotation(start: FloatArray, end: FloatArray) -> FloatArray:
 def _upright(problem: IntervalProblem) -> FloatArray:
     """Rotation from the support frame to upright axes; shape (3, 3) or (n, 3, 3)."""
     frame = problem.question.tree.root_link
-    # a level ground that the file states is known better than an accelerometer tells it
+    # a level ground that the file states is known better than an accelerometer shows it
     stated = next((one for one in problem.experiment.supports if one.frame == frame), None)
     up = problem.root.proper_acceleration if stated is None else -stated.gravity_direction
     z = up / np.linalg.norm(up, axis=-1, keepdims=True)
@@ -344,7 +344,7 @@ robot of 30 kg it makes 1.3 N."""
 
 
 def contact_warnings(phases: Sequence[NetContact], readers: Sequence[Reader], weight: float) -> list[str]:
-    """Refuse links that are said to touch and do not, or the other way round, whatever reads them.
+    """Refuse links that are said to touch and do not, or the other way round, independently of the calibrations.
 
     Args:
         phases: The phases.
@@ -352,7 +352,7 @@ def contact_warnings(phases: Sequence[NetContact], readers: Sequence[Reader], we
         weight: Weight of the robot; N.
 
     Returns:
-        What is doubtful of who touches, in words.
+        Warnings about contacts.
 
     Raises:
         ExperimentError: If a link that is said to touch bears nothing, or one that is not bears the robot.

@@ -47,7 +47,7 @@ def coherence(
         experiment: The experiment; every interval that is not to be ignored is a phase, in which its support, or the
             links that it names as touched, and its contacts touch the world.
         candidates: By name of the candidate its calibrations by name of their file, at most one for each sensor; what
-            has none is read by the prior of the experiment. The prior is always judged.
+            has none is read by the prior of the experiment. The prior is always evaluated.
         offsets: Where the offsets come from, in turn; from the first phase in which one link alone is touched if none
             is named.
 
@@ -56,7 +56,7 @@ def coherence(
 
     Raises:
         ExperimentError: If there is no phase, a link that is said to touch bears nothing, one that is not bears the
-            robot, or an offset cannot be told.
+            robot, or an offset cannot be determined.
         FitError: If an offset has too few samples.
     """
     phases = [NetContact.of(experiment, interval) for interval in _phases(experiment)]

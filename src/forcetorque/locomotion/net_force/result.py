@@ -60,7 +60,7 @@ class PhaseForce(Row):
     moment_largest_Nm: AxisValues | None
     """Largest error of a sample, with its sign."""
     evidence: bool
-    """Whether the phase tells anything: in one that gave the offset, or the matrix, the error is near zero by
+    """Whether the phase carries information: in one that gave the offset, or the matrix, the error is near zero by
     construction."""
 
 
@@ -82,7 +82,7 @@ class OffsetOfSensor(Row):
     value: WrenchValues
     """To be added; N, N m; zero for moments that are not known."""
     half_width_95: WrenchValues | None
-    """Half-width of its 95 % interval; null where it cannot be told."""
+    """Half-width of its 95 % interval; null where it cannot be determined."""
     moments_known: bool
     """Whether the log holds all joints that the moments depend on."""
 

@@ -28,7 +28,10 @@ from forcetorque.locomotion.oscillation.spectrum import (
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class TaperedOscillations:
-    """Swings of one record; the shape of one is its cycles per record, and the growth of its logarithm per record."""
+    """Oscillations of one record, tapered.
+
+    The shape of one is its cycles per record, and the growth of its logarithm per record.
+    """
 
     place: FloatArray
     """Where the samples are, from the middle of the record; shape (n,); records."""
@@ -97,15 +100,15 @@ _STEP = 1e-4
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Oscillation(ArrayRecord):
-    """A swing, over the whole record or in parts of it."""
+    """An oscillation, over the whole record or in parts of it."""
 
     frequency_hz: float
     """Frequency; Hz."""
     amplitude: float
-    """Amplitude of a steady swing with the same mean square; half of peak to peak; in the unit of the signal."""
+    """Amplitude of a steady oscillation with the same mean square; half of peak to peak; in the unit of the signal."""
     damping: float
-    """Damping ratio, decay over angular frequency; 0 of a steady swing, below 0 of one that grows; NaN of one that does
-    not keep its phase over the whole record."""
+    """Damping ratio, decay over angular frequency; 0 of a steady oscillation, below 0 of one that grows; NaN of one
+    that does not keep its phase over the whole record."""
     standard_error: FloatArray = field(metadata=array(3))
     """Of frequency, amplitude and damping; shape (3,)."""
     degrees_of_freedom: int
@@ -124,7 +127,7 @@ class Oscillation(ArrayRecord):
 
 
 def fit_oscillation(values: FloatArray, rate_hz: float, candidate: Candidate) -> Oscillation:
-    """Fit a swing about a candidate that keeps its phase over the whole record.
+    """Fit an oscillation about a candidate that keeps its phase over the whole record.
 
     Args:
         values: The signal without mean and trend; shape (n,).
@@ -163,7 +166,7 @@ def fit_oscillation(values: FloatArray, rate_hz: float, candidate: Candidate) ->
 
 
 def _closest_shape(swings: TaperedOscillations, data: FloatArray, candidate: Candidate) -> tuple[FloatArray, float]:
-    """Cycles and growth of the swing nearest to the data, and the sum of squares that it leaves."""
+    """Cycles and growth of the oscillation nearest to the data, and the sum of squares that it leaves."""
     from scipy.optimize import least_squares  # here because importing it takes longer than most commands
 
     def residual(shape: Any) -> FloatArray:
@@ -210,7 +213,7 @@ _CYCLE_STEP = 0.05
 
 
 def fit_wandering(values: FloatArray, rate_hz: float, candidate: Candidate) -> Oscillation:
-    """Fit a swing in parts about a candidate.
+    """Fit an oscillation in parts about a candidate.
 
     The error of the frequency is that of the noise, or by how much parts disagree where that is more. The amplitude is
     that of what keeps its phase within parts; its interval is by how much parts differ, and reaches at least to what
@@ -275,7 +278,7 @@ class _Parts:
         return np.asarray(self.pieces @ (self.tapers * np.exp(-2j * np.pi * cycles * self.place)).T)
 
     def explained(self, cycles: float) -> FloatArray:
-        """Power of each part that a swing which keeps its phase within it explains; shape (parts,)."""
+        """Power of each part that an oscillation which keeps its phase within it explains; shape (parts,)."""
         return np.abs(self.numbers(cycles) @ self.steady) ** 2 / self.size
 
     def strongest(self, about: float) -> float:
@@ -295,9 +298,9 @@ class _Parts:
 
 
 MOST_OSCILLATIONS = 3
-"""Oscillations that are told apart."""
+"""Oscillations that are separated."""
 LEAST_SHARE = 0.1
-"""Part of the largest amplitude below which others are not told: no swing of a robot is a pure sine."""
+"""Part of the largest amplitude below which others are not determined: no oscillation of a robot is a pure sine."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -322,7 +325,7 @@ class OscillationSearch:
             frequency_hz: Frequency; Hz.
 
         Returns:
-            Amplitude of a steady swing that is seen with the probability `POWER`.
+            Amplitude of a steady oscillation that is seen with the probability `POWER`.
         """
         known = self.sensitivity
         return float(np.interp(frequency_hz * self.duration_s, known.cycles, known.amplitude))
@@ -336,7 +339,7 @@ def find_oscillations(signal: ResampledSignal, *, name: str) -> OscillationSearc
         name: What it is, for messages.
 
     Returns:
-        Oscillations that stand out of the noise, whatever its colour; of records of noise about 2 % seem to swing.
+        Oscillations that stand out of the noise, of any colour; of records of noise about 2 % seem to oscillate.
 
     Raises:
         RecordingError: If it is too short for a period, or its clock too uneven.

@@ -18,7 +18,7 @@ from forcetorque.locomotion.oscillation.spectrum import ResampledSignal
 from forcetorque.results.table import Row, Shown
 
 END_SHARE = 1.0 / 3.0
-"""Part of the time until the next step that tells where a signal ends, and how much it moves there anyway."""
+"""Part of the time until the next step that shows where a signal ends, and how much it moves there anyway."""
 LEAST_SAMPLES = 30
 """Samples between two steps."""
 _ORDER = 3

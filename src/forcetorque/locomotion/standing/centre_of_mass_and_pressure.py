@@ -156,7 +156,7 @@ class Sole(ArrayRecord):
     position: FloatArray = field(default_factory=lambda: np.zeros(3), metadata=array(3))
     """Origin of the sole in that frame, a point of its plane; shape (3,); m."""
     outline: FloatArray | None = field(default=None, metadata=array(None, 2))
-    """Corners of the sole along x and y from its origin; shape (k, 2); m; None where nobody knows how far it reaches.
+    """Corners of the sole along x and y from its origin; shape (k, 2); m; None where its extent is unknown.
     The ground presses, so the centre of pressure lies in the smallest convex shape around them."""
     edges: FloatArray = field(init=False)
     """Outward unit normals of that shape and their offsets, `normal . point + offset` being positive outside; shape
@@ -262,7 +262,7 @@ def stays_in_band(height_m: FloatArray, time_s: FloatArray, *, band_m: float) ->
         band_m: How far it may be from the median; m.
 
     Returns:
-        Samples of stretches of `STAY_S` at least in which it never leaves the band; shape (n,).
+        Samples of segments of `STAY_S` at least in which it never leaves the band; shape (n,).
 
     Raises:
         EstimationError: If the band has no width, or no height is known.

@@ -257,7 +257,7 @@ def robot_balance(
         options: Tolerance of the plane, least load, and height band.
 
     Returns:
-        The balance of the robot, and what cannot be told of it, in words.
+        The balance of the robot, and what cannot be determined of it, as text.
     """
     refused = []
     poses = [scene.ground_H_sole(foot.sole) for foot in feet]

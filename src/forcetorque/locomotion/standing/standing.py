@@ -51,7 +51,7 @@ class Balance(Result):
     experiments: tuple[str, ...]
     """Names of the experiments that are counted."""
     weight_N: float | None
-    """Weight of the robot; None where nobody knows it, or robots differ."""
+    """Weight of the robot; None where it is unknown, or robots differ."""
     touch_N: float
     """Force that a contact reaches."""
     release_N: float
@@ -63,13 +63,13 @@ class Balance(Result):
     phases: tuple[SupportPhaseRow, ...]
     """One per set of feet that are down together."""
     feet: tuple[FootPressureRow, ...]
-    """One per interval and sole, where wrenches tell it."""
+    """One per interval and sole, where wrenches were measured."""
     robot: tuple[RobotPressureRow, ...]
-    """One per interval, where wrenches tell it."""
+    """One per interval, where wrenches were measured."""
     pendulum: tuple[PendulumRow, ...]
-    """One per interval in which (5.22) was asked for and holds."""
+    """One per interval in which (5.22) was requested and holds."""
     refused: tuple[str, ...]
-    """What cannot be told, in words."""
+    """What cannot be determined, as text."""
     intervals: tuple[IntervalBalance, ...] = Field(default=(), exclude=True, repr=False)
     """Every sample, for files and pictures."""
 
@@ -140,7 +140,7 @@ def balance(
         options: What counts as a contact, as a point, and as a height that does not change.
 
     Returns:
-        Phases, centres of pressure and of mass, and what cannot be told.
+        Phases, centres of pressure and of mass, and what cannot be determined.
 
     Raises:
         ExperimentError: If there is no recording, or one has no sole.

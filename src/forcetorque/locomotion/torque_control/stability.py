@@ -36,7 +36,7 @@ class LinearPlant(ArrayRecord):
     velocity: FloatArray = field(metadata=array("j", "n"))
     """Joint velocities by states; shape (j, n); rad/s."""
     demand: FloatArray = field(metadata=array("j", "n"))
-    """Desired torques by states, by whatever controls the posture; shape (j, n); N m."""
+    """Desired torques by states, by the controller of the posture; shape (j, n); N m."""
 
     @property
     def joints(self) -> int:

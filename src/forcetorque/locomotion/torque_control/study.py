@@ -90,7 +90,7 @@ class TorqueLoopOnsetRow(Row):
     below_one_percent: Annotated[float, Shown("unstable at 1", "%", digits=0)]
     """Share of draws that are unstable at their own size."""
     median_frequency_hz: Annotated[float | None, Shown("frequency", "Hz", digits=2)]
-    """Median frequency at which they begin; 0 is a drift away without a swing."""
+    """Median frequency at which they begin; 0 is a drift away without an oscillation."""
     largest_scale: float
     """Largest multiple that was looked at."""
 
@@ -100,9 +100,9 @@ NO_ERROR: Final = "none"
 _LARGEST: Final = 20.0
 """Largest multiple of the largest size of E at which the linear loop is looked at."""
 _STANDING_S, _SETTLED_S, _PUSH_N = 4.0, 1.0, 20.0
-"""How long it stands on the left foot, from when on a swing counts, and the push before; s, N."""
+"""How long it stands on the left foot, from when on an oscillation counts, and the push before; s, N."""
 _LEAST_SWING_M: Final = 1e-4
-"""A swing of the centre of mass that is smaller is the trembling that noise of the sensors makes; m."""
+"""An oscillation of the centre of mass that is smaller is the trembling that noise of the sensors makes; m."""
 _EVERY = 10
 """One of so many instants is looked at for swings: 100 Hz."""
 _SUPPORTS: Final = {"both feet": Phase.DOUBLE, "the left foot": Phase.LEFT, "the right foot": Phase.RIGHT}

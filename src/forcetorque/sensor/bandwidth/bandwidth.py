@@ -35,7 +35,7 @@ from forcetorque.sensor.bandwidth.second_order import MISFIT, InverseFilter, Sec
 BEFORE_S = 0.05
 """Quiet before an event that belongs to its segment; s."""
 SWING_SEGMENTS = 9
-"""Segments of a swing, which overlap by half."""
+"""Segments of an oscillation, which overlap by half."""
 
 
 def driven_response(
@@ -59,7 +59,7 @@ def driven_response(
 
     Raises:
         FitError: If the force does not explain the reading, or too little was recorded.
-        ExperimentError: If the force has no such component, or a swing was recorded in several stretches.
+        ExperimentError: If the force has no such component, or an oscillation was recorded in several segments.
     """
     direction = np.eye(6)[component] if decays is None else decays.direction
     name = "; ".join(record.name for record in records)
@@ -149,13 +149,13 @@ class Response(Result):
     events: tuple[EventRow, ...]
     """Impacts or releases in the order of time."""
     numbers: tuple[ResponseNumber, ...]
-    """Natural frequency, damping, gain, bandwidth, by what tells them."""
+    """Natural frequency, damping, gain, bandwidth, by source."""
     curve: ResponseCurve | None = Field(repr=False)
-    """Frequency response; null where it is not told."""
+    """Frequency response; null where it is not determined."""
     inverse: InverseFilter | None = Field(repr=False)
-    """Filter that undoes the response; null where it is not told well enough."""
+    """Filter that undoes the response; null where it is not determined well enough."""
     refused: tuple[str, ...]
-    """What is not told, and why."""
+    """What is not determined, and why."""
     figure: str | None = None
     """File of the figure."""
     decays: tuple[DecayCurve, ...] = Field(default=(), repr=False)
@@ -205,7 +205,7 @@ class Response(Result):
             Force; the same shape.
 
         Raises:
-            FitError: If the response is not told well enough to be undone.
+            FitError: If the response is not determined well enough to be undone.
         """
         if self.inverse is None:
             raise FitError(f"{self.sensor}: expected a filter that undoes its response, got none: {self.refused[-1]}")
@@ -243,8 +243,8 @@ def response(
         Events with their decays, and where a force is known the response, its fit, and a filter that undoes it.
 
     Raises:
-        ExperimentError: If something is asked for that the experiment or the excitation does not have.
-        FitError: If nothing at all is told.
+        ExperimentError: If something is requested that the experiment or the excitation does not have.
+        FitError: If nothing is determined.
     """
     several = [runs] if isinstance(runs, SensorRun) else list(runs)
     run, kind = several[0], _excitation(excitation)

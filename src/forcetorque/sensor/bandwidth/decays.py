@@ -21,7 +21,7 @@ from forcetorque.sensor.bandwidth.second_order import SecondOrder
 
 
 class EventRow(Row):
-    """One impact or release, and the free decay behind it; null where none was told."""
+    """One impact or release, and the free decay behind it; null where none was determined."""
 
     recording: Annotated[str, Shown("recording")]
     """Experiment and interval."""
@@ -40,11 +40,11 @@ class EventRow(Row):
     damping_half_width_95: FloatOrNull | None
     """Half of its 95 % interval."""
     modes: Annotated[int | None, Shown("modes")]
-    """Modes that the decay was told to have."""
+    """Modes of the decay."""
     left_share: Annotated[float | None, Shown("left", digits=2)]
     """Share of the variance of the decay that these modes leave."""
     untold: str | None = None
-    """Why no decay was told."""
+    """Why no decay was determined."""
 
 
 class ResponseNumber(Row):
@@ -53,7 +53,7 @@ class ResponseNumber(Row):
     quantity: Annotated[str, Shown("")]
     """What it is."""
     source: Annotated[str, Shown("of")]
-    """What it was told by."""
+    """Its source."""
     value: Annotated[float, Shown("value", digits=4)]
     """The number."""
     half_width_95: Annotated[FloatOrNull, Shown("±", digits=4)]
@@ -61,7 +61,7 @@ class ResponseNumber(Row):
     unit: Annotated[str, Shown("unit")]
     """Its unit."""
     scatter: Annotated[float | None, Shown("scatter", digits=4)]
-    """Standard deviation from event to event; null of one event, or where it is not told by event."""
+    """Standard deviation from event to event; null of one event, or where it is not determined by event."""
 
 
 class DecayCurve(Row):
@@ -125,7 +125,7 @@ class Struck:
     record: ExcitedRecord
     """The record."""
     signal: EvenRecord
-    """The signal that is judged; shape (n, 1)."""
+    """The signal that is evaluated; shape (n, 1)."""
     events: tuple[Event, ...]
     """Events."""
     decays: tuple[RingDown | FitError, ...]
@@ -147,11 +147,11 @@ class Decays:
     struck: tuple[Struck, ...]
     """Records that were struck."""
     gain: Pooled | None
-    """What is read of a newton of a released weight; None where no weight was stated."""
+    """What is read of a newton of a released weight; None where no weight was specified."""
 
     @property
     def ring_downs(self) -> list[RingDown]:
-        """Decays that were told."""
+        """Decays that were determined."""
         return [decay for one in self.struck for _, decay in one.ring_downs]
 
     @property
@@ -168,7 +168,7 @@ class Decays:
 
     @property
     def second_order(self) -> SecondOrder | None:
-        """Response, where a released weight told the gain."""
+        """Response, where a released weight determines the gain."""
         if self.gain is None or not self.ring_downs:
             return None
         half = np.array([self.frequency.half_width, self.damping.half_width, self.gain.half_width])
@@ -181,7 +181,7 @@ class Decays:
 
     @property
     def quiet(self) -> FloatArray | None:
-        """The longest quiet stretch before an event; None without one of two samples."""
+        """The longest quiet segment before an event; None without one of two samples."""
         stretches = [one.signal.signals[event.quiet, 0] for one in self.struck for event in one.events]
         longest = max(stretches, key=len)
         return longest if len(longest) > 1 else None
@@ -289,7 +289,7 @@ DECAYS, WEIGHT, RESPONSE = "free decays", "the released weight", "frequency resp
 
 
 def numbers(decays: Decays | None, fit: SecondOrder | None, gain_unit: str) -> Iterator[ResponseNumber]:
-    """Write natural frequency, damping, gain and bandwidth by what tells them.
+    """Write natural frequency, damping, gain and bandwidth by source.
 
     Args:
         decays: Free decays; None without events.

@@ -13,7 +13,7 @@ from forcetorque.base.noise.slow_noise import CONFIDENCE
 from forcetorque.results.table import Row, Values
 
 LEAST_AVERAGES = 4
-"""Averages of a spectrum; of one the coherence is 1, whatever was measured."""
+"""Averages of a spectrum; of one the coherence is 1, for any measurement."""
 LEAST_EXPLAINED = 0.8
 """Share of the power of the reading that the measured force must explain, of all and of the middle frequency up to
 where its slope is largest: slow motion of an arm may be all of the power, and explained, where taps are not."""
@@ -89,7 +89,7 @@ class FrequencyResponse(ArrayRecord):
 
 
 class ResponseCurve(Row):
-    """Frequency response with coherence, for the figure and for whoever fits something else to it."""
+    """Frequency response with coherence, for the figure and for other fits."""
 
     frequency_hz: Values
     """Frequencies; shape (m,); Hz."""
@@ -158,7 +158,7 @@ def frequency_response(
     if force.shape != reading.shape:
         raise ShapeError(f"expected force and reading of one shape, got {force.shape} and {reading.shape}")
     count, segment = force.shape
-    if count < LEAST_AVERAGES - 1:  # one may be left out, to see what it tells
+    if count < LEAST_AVERAGES - 1:  # one may be left out, to see what it shows
         raise FitError(f"expected at least {LEAST_AVERAGES - 1} segments for a coherence, got {count}")
     if not np.ptp(force) > 0.0:
         raise FitError("expected a force that changes, got one that stays: nothing drives the sensor")

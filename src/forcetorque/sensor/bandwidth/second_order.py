@@ -43,7 +43,7 @@ class SecondOrder(ArrayRecord):
 
     @property
     def determined(self) -> bool:
-        """Whether natural frequency and damping are told from none, and not the gain alone."""
+        """Whether natural frequency and damping are separable from none, and not the gain alone."""
         half = self.half_width
         return bool(half[0] < 0.5 * self.natural_frequency_hz and half[1] < self.damping)
 
@@ -92,10 +92,10 @@ def fit_second_order(response: FrequencyResponse, *, name: str) -> SecondOrder:
         name: What was recorded, for messages.
 
     Returns:
-        Natural frequency, damping and gain; their covariance is `jackknifed`'s to tell.
+        Natural frequency, damping and gain; the covariance is computed by `jackknifed`.
 
     Raises:
-        FitError: If too few frequencies are driven, or nothing swings.
+        FitError: If too few frequencies are driven, or nothing oscillates.
     """
     from scipy.optimize import least_squares
 
@@ -284,7 +284,7 @@ def inverse_filter(
         The filter.
 
     Raises:
-        FitError: If the cut-off is beyond what samples tell, or the response is not known well enough below it.
+        FitError: If the cut-off is beyond what samples show, or the response is not known well enough below it.
     """
     from scipy.signal import butter
 
@@ -322,7 +322,7 @@ def inverse_filter(
 
 def _doubt(sensor: SecondOrder, cut_off_hz: float) -> float:
     """Largest share below the cut-off by which the corrected response is off, held by 95 % of what may be so."""
-    rng = np.random.default_rng(0)  # a fixed sample: the same data give the same answer
+    rng = np.random.default_rng(0)  # a fixed sample: the same data give the same result
     mean = np.array([sensor.natural_frequency_hz, sensor.damping, sensor.gain])
     root = np.linalg.svd(sensor.covariance)
     draws = mean + rng.normal(size=(_DRAWS, 3)) @ (np.sqrt(root.S)[:, None] * root.Vh)

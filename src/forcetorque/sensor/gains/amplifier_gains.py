@@ -42,9 +42,9 @@ class GainChange(StrEnum):
     LOWER = "lower"
     """The channel comes closer to a limit than the margin."""
     LOWER_AND_REPEAT = "lower_and_repeat"
-    """The channel saturates, so that nobody knows how far it would have gone: repeat the motion with less gain."""
+    """The channel saturates, so that its range is unknown: repeat the motion with less gain."""
     UNKNOWN = "unknown"
-    """The load did not move, so that nothing tells how far the channel goes in use."""
+    """The load did not move, so that nothing shows how far the channel goes in use."""
     NONE_FITS = "none_fits"
     """The channel saturates or lacks the margin, and no lower gain is allowed."""
 

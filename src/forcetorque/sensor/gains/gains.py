@@ -38,7 +38,7 @@ _STILL = 0.01
 """Change of the expected wrench, relative to its size, below which the limb did not move: one that turns by half a
 degree changes it by as much."""
 _LEVER_M = 0.01
-"""Least lever by which the size of the moment is judged."""
+"""Least lever by which the size of the moment is evaluated."""
 _WINDOW_S = 0.5
 """Length of the means of which the range is held against the noise; s."""
 _BEYOND_NOISE = 5.0
@@ -72,7 +72,8 @@ def has_contact(run: SensorRun) -> bool:
         run: The sensor.
 
     Returns:
-        Whether the robot stands on what is beyond the sensor, a contact is stated there, or a known wrench is applied.
+        Whether the robot stands on what is beyond the sensor, a contact is specified there, or a known wrench is
+        applied.
     """
     experiment = run.experiment
     if experiment.loads is not None and experiment.loads.in_place_of_robot:
@@ -188,7 +189,7 @@ def select_gains(
     Args:
         run: The sensor, with its present and allowed gains if they are known.
         margin: Share of the limit to keep free.
-        calibration: Name and calibration whose matrix tells what a count is worth; the prior's if left out.
+        calibration: Name and calibration whose matrix gives what a count is worth; the prior's if left out.
 
     Returns:
         Ranges, advice and resolution.
@@ -288,7 +289,7 @@ def _resolution_rows(matrix: FloatArray, channels: Sequence[ChannelGain]) -> tup
 
 
 def _warnings(row: SensorRow, prior: str | None) -> Iterator[str]:
-    """What the recording cannot tell."""
+    """What the recording cannot show."""
     if row.recovered:
         yield (
             f"{row.sensor}: counts were recovered through {prior}; an offset that the electronics took off is not in "

@@ -111,7 +111,7 @@ class SensorRow(Row):
     missing: int
     """Samples without a reading."""
     frozen: int
-    """Samples that a saturated board held, by its status; without one, samples in long stretches of one reading."""
+    """Samples that a saturated board held, by its status; without one, samples in long segments of one reading."""
     recovered: bool
     """Whether counts came through the inverse of the prior; an offset of the electronics is not in them."""
     limit_counts: float

@@ -156,7 +156,7 @@ def chamber_recording(
     """Record a patch while the pressure rises evenly to a peak and falls again.
 
     Args:
-        responses: How each taxel answers.
+        responses: How each taxel responds.
         highest_pa: Peak of the pressure; Pa.
         ramp_s: Time up to it, and down again; s.
         rng: Source of noise.
@@ -266,7 +266,7 @@ def contact_recording(
 
     Args:
         layout: The patch.
-        responses: How its taxels answer.
+        responses: How its taxels respond.
         truths: What each object does when it rests.
         rng: Source of noise.
         loading: How they are put on; as by default if None.

@@ -13,7 +13,7 @@ from forcetorque.base.errors import SkinError
 FULL_COUNTS = 255.0
 """Largest count of the 8 bits that a taxel sends."""
 JUMP_COUNTS = 20.0
-"""A change from one message to the next that is larger is no pressure: a swing of 3.4 bar is 42 counts."""
+"""A change from one message to the next that is larger is no pressure: a change of 3.4 bar is 42 counts."""
 WRAP_COUNTS = 6.0
 """A change that modulo 256 is not larger, and else is, runs over an end of the 8 bits."""
 NOISE_COUNTS = 3.0

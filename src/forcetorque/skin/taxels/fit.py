@@ -35,13 +35,13 @@ class FittedSamples:
     """Highest fitted pressure; Pa."""
 
     def fit(self, kind: CurveKind) -> list[TaxelCurve | None]:
-        """Fit a curve to every taxel that is sound.
+        """Fit a curve to every taxel that is valid.
 
         Args:
             kind: Form of the curves.
 
         Returns:
-            A curve per taxel; None for one that is not sound.
+            A curve per taxel; None for one that is not valid.
         """
         reach = self.fall[self.pressure >= TOP_SHARE * self.highest].mean(axis=0)
         # long rest would outweigh the first counts of the rise, and make noise of them; what a load leaves as it goes
@@ -66,7 +66,7 @@ def fitted_samples(recordings: Sequence[PatchRecording], highest: float | None) 
         Their samples.
 
     Raises:
-        FitError: If no pressure is that low, or no taxel is sound.
+        FitError: If no pressure is that low, or no taxel is valid.
     """
     pressure = np.concatenate([recording.cycle.pressure for recording in recordings])
     used = np.ones(len(pressure), dtype=bool) if highest is None else pressure <= highest
@@ -129,7 +129,7 @@ class HeldOutErrors:
 
 
 def held_out_errors(curves: Sequence[TaxelCurve | None], recording: PatchRecording, highest: float) -> HeldOutErrors:
-    """Judge curves on a recording that was not fitted.
+    """Evaluate curves on a recording that was not fitted.
 
     Args:
         curves: A curve per taxel; None for one that was left out.
@@ -161,7 +161,7 @@ class CurveComparison:
     rows: tuple[CandidateRow, ...]
     """A row for each form and recording, and for each form and all recordings."""
     pooled: Mapping[CurveKind, HeldOutErrors]
-    """Errors of each form over the recordings in which a taxel is sound; empty without recordings."""
+    """Errors of each form over the recordings in which a taxel is valid; empty without recordings."""
     taxels: int
     """Number of taxels."""
 
@@ -192,7 +192,7 @@ class CurveComparison:
 def compare_curves(
     curves: Mapping[CurveKind, Sequence[TaxelCurve | None]], held_out: Sequence[PatchRecording], highest: float
 ) -> CurveComparison:
-    """Judge forms of curves on recordings that were not fitted.
+    """Evaluate forms of curves on recordings that were not fitted.
 
     Args:
         curves: Curves of every taxel by their forms.

@@ -196,7 +196,7 @@ class CalibratedTaxel(StoredTable):
     taxel: int = Field(ge=0)
     """Column of the taxel."""
     left_out: tuple[str, ...] = ()
-    """What was wrong with it in the recordings that were fitted; nothing for a sound one."""
+    """What was wrong with it in the recordings that were fitted; nothing for a valid one."""
     coefficients: Annotated[FloatArray, ArrayField((None,))] | None = None
     """Coefficients of its curve; None for one that was left out."""
     range_counts: float | None = Field(default=None, gt=0.0)

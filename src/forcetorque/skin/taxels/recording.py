@@ -22,7 +22,7 @@ REST_SHARE = 0.03
 TURN_SHARE = 0.05
 """Share of the highest pressure by which it must turn back to have turned; less is the valve."""
 TOP_SHARE = 0.9
-"""Share of the highest pressure from which on samples tell how a taxel reads there."""
+"""Share of the highest pressure from which on samples show how a taxel reads there."""
 LEAST_RISE_PA = 1e3
 """A pressure that changes by less does not rise: one count of a taxel is about 8 kPa; Pa."""
 
@@ -165,7 +165,7 @@ class PatchRecording:
     label: str
     """Label of the interval."""
     use: Use
-    """Whether it is fitted or judges."""
+    """Whether it is for calibration or validation."""
     seconds: FloatArray
     """Instants since the start of the recording; shape (n,); s."""
     cycle: PressureCycle

@@ -19,12 +19,12 @@ from forcetorque.skin.taxels.recording import PatchRecording
 
 
 class SkinRecordingRow(Row):
-    """A recording, and how many of the taxels are sound in it."""
+    """A recording, and how many of the taxels are valid in it."""
 
     recording: Annotated[str, Shown("recording")]
     """Experiment and label of the interval."""
     use: Annotated[str, Shown("use")]
-    """Whether it was fitted or judges."""
+    """Whether it is for calibration or validation."""
     messages: Annotated[int, Shown("messages")]
     """Messages of counts with a pressure."""
     highest_kPa: Annotated[float, Shown("highest", "kPa", digits=0)]
@@ -53,9 +53,9 @@ class CandidateRow(Row):
     curve: Annotated[str, Shown("curve")]
     """Form of the curve."""
     recording: Annotated[str, Shown("recording")]
-    """Recording, or `all`: then the squares of a taxel are pooled over those in which it is sound."""
+    """Recording, or `all`: then the squares of a taxel are pooled over those in which it is valid."""
     taxels: Annotated[int, Shown("taxels")]
-    """Taxels that are sound where it was fitted and in this recording."""
+    """Taxels that are valid where it was fitted and in this recording."""
     left_out: Annotated[int, Shown("left out")]
     """Taxels that are not."""
     inside_kPa: Annotated[float | None, Shown("inside", "kPa", digits=1)]
@@ -63,7 +63,7 @@ class CandidateRow(Row):
     above_kPa: Annotated[float | None, Shown("above", "kPa", digits=1)]
     """At higher ones."""
     inside_any_kPa: Annotated[float | None, Shown("inside, any", "kPa", digits=1)]
-    """Inside, over all taxels that were fitted, whether or not they are sound in this recording."""
+    """Inside, over all taxels that were fitted, whether or not they are valid in this recording."""
     above_any_kPa: Annotated[float | None, Shown("above, any", "kPa", digits=1)]
     """Above, over all taxels that were fitted."""
     falling: Annotated[int, Shown("falling")]
@@ -76,7 +76,7 @@ class TaxelRow(Row):
     taxel: Annotated[int, Shown("taxel")]
     """Column of the taxel."""
     left_out: Annotated[str | None, Shown("left out")]
-    """What was wrong with it where it was to be fitted; none for a sound one."""
+    """What was wrong with it where it was to be fitted; none for a valid one."""
     range_counts: Annotated[float | None, Shown("range", "counts", digits=1)]
     """Fall below rest at the highest fitted pressure."""
     rmse_kPa: Annotated[float | None, Shown("rmse", "kPa", digits=1)]
@@ -88,7 +88,7 @@ class TaxelRow(Row):
     hysteresis_percent: Annotated[float | None, Shown("of range", "%", digits=1)]
     """The same as a share of the range."""
     inside_kPa: Annotated[float | None, Shown("held out, inside", "kPa", digits=1)]
-    """Error on recordings that were not fitted, where it is sound, at pressures that were fitted."""
+    """Error on recordings that were not fitted, where it is valid, at pressures that were fitted."""
     above_kPa: Annotated[float | None, Shown("above", "kPa", digits=1)]
     """The same at higher ones."""
 
@@ -178,9 +178,9 @@ class TaxelPicture(ArrayRecord):
     pressure: FloatArray = field(metadata=array("n"))
     """Pressure above that at rest; shape (n,); Pa."""
     fall: FloatArray = field(metadata=array("n", "k"))
-    """Counts below rest of sound taxels, spread over all; shape (n, k)."""
+    """Counts below rest of valid taxels, spread over all; shape (n, k)."""
     mean_fall: FloatArray = field(metadata=array("n"))
-    """Mean over all sound taxels; shape (n,); counts."""
+    """Mean over all valid taxels; shape (n,); counts."""
     names: tuple[str, ...] = field(metadata=names("k"))
     """Names of the k taxels."""
     curves: Mapping[str, FloatArray]

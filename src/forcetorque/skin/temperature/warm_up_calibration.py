@@ -63,7 +63,7 @@ def fit_warm_up(experiment: str, seconds: FloatArray, counts: FloatArray, layout
         layout: The patch.
 
     Returns:
-        What was learned, taxel by taxel.
+        What was estimated, taxel by taxel.
 
     Raises:
         SkinError: If the patch has no thermal pads, none is alive or warms, or something touched it.
@@ -263,7 +263,7 @@ class WarmUpRow(Row):
     pads: Annotated[int, Shown("pads")]
     """Thermal pads that taxels follow."""
     dead_pads: Annotated[int, Shown("dead")]
-    """Thermal pads that tell nothing."""
+    """Thermal pads that show nothing."""
     pad_change_counts: Annotated[float, Shown("pads change", "counts", digits=1)]
     """Median change of the living ones."""
     taxels: Annotated[int, Shown("taxels")]
@@ -279,7 +279,7 @@ class WarmUpRow(Row):
     unexplained_counts: Annotated[float, Shown("unexplained", "counts", digits=1)]
     """Most that pads, followed as they come, leave of a taxel."""
     rate_counts_per_min: Annotated[float, Shown("rate", "counts/min", digits=1)]
-    """Median of their steepest changes, from which limits of drift are told."""
+    """Median of their steepest changes, from which limits of drift are determined."""
 
 
 def learn_warm_up(
@@ -293,10 +293,10 @@ def learn_warm_up(
         patch: The patch that is calibrated.
 
     Returns:
-        What was learned, what makes it doubtful and what the file adds to its log, and the SHA-256 of its input files.
+        What was estimated, warnings and what the file adds to its log, and the SHA-256 of its input files.
 
     Raises:
-        ExperimentError: If it is another patch, its layout is not stated, or its interval is not.
+        ExperimentError: If it is another patch, its layout is not specified, or its interval is not.
     """
     content = load_patches(experiment) if isinstance(experiment, (Path, str)) else experiment
     own = content.patch(patch.name)
@@ -376,7 +376,7 @@ def warm_up_row(learned: WarmUp) -> WarmUpRow:
     """Sum a warm-up up.
 
     Args:
-        learned: What was learned.
+        learned: What was estimated.
 
     Returns:
         Its row.

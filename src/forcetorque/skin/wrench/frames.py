@@ -102,7 +102,7 @@ def resting_reader(
     resting = seconds < seconds[0] + rest_s
     own = counts[:, table.taxels]
     never_judged = np.full(len(table), np.inf)
-    # noise is judged at rest: under a hand that moves every taxel is noisy
+    # noise is evaluated at rest: under a hand that moves every taxel is noisy
     reasons = zip(taxel_faults(own, never_judged), taxel_faults(own[resting], never_judged), strict=True)
     excluded = np.array([_is_excluded(whole, rest) for whole, rest in reasons])
     live = table.live & ~excluded & has_pad
@@ -280,7 +280,7 @@ def _followed(lives: ContactLives, seconds: float, frame: PressureFrame, contact
 
 
 def _rule(calibration: PatchCalibration, chosen: FrameChoice) -> HeatRule:
-    """The rule that is asked for, or the best that there is."""
+    """The rule that is requested, or the best that there is."""
     if chosen.temperature is None:
         rule = HeatRule.NONE if calibration.warm_up is None else HeatRule.LEARNED
     elif chosen.temperature in list(HeatRule):
@@ -322,7 +322,7 @@ def _heat(
 
 
 def _plain(skin: SkinPatch, reader: PatchReader, heat: HeatGains | None) -> Callable[[float, FloatArray], ReadFrame]:
-    """Every frame by itself, less what the pads tell at that time."""
+    """Every frame by itself, less what the pads measure at that time."""
 
     def read(seconds: float, counts: FloatArray) -> ReadFrame:
         drift = None

@@ -192,7 +192,7 @@ def _course(life: ContactLife) -> str:
 
 
 class SkinEventRow(Row):
-    """Contacts of one patch, as a skinManager tells them."""
+    """Contacts of one patch, as a skinManager shows them."""
 
     stream: Annotated[str, Shown("stream")]
     """Stream."""
@@ -265,7 +265,8 @@ def _summary(stream: Stream, start_ns: int) -> tuple[SkinEventRow, SkinEventPict
 
 
 HEATING: Final = 1.25
-"""Heat that comes faster than in the warm-up by more is said: the limits of drift are told from its steepest minute."""
+"""Heat that comes faster than in the warm-up by more is said: the limits of drift are determined from its steepest
+minute."""
 
 
 def heat_warnings(frames: SkinFrames, rows: Sequence[SkinContactRow], *, has_pads: bool) -> tuple[str, ...]:

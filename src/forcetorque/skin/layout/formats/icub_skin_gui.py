@@ -31,7 +31,7 @@ class IcubPositions:
     """Lines `name`, `spatial_sampling` and `taxel2Repr`, then a row x y z nx ny nz (m, link frame) per column.
 
     A row of zeros is no taxel: a thermal pad where its module has taxels, else a dummy. A column that `taxel2Repr`
-    calls a thermal pad is one, whatever its row says: its counts are no pressure. Where else the two disagree, rows
+    calls a thermal pad is one, independently of its row: its counts are no pressure. Where else the two disagree, rows
     are believed.
     """
 
