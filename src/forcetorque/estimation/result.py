@@ -194,7 +194,7 @@ class EstimatedRecording(Row):
             yield table_of(self.parts, "")
         for row in self.parts:
             for group in row.ambiguous:
-                yield f"{row.part}, {row.interval}: cannot tell apart {', '.join(group)}"
+                yield f"{row.part}, {row.interval}: not separable: {', '.join(group)}"
         if self.fusion is not None:
             yield from self.fusion.blocks()
 
@@ -354,7 +354,7 @@ def _warnings(corrections: Mapping[str, Correction], spans: Sequence[IntervalEst
     for sensor, one in corrections.items():
         if not one.removes_offset:
             yield (
-                f"{sensor}: no offset removed, so that its forces hold whatever offset the sensor has; see --offset, "
+                f"{sensor}: no offset removed, so that its forces include the offset of the sensor; see --offset, "
                 "from Python offset"
             )
 

@@ -75,7 +75,7 @@ class SkinSource:
             if self.tangents.sd_N is None:
                 raise EstimationError(
                     f"contact {self.contact.name!r}: expected friction, which bounds the force along the skin: without "
-                    "it skin alone tells no torque; state a coefficient in [[patch]], such as 0.3"
+                    "it skin alone determines no torque; state a coefficient in [[patch]], such as 0.3"
                 )
             slanted = self.tangents.maps * self.tangents.sd_N[:, None, None]
             covariance = covariance + slanted @ slanted.transpose(0, 2, 1)
@@ -212,7 +212,7 @@ def _source(
             force[k], beyond[k] = contacts.normal_force_N[number], contacts.beyond_range[number]
     if np.isnan(covariance).any():
         raise EstimationError(
-            f"{name!r}: expected the covariance of its wrench, which only the methods kriging and linear tell"
+            f"{name!r}: expected the covariance of its wrench, which only the methods kriging and linear give"
         )
     maps = tangent_maps(centre[rows], normal[rows])
     tangents = None

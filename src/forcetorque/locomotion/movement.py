@@ -296,18 +296,18 @@ def _warnings(signal: MotionSignal, name: str, even: ResampledSignal, search: Os
     where = f"{signal.interval}: {name}"
     if not even.even:
         yield (
-            f"{where}: the clock is uneven, with up to {even.longest_step_s:.3g} s between samples: only swings of up "
-            f"to {even.highest_hz:.3g} Hz are looked at; log without pauses to see faster ones"
+            f"{where}: the clock is uneven, with up to {even.longest_step_s:.3g} s between samples: only oscillations "
+            f"of up to {even.highest_hz:.3g} Hz are looked at; log without pauses to see faster ones"
         )
     for one in search.oscillations:
         if not math.isfinite(one.damping):
             yield (
-                f"{where}: the swing of {one.frequency_hz:.4g} Hz keeps its phase for some {one.coherence_s:.3g} s "
-                "only, or comes and goes: no damping is told, and its amplitude is that of what keeps its phase so "
-                "long; choose a shorter interval to see more"
+                f"{where}: the oscillation of {one.frequency_hz:.4g} Hz keeps its phase for some {one.coherence_s:.3g} "
+                "s only, or comes and goes: no damping is determined, and its amplitude is that of what keeps its "
+                "phase so long; choose a shorter interval to see more"
             )
         elif one.amplitude < NEAR_LIMIT * search.seen_amplitude(one.frequency_hz):
             yield (
-                f"{where}: the swing of {one.frequency_hz:.4g} Hz hardly stands out of the noise: what is seen at that "
-                "limit is larger than it is, as a smaller one would not have been seen; record longer"
+                f"{where}: the oscillation of {one.frequency_hz:.4g} Hz hardly stands out of the noise: what is seen "
+                "at that limit is larger than it is, as a smaller one would not have been seen; record longer"
             )

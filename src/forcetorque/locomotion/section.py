@@ -74,7 +74,7 @@ def read_soles(
         if sensed == (entry.stream is not None):
             raise ExperimentError(
                 f"{where}: expected stream with the vertical_force of the ground, or [[sensor]] in the file, one of "
-                f"both, got {'both' if sensed else 'neither'}; what is told twice is not weighed against itself"
+                f"both, got {'both' if sensed else 'neither'}; two sources of one force are not combined"
             )
         with stated_in(where):
             if entry.stream is not None:

@@ -159,7 +159,9 @@ class RawLimits(ArrayRecord):
         # rows scaled, so that the units of force and moment do not decide
         rows = np.linalg.norm(self.matrix, axis=1, keepdims=True)
         if not rows.all() or np.linalg.matrix_rank(self.matrix / rows) < 6:
-            raise SensorError("RawLimits: the matrix is singular; expected one that tells the counts of every load")
+            raise SensorError(
+                "RawLimits: the matrix is singular; expected one that determines the counts of every load"
+            )
 
     def raw(self, wrench: Any) -> FloatArray:
         """Give the counts of a load, not rounded and not limited.

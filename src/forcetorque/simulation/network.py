@@ -225,7 +225,7 @@ def _starts(stream: Stream, count: int, *, length: int, rng: np.random.Generator
     places = len(stream) - 2 - count * length + 1
     if count > max(places, 0):
         raise RecordingError(
-            f"stream {stream.name!r}: expected room for {count} stretches of {length} message(s) that do not touch, "
+            f"stream {stream.name!r}: expected room for {count} segments of {length} message(s) that do not touch, "
             f"got {len(stream)} messages"
         )
     chosen = np.sort(rng.choice(places, size=count, replace=False)) if count else np.empty(0)

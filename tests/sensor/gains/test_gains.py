@@ -300,8 +300,10 @@ def test_advice_without_a_contact_says_so(arm: Path) -> None:
     free = select_gains(_run(load_experiment(arm / PARQUET)))
     raised = [channel for channel in free.sensors[0].channels if channel.change is GainChange.RAISE]
     assert (free.sensors[0].contact_stated, bool(raised)) == (False, True)
-    assert "no contact is stated beyond the sensor: whether loads of use were recorded" in " ".join(free.text().split())
+    assert "no contact is specified distal to the sensor: whether operating loads were recorded" in " ".join(
+        free.text().split()
+    )
     add(arm / PARQUET, '\n[[contact]]\nframe = "hand"\nintervals = ["fit"]\n')
     touched = select_gains(_run(load_experiment(arm / PARQUET)))
     assert touched.sensors[0].contact_stated
-    assert "no contact is stated" not in " ".join(touched.text().split())
+    assert "no contact is specified" not in " ".join(touched.text().split())

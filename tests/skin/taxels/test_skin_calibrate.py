@@ -146,7 +146,7 @@ def test_what_cannot_be_calibrated_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ExperimentError, match=r"expected the patch 'palm' \(P7\) .* got 'palm' \(P8\)"):
         _calibrated(fit, kept)
     broken = chamber(responses(), 41, broken=dict.fromkeys(range(TAXELS), TaxelFault.NEVER_MOVES))
-    with pytest.raises(FitError, match="expected a sound taxel to fit, got none of 60: they are never moves"):
+    with pytest.raises(FitError, match="expected a valid taxel to fit, got none of 60: they are never moves"):
         _calibrated(write_chamber(tmp_path, "dead", broken))
 
 

@@ -125,7 +125,7 @@ def test_hot_skin_is_named(run: Run, tmp_path: Path) -> None:
         ((("friction = 0.1\n", ""),), "contact 'shank 1': expected friction"),
         ((("[fusion]\nmodel_deviation = 0.02\n", ""),), r"expected \[fusion\] with model_deviation"),
         (((FT, ""), (CURRENT, "")), "expected two sources of joint torques at least, got skin"),
-        (((SKIN, SKIN + '\n[[contact]]\nframe = "foot"\n'),), "skin tells torques of joints only if it feels all"),
+        (((SKIN, SKIN + '\n[[contact]]\nframe = "foot"\n'),), "skin determines torques of joints only if it feels all"),
     ],
 )
 def test_what_skin_lacks_as_a_source_is_asked_for(

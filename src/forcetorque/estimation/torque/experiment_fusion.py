@@ -136,8 +136,8 @@ class TorqueFusion(Row):
         yield table_of(self.torques, "joint torques")
         yield table_of(self.sources, "sources of joint torques")
         yield (
-            f"where all variances are as stated, at most {self.false_alarm:.1%} of intervals, and of windows, have a "
-            "conflict"
+            f"where all variances are as specified, at most {self.false_alarm:.1%} of intervals, and of windows, have "
+            "a conflict"
         )
         if self.friction:
             yield table_of(self.friction, "friction, fitted on the calibration intervals")

@@ -150,7 +150,7 @@ class TorqueSources:
         elif any(contact.type is not ContactType.KNOWN for contact in contacts):
             raise ExperimentError(
                 f"interval {interval.label!r}: expected contacts of type known alone, where skin or one of them is a "
-                "source of torques, got others too; skin tells torques of joints only if it feels all that touches"
+                "source of torques, got others too; skin determines torques of joints only if it feels all contacts"
             )
         else:
             contacts += [source.contact for source in skin]
@@ -308,7 +308,7 @@ def _errors(
     if noise is None or deviation is None:
         raise ExperimentError(
             f"{where}: expected {key}_noise and {key}_deviation, six standard deviations each in N and N m, to weigh "
-            "its torques against others; `forcetorque evaluate` tells errors of a sensor"
+            "its torques against others; `forcetorque evaluate` shows errors of a sensor"
         )
     return np.diag(noise**2), np.diag(deviation)
 

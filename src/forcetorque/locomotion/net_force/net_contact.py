@@ -418,7 +418,7 @@ def measurement_warnings(readers: Sequence[Reader], summary: Sequence[CoherenceS
             yield f"{candidate}: has no calibration of {', '.join(sensors)}, which the prior reads here too"
     for reader in readers:
         if reader.policy.offset is Offset.NONE and reader.candidate == PRIOR:
-            yield "offset none: no offset removed, so that the errors hold whatever offsets the sensors have"
+            yield "offset none: no offset removed, so that the errors include the offsets of the sensors"
         if reader.policy.offset is Offset.FITTED:
             for sensor, correction in reader.corrections.items():
                 if not correction.removes_offset:

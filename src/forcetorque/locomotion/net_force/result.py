@@ -143,7 +143,8 @@ class Coherence(Result):
             "F: mean net contact force, z up; E: F less (0, 0, weight), ± half a 95 % interval of the mean where the "
             "phase is stationary noise (without ± it bears the error of the offset too); M: error of the net moment "
             f"about the ground below the centre of mass. {NOT_EVIDENCE}: the phase gave offset or matrix, so its error "
-            "is near zero by construction. Forces of one foot against the other cancel in F: their size is not judged."
+            "is near zero by construction. Forces of one foot against the other cancel in F: their size is not "
+            "evaluated."
         )
         if self.figure is not None:
             yield f"errors drawn to {self.figure}"

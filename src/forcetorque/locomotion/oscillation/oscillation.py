@@ -351,8 +351,8 @@ def find_oscillations(signal: ResampledSignal, *, name: str) -> OscillationSearc
     highest = min(signal.highest_hz * duration, 0.5 * len(signal.values) - FAMILIES[-1].half_bandwidth)
     if highest <= LEAST_CYCLES:
         raise RecordingError(
-            f"{name}: expected a time of at least {LEAST_CYCLES:g} periods of the fastest swing that its clock shows, "
-            f"got {duration:.3g} s of samples that are up to {signal.longest_step_s:.3g} s apart, which show "
+            f"{name}: expected a time of at least {LEAST_CYCLES:g} periods of the fastest oscillation that its clock "
+            f"shows, got {duration:.3g} s of samples that are up to {signal.longest_step_s:.3g} s apart, which show "
             f"{signal.highest_hz:.3g} Hz at most; record longer or without pauses"
         )
     left = np.asarray(detrend(signal.values), dtype=np.float64)

@@ -166,7 +166,7 @@ def balance(
             continue
         names[mark] = content.name
         warnings += [
-            f"{content.name}: {sensor}: no offset was removed, so that forces and points have whatever offset it has; "
+            f"{content.name}: {sensor}: no offset was removed, so that forces and points include its offset; "
             "give a calibration, or an interval for calibration"
             for sensor, correction in reading.items()
             if not correction.removes_offset

@@ -40,7 +40,7 @@ class ContactThresholds:
         if not (np.isfinite(self.touch_N) and 0.0 < self.release_N <= self.touch_N):
             raise EstimationError(
                 f"thresholds: expected 0 < release <= touch, got touch {self.touch_N:g} N and release "
-                f"{self.release_N:g} N; where they cross no force would tell whether a foot is down"
+                f"{self.release_N:g} N; where they cross no force determines whether a foot is down"
             )
         if not 0.0 <= self.dwell_s < np.inf:
             raise EstimationError(f"thresholds: expected a dwell time of at least 0 s, got {self.dwell_s:g} s")
@@ -317,7 +317,7 @@ class ForceLimit:
             return self.force_N
         if weight_N is None:
             raise EstimationError(
-                f"force: expected newtons, got {self} of a body weight that nobody knows; name the robot in [robot], "
+                f"force: expected newtons, got {self} of an unknown body weight; name the robot in [robot], "
                 "or state thresholds such as 50N"
             )
         return (self.share or 0.0) * weight_N

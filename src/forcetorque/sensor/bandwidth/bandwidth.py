@@ -69,8 +69,8 @@ def driven_response(
     if decays is None:
         if len(pairs) > 1:
             raise ExperimentError(
-                f"{name}: expected one stretch with a swing, got {len(pairs)}; name one by --interval, from Python "
-                "intervals"
+                f"{name}: expected one segment with an oscillation, got {len(pairs)}; name one by --interval, from "
+                "Python intervals"
             )
         segment = 2 * len(pairs[0][0]) // (SWING_SEGMENTS + 1)
         force, reading = (overlapping(series, segment) for series in pairs[0])
@@ -308,8 +308,8 @@ def _refuse_lacking(
     if kind is ExcitationKind.PENDULUM and (force is None or component is None):
         raise ExperimentError(
             "pendulum: expected the stream of the measured force or acceleration, --force, and the component that it "
-            f"excites, --component, from Python force and component, got {force!r} and {component_name!r}: a swing is "
-            "no event that could tell them"
+            f"excites, --component, from Python force and component, got {force!r} and {component_name!r}: an "
+            "oscillation is no event that could determine them"
         )
     if kind is ExcitationKind.RELEASE and mass_kg is not None and component is not None and component > 2:
         raise ExperimentError(

@@ -82,7 +82,7 @@ def even_record(time_s: Any, signals: Any, *, name: str) -> EvenRecord:
         raise RecordingError(
             f"{name}: uneven sampling: {len(odd)} of {len(steps)} steps differ from the usual {1e3 * usual:.4g} ms by "
             f"more than half, the first at {time[odd[0]]:.4f} s (sample {odd[0] + 1}) is {1e3 * steps[odd[0]]:.4g} ms; "
-            "a decay and a spectrum need even samples: leave the stretch out of the interval, or log without losses"
+            "a decay and a spectrum need even samples: leave the segment out of the interval, or log without losses"
         )
     scatter = float(np.sqrt(((steps - usual) ** 2).mean())) / usual
     if scatter > JITTER:
@@ -110,7 +110,7 @@ def _refuse_drift(time: FloatArray, name: str) -> None:
         raise RecordingError(
             f"{name}: uneven sampling: from {time[edges[worst]]:.4f} s to {time[edges[worst + 1]]:.4f} s steps are "
             f"{100 * drift[worst]:+.1f} % off the mean {1e3 * mean:.4g} ms, expected at most {100 * DRIFT:.0f} %: log "
-            "the sensor's own clock, or choose a stretch of one rate"
+            "the sensor's own clock, or choose a segment of one rate"
         )
 
 

@@ -303,8 +303,8 @@ def _warnings(row: SensorRow, prior: str | None) -> Iterator[str]:
     still = [channel.channel for channel in row.channels if channel.change is GainChange.UNKNOWN]
     if still:
         yield (
-            f"{row.sensor}: the load of {', '.join(still)} did not move, so that nothing tells how far they go in use, "
-            "and no gain is advised; record the motions and contacts of use"
+            f"{row.sensor}: the load of {', '.join(still)} did not move, so that their range under operating loads is "
+            "unknown, and no gain is advised; record the motions and contacts of use"
         )
     for channel in row.channels:
         if channel.saturated_share > 0.0:

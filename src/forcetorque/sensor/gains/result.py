@@ -138,9 +138,9 @@ class SensorRow(Row):
         yield _channel_table(self)
         if not self.contact_stated and any(channel.change is GainChange.RAISE for channel in self.channels):
             yield (
-                "no contact is stated beyond the sensor: whether loads of use were recorded, and the head-room under "
-                "contact, is unknown; raise a gain only if nothing will touch the limb, or record the contacts of use "
-                "and state them as [[contact]]"
+                "no contact is specified distal to the sensor: whether operating loads were recorded, and the "
+                "head-room under contact, is unknown; raise a gain only if nothing will touch the limb, or record the "
+                "contacts of operation and state them as [[contact]]"
             )
         if self.resolution:
             yield _resolution_table(self.resolution)

@@ -320,11 +320,14 @@ def _warnings(sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: LoadSt
             "are one: what is given per degC is both; record heating and cooling"
         )
     if fit.hysteresis is None:
-        yield f"{sensor.sensor}: heating and cooling were not both recorded over the same range: no hysteresis is told"
+        yield (
+            f"{sensor.sensor}: heating and cooling were not both recorded over the same range: no hysteresis is "
+            "determined"
+        )
     elif fit.hysteresis_share > MIXED_WITH_TIME:
         yield (
-            f"{sensor.sensor}: heating against cooling is hardly told from a drift in time by what was recorded, which "
-            "makes their intervals wide; record at least two cycles without switching off"
+            f"{sensor.sensor}: heating against cooling is hardly separable from a drift in time by what was recorded, "
+            "which makes their intervals wide; record at least two cycles without switching off"
         )
     if fit.lag_error_s > LAG_UNTOLD_S:
         yield (

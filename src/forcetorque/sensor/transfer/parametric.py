@@ -290,7 +290,7 @@ def fit_power(stimulus: Any, output: Any) -> Power:
     )
     if abs(exponent) < _POSITIVE[0]:
         raise FitError(
-            f"power: the best exponent, {exponent:.2g}, cannot be told from a logarithm; fit a logarithmic function"
+            f"power: the best exponent, {exponent:.2g}, is not separable from a logarithm; fit a logarithmic function"
         )
     return Power(
         lowest=float(stimuli.min()),

@@ -76,7 +76,7 @@ def fitted_samples(recordings: Sequence[PatchRecording], highest: float | None) 
     faults = tuple(tuple(name for name in TaxelFault if any(name in log for log in logs)) for logs in by_taxel)
     if all(faults):
         reasons = ", ".join(name for name in TaxelFault if any(name in taxel for taxel in faults))
-        raise FitError(f"expected a sound taxel to fit, got none of {len(faults)}: they are {reasons}")
+        raise FitError(f"expected a valid taxel to fit, got none of {len(faults)}: they are {reasons}")
     return FittedSamples(
         fall=np.concatenate([recording.cycle.fall for recording in recordings])[used],
         pressure=pressure[used],

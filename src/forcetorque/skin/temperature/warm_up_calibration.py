@@ -201,7 +201,7 @@ def _with_unexplained(
         taxel = int(worst.argmax())
         when = instants[_SMOOTH_BLOCKS * int(np.abs(left[:, taxel]).argmax())]
         raise SkinError(
-            f"expected thermal pads that tell heat when taxels feel it, got pads that leave over "
+            f"expected thermal pads that measure the heat of the taxels, got pads that leave over "
             f"{UNEXPLAINED_COUNTS:g} counts of {np.count_nonzero(worst > UNEXPLAINED_COUNTS)} taxels, of taxel "
             f"{columns[taxel]} {worst[taxel]:.1f} at {when:.0f} s, with a lag of {np.median(gains.lags):.0f} s in the "
             "median: that would read as contacts; let the motors heat the patch more slowly, or use skin wrench "
