@@ -16,7 +16,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.estimation.clock_stream import clock_stream
+from forcetorque.estimation.skin_contacts import clock_stream
 from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.offsets import corrections_of

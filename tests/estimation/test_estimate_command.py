@@ -91,7 +91,7 @@ def test_what_trades_off_is_said(arm: Path, run: Run) -> None:
     said = run(*words, "--length-scale", "0.2", "--format", "json").result()
     (group,) = [row["ambiguous"] for row in said["parts"] if row["part"] == "arm_ft" and row["interval"] == "judge"]
     assert {"hand.fx", "forearm.fx"} <= {name for names in group for name in names}
-    assert "cannot tell apart" in run(*words, "--length-scale", "0.2").out
+    assert "not separable: " in run(*words, "--length-scale", "0.2").out
     assert "length_scale" in run(*words).error()
 
 

@@ -49,11 +49,11 @@ from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoo
 from forcetorque.results.figures import png_bytes
 from forcetorque.robot.motion import JointMotion
 from forcetorque.sensor.bandwidth.bandwidth import Response
+from forcetorque.sensor.bandwidth.decays import DecayCurve
 from forcetorque.sensor.bandwidth.excited_records import ExcitationKind
-from forcetorque.sensor.bandwidth.figure import response_figure
-from forcetorque.sensor.bandwidth.result import DecayCurve, ResponseCurve
+from forcetorque.sensor.bandwidth.frequency_response import ResponseCurve
 from forcetorque.sensor.bandwidth.second_order import SecondOrder
-from forcetorque.sensor.temperature.figure import thermal_figure
+from forcetorque.sensor.figures import response_figure, thermal_figure
 from forcetorque.sensor.temperature.temperature_drift import SensorThermal, ThermalCurve, ThermalDriftRow
 from forcetorque.skin.figures import skin_event_figure, skin_layout_figure, skin_wrench_figure, taxel_figure
 from forcetorque.skin.surface import skin_surface, unrolled

@@ -12,19 +12,19 @@ import numpy as np
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
 from forcetorque.skin.simulation.recordings import REFERENCE_PA, TaxelResponses, chamber_recording
-from forcetorque.skin.taxels.health import Ailment
+from forcetorque.skin.taxels.faults import TaxelFault
 
 TAXELS = 60
 BROKEN = {
-    4: Ailment.NEVER_MOVES,
-    9: Ailment.RAILS,
-    17: Ailment.WRAPS,
-    23: Ailment.JUMPS,
-    31: Ailment.NOISE,
-    40: Ailment.RISES,
+    4: TaxelFault.NEVER_MOVES,
+    9: TaxelFault.RAILS,
+    17: TaxelFault.WRAPS,
+    23: TaxelFault.JUMPS,
+    31: TaxelFault.NOISE,
+    40: TaxelFault.RISES,
 }
 """What is wrong with which taxel in both recordings."""
-LATER = {50: Ailment.JUMPS, 51: Ailment.RAILS}
+LATER = {50: TaxelFault.JUMPS, 51: TaxelFault.RAILS}
 """What breaks before the second recording."""
 RAMP_S = 20.0
 HIGHEST_PA = 1.6 * REFERENCE_PA
@@ -59,7 +59,7 @@ def chamber(
     taxels: TaxelResponses,
     seed: int,
     *,
-    broken: Mapping[int, Ailment] | None = None,
+    broken: Mapping[int, TaxelFault] | None = None,
     highest_pa: float = HIGHEST_PA,
 ) -> Recording:
     """A recording of them."""

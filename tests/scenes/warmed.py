@@ -15,7 +15,6 @@ from forcetorque.recording.storage import write_recording
 from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
-from forcetorque.skin.simulation.heat import HeatResponses, Warmth, warm_recording
 from forcetorque.skin.simulation.recordings import (
     NOISE_COUNTS,
     REFERENCE_PA,
@@ -23,6 +22,7 @@ from forcetorque.skin.simulation.recordings import (
     TaxelResponses,
     chamber_recording,
 )
+from forcetorque.skin.simulation.temperature import HeatResponses, Warmth, warm_recording
 from tests.scenes.patches import cylinder_patch
 from tests.scenes.touched import EXPERIMENT
 

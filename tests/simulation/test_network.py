@@ -159,7 +159,7 @@ def test_streams_of_one_port_suffer_the_same_faults() -> None:
 def test_what_does_not_fit_is_refused() -> None:
     """Too many faults, an unknown stream, a quantity that nobody has."""
     rng = np.random.default_rng(1)
-    with refused(RecordingError, "expected room for 250 stretches of 1 message.s. that do not touch, got 500 messages"):
+    with refused(RecordingError, "expected room for 250 segments of 1 message.s. that do not touch, got 500 messages"):
         lose_messages(_clean(), bursts=250, rng=rng)
     with refused(RecordingError, "expected 0 or more faults of 1 or more messages, got 1 of 0"):
         lose_messages(_clean(), bursts=1, length=0, rng=rng)

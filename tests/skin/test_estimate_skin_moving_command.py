@@ -11,8 +11,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.estimate import estimate_experiment
+from forcetorque.estimation.skin_contacts import clock_stream
 from forcetorque.experiment.loading import Purpose, load_experiment
 from tests.app.outcome import Run
 from tests.robot.mechanics.simulated import Simulation

@@ -27,8 +27,8 @@ from forcetorque.simulation.robots import BIPED_URDF
 from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.contact import ON_SKIN, ClothStrip, ContactTruth, FlatWeight, SkinBody, SkinContact
-from forcetorque.skin.simulation.heat import HeatResponses, MotorHeat, Warmth, warm_recording
 from forcetorque.skin.simulation.recordings import Loading, TaxelResponses, contact_recording
+from forcetorque.skin.simulation.temperature import HeatResponses, MotorHeat, Warmth, warm_recording
 from forcetorque.skin.taxels.calibrate import calibrate_skin
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.warmed import chamber_messages

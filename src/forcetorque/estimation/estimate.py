@@ -10,9 +10,15 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.section import LENGTH_SCALE
-from forcetorque.estimation.skin_contacts import SkinSource, frames_of_patches, sources_at, uncertainty_of, with_skin
+from forcetorque.estimation.skin_contacts import (
+    SkinSource,
+    clock_stream,
+    frames_of_patches,
+    sources_at,
+    uncertainty_of,
+    with_skin,
+)
 from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact
@@ -35,7 +41,7 @@ from forcetorque.skin.wrench.wrench import PatchFrames
 def narrowed(
     question: Question, available: Collection[str], *, required: Collection[str]
 ) -> tuple[Question, list[str]]:
-    """Leave out what needs joints that are not there.
+    """Leave out what needs joints that were not logged.
 
     A torque is left out too if a contact that it depends on is: it would be wrong without. Contacts whose wrench is
     known need no equation, and stay.
@@ -112,8 +118,8 @@ def _missing_joints(missing: list[str]) -> str:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class IntervalQuestion:
-    """A question over one interval, with the motion of the robot and the wrenches that are known."""
+class IntervalProblem:
+    """The estimation of contacts over one interval, with the motion of the robot and the known wrenches."""
 
     experiment: Experiment
     """The experiment."""
@@ -122,9 +128,9 @@ class IntervalQuestion:
     samples: PaddedSamples
     """Its instants, n with those around it."""
     question: Question
-    """What is asked, as far as the log allows."""
+    """What is estimated, as far as the log allows."""
     left_out: tuple[str, ...]
-    """What it does not allow, in words."""
+    """What the log does not allow, for messages."""
     joints: JointMotion
     """Motion of the joints; n samples."""
     root: RootMotion
@@ -142,35 +148,35 @@ class IntervalQuestion:
         samples: PaddedSamples,
         contacts: Sequence[ExperimentContact],
         *,
-        asked: bool | None = None,
+        only_named: bool | None = None,
         length_scale: float | None = None,
         patches: Sequence[PatchFrames] = (),
-    ) -> IntervalQuestion:
-        """Ask what touches the robot over an interval.
+    ) -> IntervalProblem:
+        """Set up the estimation of contacts over an interval.
 
         Args:
             experiment: The experiment.
             interval: The interval.
             samples: Its instants.
             contacts: Contacts beside the support, of all intervals.
-            asked: Whether only the contacts that are named are asked for; where not, whatever touches the part outboard
-                of a sensor is, at that sensor. By whether any is named if None.
+            only_named: Whether only the named contacts are estimated; where not, a contact at every sensor stands for
+                all contacts of the links outboard of it. By default only named ones where any is named.
             length_scale: Moment that weighs as much as one newton, where contacts leave something undetermined; m.
             patches: What patches of skin say.
 
         Returns:
-            The question.
+            What is estimated, with its inputs.
 
         Raises:
-            ExperimentError: If the interval has no support, or a named contact cannot be told.
+            ExperimentError: If the interval has no support, or a named contact is not identifiable.
         """
         support = interval.support
         if support is None:
             raise ExperimentError(f"interval {interval.label!r}: expected a support frame")
         present, at_ns = contacts_in(interval, contacts), samples.stamp_ns
         skin = sources_at(experiment, patches, at_ns)
-        named = bool(contacts) if asked is None else asked
-        question = _question(experiment, support, present, skin, asked=named, length_scale=length_scale)
+        named = bool(contacts) if only_named is None else only_named
+        question = _question(experiment, support, present, skin, only_named=named, length_scale=length_scale)
         available = set(experiment.recording.joint_signals("position"))
         question, left_out = narrowed(question, available, required={entry.contact.name for entry in present})
         source = clock_stream(experiment)
@@ -221,14 +227,14 @@ class IntervalQuestion:
         return Wrenches.of(readings) if readings else Wrenches(names=(), values=np.empty((len(self.joints), 0, 6)))
 
     def estimates(self, measured: Wrenches, *, progress: Callable[[int], None] | None = None) -> Estimates:
-        """Answer it.
+        """Estimate.
 
         Args:
             measured: What the sensors measured; n samples.
             progress: Called with the number of samples done.
 
         Returns:
-            The answer; n samples, not filtered.
+            The estimates; n samples, not filtered.
         """
         return estimate(self.question, self.joints, self.root, measured=measured, known=self.known, progress=progress)
 
@@ -239,7 +245,7 @@ def _question(
     present: Sequence[ExperimentContact],
     skin: Sequence[SkinSource],
     *,
-    asked: bool,
+    only_named: bool,
     length_scale: float | None,
 ) -> Question:
     tree = build_tree(experiment.model_on(support), support.frame)
@@ -247,7 +253,7 @@ def _question(
     contacts = [entry.contact for entry in present]
     if support.frame not in [contact.name for contact in contacts]:
         contacts.insert(0, Contact(link=support.frame))
-    if not asked:
+    if not only_named:
         contacts += contacts_at_sensors(tree, sensors)
     return Question(
         tree=tree,
@@ -290,9 +296,9 @@ class IntervalEstimates:
     estimates: Estimates
     """What was estimated."""
     left_out: tuple[str, ...]
-    """What the log does not allow to estimate, in words."""
+    """What the log does not allow to estimate, for messages."""
     ambiguous: Mapping[str, tuple[tuple[str, ...], ...]]
-    """Unknowns that cannot be told apart, by sub-model."""
+    """Unknowns that are not separable, by sub-model."""
     applied: Mapping[str, AppliedReadings]
     """Of every sensor that a calibration reads, which readings lie outside what was fitted; n samples, smoothed."""
     skin: tuple[SkinSource, ...] = ()
@@ -312,8 +318,8 @@ def estimate_experiment(
 ) -> list[IntervalEstimates]:
     """Estimate over every interval that is not to be ignored.
 
-    The support touches the world with a full wrench. Without other contacts, whatever touches the
-    part outboard of a sensor is given in the frame of that sensor.
+    The support touches the world with a full wrench. Without other contacts, all contacts of
+    the links outboard of a sensor are given as one wrench in the frame of that sensor.
 
     Args:
         experiment: The experiment.
@@ -361,17 +367,17 @@ def _over(
     progress: Callable[[int], None] | None,
     patches: Sequence[PatchFrames],
 ) -> IntervalEstimates:
-    problem = IntervalQuestion.of(experiment, interval, samples, named, length_scale=length_scale, patches=patches)
+    problem = IntervalProblem.of(experiment, interval, samples, named, length_scale=length_scale, patches=patches)
     question, joints, skin, inside = problem.question, problem.joints, problem.skin, samples.inside
     measured = problem.measured(corrections)
     estimates = problem.estimates(measured, progress=progress)
-    answer = None
+    with_covariance = None
     if patches:
         uncertainty = uncertainty_of(experiment, corrections, skin, measured, label=interval.label)
-        answer = estimate_with_covariance(
+        with_covariance = estimate_with_covariance(
             question, joints, problem.root, measured=measured, known=problem.known, uncertainty=uncertainty
         )
-        estimates = with_skin(estimates, answer)
+        estimates = with_skin(estimates, with_covariance)
     return IntervalEstimates(
         interval=interval,
         stamp_ns=samples.stamp_ns[inside],
@@ -381,7 +387,7 @@ def _over(
         ambiguous=indistinguishable(question, JointMotion.at_rest(joints.names, joints.position[inside])),
         applied=dict(_applied(experiment, corrections, interval, samples)),
         skin=tuple(source.of_samples(inside) for source in skin),
-        uncertain=None if answer is None else answer.of_samples(inside),
+        uncertain=None if with_covariance is None else with_covariance.of_samples(inside),
     )
 
 

@@ -54,8 +54,8 @@ def contact_figure(
 ) -> Figure:
     """Draw contact forces, or torques, over time for several calibrations: magnitude and components [1].
 
-    Sessions are drawn end to end whatever lies between them, so that two days fit on one axis. A line of many samples
-    keeps its peaks. The legend states the mean magnitude over the samples that are drawn.
+    Sessions are drawn end to end, independently of the time between them, so that two days fit on one axis. A line of
+    many samples keeps its peaks. The legend states the mean magnitude over the samples that are drawn.
 
     Args:
         time_s: Instants, not falling within a session; shape (n,); s.
@@ -103,7 +103,7 @@ def contact_figure(
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Session:
-    """A stretch of samples and where it is drawn."""
+    """A segment of samples and where it is drawn."""
 
     label: str
     samples: slice

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The section on joint torques by what they were told from: skin, force-torque sensors, motors, all together."""
+"""The section on joint torques by what they were estimated from: skin, force-torque sensors, motors, all together."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def torque_section(experiment: ExperimentAssessment) -> Section:
     """Show what every source says of joint torques, over time.
 
     Args:
-        experiment: The answers about it.
+        experiment: The results about it.
 
     Returns:
         The section; empty without skin and without `[fusion]`.

@@ -41,7 +41,7 @@ class SkinContactSummary(Row):
     push_mean_N: Annotated[float, Shown("push", "N", digits=2)]
     """Mean norm of the force that skin feels."""
     force_mean_N: Annotated[float | None, Shown("force", "N", digits=2)]
-    """Mean norm of the force with what sensors tell of its tangential part; none where that is not determined."""
+    """Mean norm of the force with what sensors show of its tangential part; none where that is not determined."""
     force_sd_N: Annotated[float | None, Shown("sd", "N", digits=2)]
     """Root mean square of the standard deviation of that force, all components together."""
     beyond_range: Annotated[int, Shown("beyond range")]
@@ -77,11 +77,11 @@ def skin_rows(span: IntervalEstimates) -> Iterator[SkinContactSummary]:
 
 
 def skin_warnings(span: IntervalEstimates, exact: tuple[str, ...], resting: tuple[str, ...]) -> Iterator[str]:
-    """Say what makes estimates with skin doubtful.
+    """Give warnings about estimates with skin.
 
     Args:
         span: Estimates over an interval.
-        exact: Sensors whose errors nobody predicts.
+        exact: Sensors whose errors no calibration predicts.
         resting: Sensors whose offset is that of the calibration intervals, in which nothing is to touch the robot.
 
     Yields:
@@ -180,9 +180,27 @@ class EstimatedRecording(Row):
     figure: str | None = None
     """File of the figure of joint torques, where one was drawn."""
 
+    def tables(self) -> Iterator[Table | str]:
+        """Give contacts, contacts on skin, sub-models and fused torques.
 
-class EstimateSummary(Result):
-    """What touches the robot over the intervals of an experiment, and how well its equations determine that."""
+        Yields:
+            Tables and sentences.
+        """
+        if self.contacts:
+            yield table_of(self.contacts, self.experiment)
+        if self.skin:
+            yield table_of(self.skin, f"{self.experiment}: contacts on skin")
+        if self.parts:
+            yield table_of(self.parts, "")
+        for row in self.parts:
+            for group in row.ambiguous:
+                yield f"{row.part}, {row.interval}: not separable: {', '.join(group)}"
+        if self.fusion is not None:
+            yield from self.fusion.blocks()
+
+
+class _EstimateSchema(Result):
+    """Name of the schema, which comes before all other keys; `result_classes` takes the class below it."""
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings",)
 
@@ -190,32 +208,19 @@ class EstimateSummary(Result):
 
     schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
     """Form of the result."""
-    experiment: str
-    """Name of the experiment; of several recordings their names, apart by semicolons."""
-    file: str | None
-    """File with every sample, where one was written."""
-    rows: int
-    """Number of samples, which are its rows."""
-    readings: dict[str, str]
-    """By sensor, how its reading became a wrench."""
-    contacts: tuple[ContactSummary, ...]
-    """One per interval and contact."""
-    parts: tuple[SubModelSummary, ...]
-    """One per interval and sub-model."""
-    left_out: tuple[str, ...]
-    """What the log does not allow to estimate."""
-    validity: tuple[ReadingsOutside, ...] = ()
-    """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
-    fusion: TorqueFusion | None = None
-    """Joint torques of several sources; None where they were not asked for."""
-    skin: tuple[SkinContactSummary, ...] = ()
-    """One per interval and contact on skin."""
-    figure: str | None = None
-    """File of the figure of joint torques, where one was drawn."""
+
+
+class EstimateSummary(EstimatedRecording, _EstimateSchema):
+    """Contacts of the robot over the intervals of an experiment, and how well its equations determine them.
+
+    Of several recordings `experiment` holds all names, apart by semicolons, and `rows` all samples; what else an
+    `EstimatedRecording` has is in `recordings`.
+    """
+
     recordings: tuple[EstimatedRecording, ...] = ()
-    """Of several recordings one each, where these things then stand; none where there is one recording."""
+    """The estimates of each of several recordings; none where there is one recording."""
     intervals: tuple[IntervalEstimates, ...] = Field(default=(), exclude=True, repr=False)
-    """Every sample, where it was asked for in a script; none where they went to a file."""
+    """Every sample, in a script; none where they are written to a file."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table of the contacts and one of the sub-models, of one recording after the other.
@@ -224,7 +229,7 @@ class EstimateSummary(Result):
             Tables and sentences.
         """
         for recording in self.recordings or (self,):
-            yield from _tables(recording)
+            yield from recording.tables()
         yield (
             "force and moment: mean norms of what the environment does to the robot, in the contact frame, "
             "± half a 95 % interval of the mean where the norm is stationary noise; deviation: of a sample"
@@ -257,20 +262,6 @@ class EstimateSummary(Result):
         return [*(("experiment", "file") if self.recordings else ()), *ContactSummary.model_fields]
 
 
-def _tables(recording: EstimateSummary | EstimatedRecording) -> Iterator[Table | str]:
-    if recording.contacts:
-        yield table_of(recording.contacts, recording.experiment)
-    if recording.skin:
-        yield table_of(recording.skin, f"{recording.experiment}: contacts on skin")
-    if recording.parts:
-        yield table_of(recording.parts, "")
-    for row in recording.parts:
-        for group in row.ambiguous:
-            yield f"{row.part}, {row.interval}: cannot tell apart {', '.join(group)}"
-    if recording.fusion is not None:
-        yield from recording.fusion.blocks()
-
-
 @with_recording_notes
 def estimates_of_recordings(summaries: Mapping[str, EstimateSummary]) -> EstimateSummary:
     """Put what several recordings amount to together; nothing is pooled, as every one has samples of its own.
@@ -289,10 +280,7 @@ def estimates_of_recordings(summaries: Mapping[str, EstimateSummary]) -> Estimat
         contacts=(),
         parts=(),
         left_out=(),
-        recordings=tuple(
-            EstimatedRecording(**{name: getattr(summary, name) for name in EstimatedRecording.model_fields})
-            for summary in summaries.values()
-        ),
+        recordings=tuple(summaries.values()),
         warnings=tuple(f"{name}: {words}" for name, summary in summaries.items() for words in summary.warnings),
     )
 
@@ -307,7 +295,7 @@ def summarise_estimates(
     fusions: Sequence[IntervalFusion] = (),
     frictions: tuple[Friction, ...] = (),
 ) -> EstimateSummary:
-    """Say what estimates amount to, and write every sample of them to a file.
+    """Summarise estimates, and write every sample of them to a file.
 
     Args:
         experiment: The experiment.
@@ -366,7 +354,7 @@ def _warnings(corrections: Mapping[str, Correction], spans: Sequence[IntervalEst
     for sensor, one in corrections.items():
         if not one.removes_offset:
             yield (
-                f"{sensor}: no offset removed, so that its forces hold whatever offset the sensor has; see --offset, "
+                f"{sensor}: no offset removed, so that its forces include the offset of the sensor; see --offset, "
                 "from Python offset"
             )
 

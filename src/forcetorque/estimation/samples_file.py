@@ -79,19 +79,19 @@ def _columns(span: IntervalEstimates, fused: IntervalFusion | None, model: Robot
         yield from _of_skin(span, span.uncertain, model)
 
 
-def _of_skin(span: IntervalEstimates, answer: UncertainEstimates, model: RobotModel) -> Iterator[Column]:
+def _of_skin(span: IntervalEstimates, uncertain: UncertainEstimates, model: RobotModel) -> Iterator[Column]:
     """Contacts on skin, which other columns do not have, and standard deviations of everything."""
     for source in span.skin:
         name = source.contact.name
-        yield from _wrenches("contact", [name], answer.contact(name)[:, None])
+        yield from _wrenches("contact", [name], uncertain.contact(name)[:, None])
         yield f"identity.{name}", "1", np.ma.masked_array(source.identity, mask=source.identity == 0)
         for axis, values in zip("xyz", source.centre.T, strict=True):
             yield f"centre.{name}.{axis}", "m", values
-    for name in answer.contacts:
-        yield from _wrenches("sd.contact", [name], answer.contact_sd(name)[:, None])
-    for k, joint in enumerate(answer.joints):
-        yield f"sd.torque.{joint}", _torque_unit(model, joint), answer.torque_sd[:, k]
-    yield "determined", "1", answer.determined
+    for name in uncertain.contacts:
+        yield from _wrenches("sd.contact", [name], uncertain.contact_sd(name)[:, None])
+    for k, joint in enumerate(uncertain.joints):
+        yield f"sd.torque.{joint}", _torque_unit(model, joint), uncertain.torque_sd[:, k]
+    yield "determined", "1", uncertain.determined
 
 
 def _wrenches(what: str, names: Iterable[str], values: npt.NDArray[np.float64]) -> Iterator[Column]:

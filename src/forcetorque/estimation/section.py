@@ -15,7 +15,7 @@ from forcetorque.experiment.section import Loading, Section
 
 
 class MotorTable(Table):
-    """The motor of a joint, whose current or PWM duty tells the torque of the joint."""
+    """The motor of a joint, whose current or PWM duty gives the torque of the joint."""
 
     joint: Text
     """Joint of the URDF."""
@@ -28,7 +28,7 @@ class MotorTable(Table):
     gear_ratio: Finite | None = None
     """Turns of the motor per turn of the joint; negative where it turns the other way."""
     standstill: Positive = 0.02
-    """Speed below which friction may be anything, so that the motor tells nothing; rad/s, m/s."""
+    """Speed below which friction may be anything, so that the motor shows nothing; rad/s, m/s."""
 
     @property
     def torque_constant(self) -> float:
@@ -60,20 +60,20 @@ class FusionTable(Table):
     """Time over which errors of wrenches and model repeat themselves, as those of a matrix do that change with the
     load; 0 where they are white noise; s."""
     false_alarm: Annotated[float, Field(gt=0.0, lt=1.0, strict=True)] = 0.01
-    """Largest rate of intervals, or windows, with a conflict though all is as stated."""
+    """Largest rate of intervals, or windows, with a conflict though all is as specified."""
     window_s: Positive = 1.0
     """Length of the windows in which sources are compared; s."""
 
 
 class EstimationTable(Table):
-    """How contacts are told apart."""
+    """How contacts are separated."""
 
     length_scale_m: Positive | None = None
     """Moment that weighs as much as one newton; needed where a sub-model has more than six unknowns."""
 
 
 def _checked(motors: tuple[MotorTable, ...], loading: Loading) -> tuple[MotorTable, ...]:
-    """Motors of joints that the robot has, and of which the recording holds what they tell."""
+    """Motors of joints that the robot has, and of which the recording holds what they show."""
     file, model, recording = loading.file, loading.model, loading.recording
     for index, motor in enumerate(motors):
         where = f"{file}: motor[{index}]"
@@ -126,7 +126,7 @@ LENGTH_SCALE: Section[EstimationTable, float | None] = Section(
     key="estimation",
     type=EstimationTable,
     default=EstimationTable(),
-    description="How contacts are told apart.",
+    description="How contacts are separated.",
     read=_length_scale,
     empty=None,
     of_robot=False,

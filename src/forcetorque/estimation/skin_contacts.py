@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contacts on skin as known wrenches of an estimation: the push is measured, the tangential force is not."""
+"""Contacts on skin as known wrenches of an estimation, and the stream at whose instants is estimated.
+
+The push of a contact on skin is measured, its tangential force is not.
+"""
 
 from __future__ import annotations
 
@@ -11,15 +14,16 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.base.errors import EstimationError
+from forcetorque.base.errors import EstimationError, ExperimentError
 from forcetorque.estimation.uncertain.estimate import UncertainEstimates
 from forcetorque.estimation.uncertain.uncertainty import SLIPPING, Tangents, Uncertainty, square_root, tangent_maps
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_reading import Correction
+from forcetorque.recording.stream import Stream
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.skin.contact.contacts import SkinContacts
-from forcetorque.skin.experiment import PATCHES
+from forcetorque.skin.experiment import PATCHES, force_patches
 from forcetorque.skin.wrench.wrench import PatchFrames, patch_frames
 
 TILT_RAD: Final = 0.011
@@ -30,7 +34,7 @@ PLACE_M: Final = 0.0006
 """The same of the place of a contact along either tangent, of the same contacts; m."""
 TWIST_M: Final = 7e-5
 """Moment about the normal over the push that the covariance of pressures lacks: with it normalised errors of 489 such
-contacts are 1 in root mean square, and were 1.4 without; judged on others; m."""
+contacts are 1 in root mean square, and were 1.4 without; evaluated on others; m."""
 OLDEST_S: Final = 0.5
 """How much older than a pose the frame of pressures that belongs to it may be; s."""
 
@@ -71,7 +75,7 @@ class SkinSource:
             if self.tangents.sd_N is None:
                 raise EstimationError(
                     f"contact {self.contact.name!r}: expected friction, which bounds the force along the skin: without "
-                    "it skin alone tells no torque; state a coefficient in [[patch]], such as 0.3"
+                    "it skin alone determines no torque; state a coefficient in [[patch]], such as 0.3"
                 )
             slanted = self.tangents.maps * self.tangents.sd_N[:, None, None]
             covariance = covariance + slanted @ slanted.transpose(0, 2, 1)
@@ -208,7 +212,7 @@ def _source(
             force[k], beyond[k] = contacts.normal_force_N[number], contacts.beyond_range[number]
     if np.isnan(covariance).any():
         raise EstimationError(
-            f"{name!r}: expected the covariance of its wrench, which only the methods kriging and linear tell"
+            f"{name!r}: expected the covariance of its wrench, which only the methods kriging and linear give"
         )
     maps = tangent_maps(centre[rows], normal[rows])
     tangents = None
@@ -283,7 +287,7 @@ def uncertainty_of(
     *,
     label: str,
 ) -> Uncertainty:
-    """Say what skin and sensors err by: sensors as their calibration predicts at these readings.
+    """Give the errors of skin and sensors: sensors as their calibration predicts at these measurements.
 
     Args:
         experiment: The experiment.
@@ -317,18 +321,41 @@ def _predicted(correction: Correction, readings: FloatArray, sessions: Sequence[
     return np.where(whole[:, None, None], predicted, np.nan)
 
 
-def with_skin(plain: Estimates, answer: UncertainEstimates) -> Estimates:
+def with_skin(plain: Estimates, uncertain: UncertainEstimates) -> Estimates:
     """Put what skin and sensors say together in place of what sensors say beside the push of the skin.
 
     Args:
         plain: Estimates in which skin has no friction and no error.
-        answer: Estimates with both, of the same samples.
+        uncertain: Estimates with both, of the same samples.
 
     Returns:
         The former with contacts and torques of the latter.
     """
-    columns = [answer.contacts.index(name) for name in plain.layout.contacts]
-    wrenches = np.ascontiguousarray(answer.contact_wrenches[:, columns])
+    columns = [uncertain.contacts.index(name) for name in plain.layout.contacts]
+    wrenches = np.ascontiguousarray(uncertain.contact_wrenches[:, columns])
     fields = {name: getattr(plain, name) for name in plain.layout.shapes(0)}
-    fields |= {"contact_wrenches": wrenches, "torques": np.ascontiguousarray(answer.torques)}
+    fields |= {"contact_wrenches": wrenches, "torques": np.ascontiguousarray(uncertain.torques)}
     return Estimates(layout=plain.layout, **fields)
+
+
+def clock_stream(experiment: Experiment) -> Stream:
+    """Give the stream at whose instants is estimated.
+
+    Args:
+        experiment: The experiment.
+
+    Returns:
+        The stream of the first sensor, or of the first patch where there is none.
+
+    Raises:
+        ExperimentError: If there is neither.
+    """
+    if experiment.sensors:
+        return experiment.recording.stream(experiment.sensors[0].stream)
+    patches = force_patches(experiment)
+    if not patches:
+        raise ExperimentError(
+            f"experiment {experiment.name!r}: expected [[sensor]], or a [[patch]] with a table, got neither; "
+            "`forcetorque skin calibrate` makes a table"
+        )
+    return experiment.recording.stream(patches[0].counts)

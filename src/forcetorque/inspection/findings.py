@@ -25,7 +25,7 @@ from forcetorque.experiment.usable_samples import sample_quality
 from forcetorque.recording.recording import Finding, Interval, Recording, Use
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
-from forcetorque.skin.taxels.health import Ailment
+from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.recording import PatchRecording, patch_recordings
 
 LOAD_SHARE = 0.1
@@ -424,17 +424,17 @@ def _of_patch(experiment: PatchExperiment, patch: ExperimentPatch) -> Iterator[F
         yield Finding(stream=patch.counts, kind="not_compared", message=f"no look at the taxels: {error}", count=0)
         return
     for recording in recordings:
-        for ailment in Ailment:
-            yield from _with(patch, recording, ailment, start)
+        for fault in TaxelFault:
+            yield from _with(patch, recording, fault, start)
 
 
-def _with(patch: ExperimentPatch, recording: PatchRecording, ailment: Ailment, start: int) -> Iterator[Finding]:
-    columns = [int(patch.taxels[k]) for k, reasons in enumerate(recording.ailments) if ailment in reasons]
+def _with(patch: ExperimentPatch, recording: PatchRecording, fault: TaxelFault, start: int) -> Iterator[Finding]:
+    columns = [int(patch.taxels[k]) for k, reasons in enumerate(recording.faults) if fault in reasons]
     if columns:
         named = ", ".join(map(str, columns[:_NAMED])) + (", ..." if len(columns) > _NAMED else "")
         yield Finding(
             stream=patch.counts,
-            kind=f"taxel_{ailment.name.lower()}",
+            kind=f"taxel_{fault.name.lower()}",
             message=f"{patch.name}: {len(columns)} of {len(patch.taxels)} taxels in {recording.label!r}: {named}",
             count=len(columns),
             start_ns=start + round(1e9 * float(recording.seconds[0])),

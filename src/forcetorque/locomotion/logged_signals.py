@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Columns of a log over an interval, and what `balance` makes of it: whatever a measure of motion is asked of."""
+"""Columns of a log over an interval, and what `balance` makes of it; the signals of all measures of motion."""
 
 from __future__ import annotations
 

@@ -11,13 +11,18 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, RecordingError
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.locomotion.logged_signals import MotionSignal
 from forcetorque.locomotion.oscillation.oscillation import OscillationSearch, find_oscillations
-from forcetorque.locomotion.oscillation.settling import Settling, command_steps, settlings, tracking_error
-from forcetorque.locomotion.oscillation.spectrum import EvenedSignal, evened
+from forcetorque.locomotion.oscillation.settling import (
+    SettlingRow,
+    TrackingRow,
+    command_steps,
+    settlings,
+    tracking_error,
+)
+from forcetorque.locomotion.oscillation.spectrum import ResampledSignal, resampled
 from forcetorque.results.result import Result
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, Values, table_of
 
@@ -30,29 +35,30 @@ class OscillationRow(Row):
     column: Annotated[str, Shown("column")]
     """Name of the column; `A - B` is a tracking error."""
     oscillates: Annotated[bool, Shown("oscillates")]
-    """Whether a swing stands out of the noise; if not, numbers of it are null."""
+    """Whether an oscillation stands out of the noise; if not, numbers of it are null."""
     frequency_hz: Annotated[float | None, Shown("frequency", "Hz", digits=4, error="frequency_half_width_95_hz")]
     """Its frequency."""
     frequency_half_width_95_hz: float | None
     """Half-width of that."""
     amplitude: Annotated[float | None, Shown("amplitude", digits=5, error="amplitude_half_width_95")]
-    """Half of peak to peak of a steady swing with its mean square, in `unit`."""
+    """Half of peak to peak of a steady oscillation with its mean square, in `unit`."""
     amplitude_half_width_95: float | None
     """Half-width of that."""
     unit: Annotated[str, Shown("unit")]
     """Unit of the column."""
     damping: Annotated[float | None, Shown("damping", digits=4, error="damping_half_width_95")]
-    """Damping ratio; about 0 of a swing that stays, below 0 of one that grows; null of one that does not keep its
-    phase."""
+    """Damping ratio; about 0 of an oscillation that stays, below 0 of one that grows; null of one that does not keep
+    its phase."""
     damping_half_width_95: float | None
     """Half-width of that."""
     phase_kept_s: Annotated[float | None, Shown("phase kept", "s", digits=1)]
     """Time over which it keeps its phase: that of the interval, or of a part of it."""
     seen_amplitude: Annotated[FloatOrNull, Shown("seen from", digits=5)]
     """Amplitude from which on a further steady swing of that frequency would be seen in 95 % of such records; where
-    nothing swings, one of any frequency that was looked at."""
+    nothing oscillates, one of any frequency that was looked at."""
     seen_amplitude_middle: float
-    """The same at the geometric middle of the frequencies that were looked at: slow drift hides slow swings most."""
+    """The same at the geometric middle of the frequencies that were looked at: slow drift hides slow oscillations
+    most."""
     lowest_hz: float
     """Lowest frequency that was looked at."""
     highest_hz: float
@@ -63,60 +69,8 @@ class OscillationRow(Row):
     """How long it lasts."""
 
 
-class SettlingRow(Row):
-    """What a column did after one step."""
-
-    interval: Annotated[str, Shown("interval")]
-    """Label of the interval."""
-    column: Annotated[str, Shown("column")]
-    """Name of the column."""
-    step_at_s: Annotated[float, Shown("step at", "s", digits=3)]
-    """Instant of the step, from the start of the recording."""
-    step: Annotated[float, Shown("step", digits=5)]
-    """How far it went, in `unit`."""
-    unit: Annotated[str, Shown("unit")]
-    """Unit of the column."""
-    settling_s: Annotated[float | None, Shown("settles in", "s", digits=3)]
-    """Time after which it stays within the band; null if it does not before the next step."""
-    earliest_s: Annotated[float, Shown("from", "s", digits=3)]
-    """Lower end of its 95 % interval."""
-    latest_s: Annotated[float | None, Shown("to", "s", digits=3)]
-    """Upper end; null if noise may hide that it has not settled."""
-    band: float
-    """Half of the band about the end, in `unit`."""
-    overshoot_percent: Annotated[float, Shown("overshoot", "%", digits=1)]
-    """How far it went beyond its end, of the step."""
-    left_error: Annotated[float | None, Shown("left error", digits=5)]
-    """Where it ended less what was wanted there, in `unit`; null where nothing says what was wanted."""
-
-
-class TrackingRow(Row):
-    """How far a column is from what was wanted of it."""
-
-    interval: Annotated[str, Shown("interval")]
-    """Label of the interval."""
-    column: Annotated[str, Shown("column")]
-    """Name of the column."""
-    desired: Annotated[str, Shown("desired")]
-    """Column of what was wanted."""
-    rms: Annotated[float, Shown("RMS error", digits=5)]
-    """Root mean square of the difference, in `unit`."""
-    rms_lower_95: Annotated[float, Shown("from", digits=5)]
-    """Lower end of its 95 % interval."""
-    rms_upper_95: Annotated[float, Shown("to", digits=5)]
-    """Upper end."""
-    mean_error: Annotated[float, Shown("mean error", digits=5)]
-    """Mean of the difference."""
-    unit: Annotated[str, Shown("unit")]
-    """Unit of both."""
-    samples: Annotated[int, Shown("samples")]
-    """Samples with both."""
-    effective_samples: Annotated[float, Shown("worth", digits=0)]
-    """Independent samples with a mean as well known."""
-
-
 class MotionCurve(Row):
-    """A column with the swings that were told of it, for the figure."""
+    """A column with its oscillations, for the figure."""
 
     title: str
     """Interval and column."""
@@ -127,7 +81,7 @@ class MotionCurve(Row):
     values: Values
     """The column; shape (n,)."""
     swing: Values | None
-    """Mean, trend and all swings; shape (n,); null where it does not oscillate."""
+    """Mean, trend and all oscillations; shape (n,); null where it does not oscillate."""
 
 
 BAND_SHARE = 0.05
@@ -143,7 +97,7 @@ class Motion(Result):
     schema_name: Literal["forcetorque/motion/1"] = Field(default="forcetorque/motion/1", alias="schema")
     """Form of the result."""
     oscillations: tuple[OscillationRow, ...]
-    """Swings of every interval and column, the largest first; one row that says so where there is none."""
+    """Oscillations of every interval and column, the largest first; one row that says so where there is none."""
     settling: tuple[SettlingRow, ...]
     """A row for every step."""
     tracking: tuple[TrackingRow, ...]
@@ -153,7 +107,7 @@ class Motion(Result):
     figure: str | None = None
     """File of the figure."""
     curves: tuple[MotionCurve, ...] = Field(default=(), exclude=True, repr=False)
-    """Columns with their swings, for the figure."""
+    """Columns with their oscillations, for the figure."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give tables of oscillations, settling times and tracking errors.
@@ -191,7 +145,7 @@ class Motion(Result):
 
 @with_recording_notes
 def motion(signals: Sequence[MotionSignal], *, steps_s: Sequence[float] = (), band_share: float = BAND_SHARE) -> Motion:
-    """Say how columns move: `motion(motion_signals("walk.toml", ["com.y"]))`.
+    """Analyse the motion of columns: `motion(motion_signals("walk.toml", ["com.y"]))`.
 
     Of a column of which something was wanted the difference is looked at too: a command that swings is no oscillation
     of the robot.
@@ -218,63 +172,65 @@ def motion(signals: Sequence[MotionSignal], *, steps_s: Sequence[float] = (), ba
             raise ExperimentError(
                 f"step at {step:g} s: expected an instant within an interval, from the first sample on"
             )
-    answers = [_Answer.of(signal, sorted(steps_s), band_share) for signal in signals]
+    analysed = [_SignalMotion.of(signal, sorted(steps_s), band_share) for signal in signals]
     return Motion(
-        oscillations=tuple(row for answer in answers for row in answer.oscillations),
-        settling=tuple(row for answer in answers for row in answer.settling),
-        tracking=tuple(answer.tracking for answer in answers if answer.tracking is not None),
+        oscillations=tuple(row for column in analysed for row in column.oscillations),
+        settling=tuple(row for column in analysed for row in column.settling),
+        tracking=tuple(column.tracking for column in analysed if column.tracking is not None),
         band_percent=100.0 * band_share,
-        curves=tuple(curve for answer in answers for curve in answer.curves),
+        curves=tuple(curve for column in analysed for curve in column.curves),
         warnings=(
-            *dict.fromkeys(doubt for answer in answers for doubt in answer.doubts),
+            *dict.fromkeys(warning for column in analysed for warning in column.warnings),
             *dict.fromkeys(sentence for signal in signals for sentence in signal.added),
         ),
     )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Answer:
+class _SignalMotion:
     """What one signal does."""
 
     oscillations: tuple[OscillationRow, ...]
     settling: tuple[SettlingRow, ...]
     tracking: TrackingRow | None
     curves: tuple[MotionCurve, ...]
-    doubts: tuple[str, ...]
+    warnings: tuple[str, ...]
 
     @classmethod
-    def of(cls, signal: MotionSignal, steps_s: Sequence[float], band_share: float) -> _Answer:
-        own = evened(signal.time_s, signal.values, name=signal.name)
+    def of(cls, signal: MotionSignal, steps_s: Sequence[float], band_share: float) -> _SignalMotion:
+        own = resampled(signal.time_s, signal.values, name=signal.name)
         searched = [(signal.column, own, find_oscillations(own, name=signal.name))]
         desired = signal.desired_values
         if desired is not None:
             error = signal.values - desired
             if np.nanmax(error, initial=-math.inf) > np.nanmin(error, initial=math.inf):
                 name = f"{signal.column} - {signal.desired}"
-                left = evened(signal.time_s, error, name=f"{signal.interval}: {name}")
+                left = resampled(signal.time_s, error, name=f"{signal.interval}: {name}")
                 searched.append((name, left, find_oscillations(left, name=f"{signal.interval}: {name}")))
-        settling, untold = _settled(signal, own, steps_s, band_share)
+        settling, refused = _settled(signal, own, steps_s, band_share)
         return cls(
-            oscillations=tuple(row for name, even, search in searched for row in _rows(signal, name, even, search)),
-            settling=tuple(_settling(signal, row) for row in settling),
-            tracking=None if desired is None else _tracking(signal, desired),
+            oscillations=tuple(
+                row for name, even, search in searched for row in _oscillation_rows(signal, name, even, search)
+            ),
+            settling=tuple(settling),
+            tracking=None if desired is None else tracking_error(signal),
             curves=tuple(_curve(signal, name, even, search) for name, even, search in searched),
-            doubts=(*(doubt for entry in searched for doubt in _doubts(signal, *entry)), *untold),
+            warnings=(*(warning for entry in searched for warning in _warnings(signal, *entry)), *refused),
         )
 
 
 def _settled(
-    signal: MotionSignal, even: EvenedSignal, steps_s: Sequence[float], band_share: float
-) -> tuple[list[Settling], list[str]]:
-    """What it did after each step, or why that is not told."""
+    signal: MotionSignal, even: ResampledSignal, steps_s: Sequence[float], band_share: float
+) -> tuple[list[SettlingRow], list[str]]:
+    """What it did after each step, or why that is not determined."""
     try:
-        return settlings(even, _steps(signal, steps_s), band_share=band_share, name=signal.name), []
+        return settlings(signal, even, _steps(signal, steps_s), band_share=band_share), []
     except RecordingError as error:
         return [], [f"no settling time: {error}"]
 
 
 def _steps(signal: MotionSignal, steps_s: Sequence[float]) -> list[float]:
-    """Instants of steps in the interval: those that are stated, else those of what was wanted."""
+    """Instants of steps in the interval: those that are specified, else those of what was wanted."""
     if steps_s:
         return [step for step in steps_s if signal.time_s[0] <= step <= signal.time_s[-1]]
     if signal.desired_values is None:
@@ -284,7 +240,9 @@ def _steps(signal: MotionSignal, steps_s: Sequence[float]) -> list[float]:
     return [float(at) for at in command_steps(signal.time_s[known], signal.desired_values[known], name=name)]
 
 
-def _rows(signal: MotionSignal, name: str, even: EvenedSignal, search: OscillationSearch) -> Iterator[OscillationRow]:
+def _oscillation_rows(
+    signal: MotionSignal, name: str, even: ResampledSignal, search: OscillationSearch
+) -> Iterator[OscillationRow]:
     nothing = OscillationRow(
         interval=signal.interval,
         column=name,
@@ -324,52 +282,7 @@ def _rows(signal: MotionSignal, name: str, even: EvenedSignal, search: Oscillati
         )
 
 
-def _settling(signal: MotionSignal, row: Settling) -> SettlingRow:
-    desired = signal.desired_values
-    wanted = None
-    if desired is not None:
-        held = np.isfinite(desired) & (signal.time_s >= row.time_s)
-        wanted = float(desired[held][_before_next(desired[held])]) if held.any() else None
-    return SettlingRow(
-        interval=signal.interval,
-        column=signal.column,
-        step_at_s=row.time_s,
-        step=row.step,
-        unit=signal.unit,
-        settling_s=row.settling_s,
-        earliest_s=row.earliest_s,
-        latest_s=row.latest_s if math.isfinite(row.latest_s) else None,
-        band=row.band,
-        overshoot_percent=100.0 * row.overshoot,
-        left_error=None if wanted is None else row.end - wanted,
-    )
-
-
-def _before_next(command: FloatArray) -> int:
-    """Index of the value that a command holds after a step: the one that stays longest before it changes again."""
-    changes = np.flatnonzero(np.diff(command) != 0.0)
-    edges = np.concatenate([[-1], changes, [len(command) - 1]])
-    held = np.diff(edges)
-    return int(edges[1 + int((held > 1).argmax())])
-
-
-def _tracking(signal: MotionSignal, desired: FloatArray) -> TrackingRow:
-    error = tracking_error(signal.time_s, desired, signal.values, name=signal.name)
-    return TrackingRow(
-        interval=signal.interval,
-        column=signal.column,
-        desired=signal.desired or "",
-        rms=error.rms,
-        rms_lower_95=error.lower,
-        rms_upper_95=error.upper,
-        mean_error=error.mean,
-        unit=signal.unit,
-        samples=error.count,
-        effective_samples=error.effective_count,
-    )
-
-
-def _curve(signal: MotionSignal, name: str, even: EvenedSignal, search: OscillationSearch) -> MotionCurve:
+def _curve(signal: MotionSignal, name: str, even: ResampledSignal, search: OscillationSearch) -> MotionCurve:
     swing = None
     if search.oscillations:
         line = np.polynomial.Polynomial.fit(even.time_s, even.values, 1)
@@ -379,22 +292,22 @@ def _curve(signal: MotionSignal, name: str, even: EvenedSignal, search: Oscillat
     )
 
 
-def _doubts(signal: MotionSignal, name: str, even: EvenedSignal, search: OscillationSearch) -> Iterator[str]:
+def _warnings(signal: MotionSignal, name: str, even: ResampledSignal, search: OscillationSearch) -> Iterator[str]:
     where = f"{signal.interval}: {name}"
     if not even.even:
         yield (
-            f"{where}: the clock is uneven, with up to {even.longest_step_s:.3g} s between samples: only swings of up "
-            f"to {even.highest_hz:.3g} Hz are looked at; log without pauses to see faster ones"
+            f"{where}: the clock is uneven, with up to {even.longest_step_s:.3g} s between samples: only oscillations "
+            f"of up to {even.highest_hz:.3g} Hz are looked at; log without pauses to see faster ones"
         )
     for one in search.oscillations:
         if not math.isfinite(one.damping):
             yield (
-                f"{where}: the swing of {one.frequency_hz:.4g} Hz keeps its phase for some {one.coherence_s:.3g} s "
-                "only, or comes and goes: no damping is told, and its amplitude is that of what keeps its phase so "
-                "long; choose a shorter interval to see more"
+                f"{where}: the oscillation of {one.frequency_hz:.4g} Hz keeps its phase for some {one.coherence_s:.3g} "
+                "s only, or comes and goes: no damping is determined, and its amplitude is that of what keeps its "
+                "phase so long; choose a shorter interval to see more"
             )
         elif one.amplitude < NEAR_LIMIT * search.seen_amplitude(one.frequency_hz):
             yield (
-                f"{where}: the swing of {one.frequency_hz:.4g} Hz hardly stands out of the noise: what is seen at that "
-                "limit is larger than it is, as a smaller one would not have been seen; record longer"
+                f"{where}: the oscillation of {one.frequency_hz:.4g} Hz hardly stands out of the noise: what is seen "
+                "at that limit is larger than it is, as a smaller one would not have been seen; record longer"
             )

@@ -28,19 +28,19 @@ class SoleTable(Table):
     position_m: Annotated[FloatArray, ArrayField((3,))] | None = None
     """A point of the sole's plane in the frame, from which points on the sole count; its origin if left out."""
     outline_m: Annotated[FloatArray, ArrayField((None, 2))] | None = None
-    """Corners x, y of the sole from that point; without them nothing tells whether a point lies outside."""
+    """Corners x, y of the sole from that point; without them nothing shows whether a point lies outside."""
     stream: Text | None = None
     """Stream with the `vertical_force` of the ground on it, where no sensor of the foot was logged."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ExperimentSole:
-    """A sole, and where the force on it was logged if no sensor tells it."""
+    """A sole, and where the force on it was logged if no sensor measures it."""
 
     sole: Sole
     """The sole."""
     stream: str | None = None
-    """Stream with its vertical force; None where force-torque sensors tell it."""
+    """Stream with its vertical force; None where force-torque sensors measure it."""
 
 
 def read_soles(
@@ -53,7 +53,7 @@ def read_soles(
         file: The experiment file, for messages.
         model: The robot; None where the file names none.
         recording: The streams.
-        sensed: Whether the file has force-torque sensors, which tell what the ground does.
+        sensed: Whether the file has force-torque sensors, which measure what the ground does.
 
     Returns:
         The soles in the order of the file.
@@ -74,7 +74,7 @@ def read_soles(
         if sensed == (entry.stream is not None):
             raise ExperimentError(
                 f"{where}: expected stream with the vertical_force of the ground, or [[sensor]] in the file, one of "
-                f"both, got {'both' if sensed else 'neither'}; what is told twice is not weighed against itself"
+                f"both, got {'both' if sensed else 'neither'}; two sources of one force are not combined"
             )
         with stated_in(where):
             if entry.stream is not None:

@@ -34,7 +34,7 @@ from forcetorque.report.experiment_assessment import ExperimentAssessment
 from forcetorque.results.document.content import Block, Document, Figure, List, Page, Picture, Section, Text
 from forcetorque.results.table import Table, short_names, table_of, without_vague
 from forcetorque.sensor.bandwidth.bandwidth import Response
-from forcetorque.sensor.bandwidth.figure import response_figure
+from forcetorque.sensor.figures import response_figure
 from forcetorque.skin.report_blocks import skin_section
 from forcetorque.viewer.page import MOST_SAMPLES, page_of
 from forcetorque.viewer.scene_builder import scene_of

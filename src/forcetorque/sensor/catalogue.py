@@ -19,7 +19,7 @@ _Text = Annotated[str, Field(min_length=1)]
 
 
 class Technology(StrEnum):
-    """How a sensor senses, as far as it is stated."""
+    """How a sensor senses, as far as it is specified."""
 
     STRAIN_GAUGE = "strain_gauge"
     SILICON_STRAIN_GAUGE = "silicon_strain_gauge"
@@ -85,7 +85,7 @@ class CatalogueSensor(_Record):
     nonlinearity: _Text | None = None
     """As printed."""
     note: _Text | None = None
-    """What else is printed, or doubtful."""
+    """What else is printed, or uncertain."""
 
 
 @cache

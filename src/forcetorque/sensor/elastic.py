@@ -247,7 +247,7 @@ class ElasticElement(ArrayRecord):
     """Like beams that leave a hub like spokes and end in a rim; the load acts on the hub, the rim is held.
 
     Assumptions: hub and rim are rigid, arms are clamped to both (so an end is guided where the hub moves
-    without turning), deflections are small, gauges are points. Statics alone does not tell how the arms
+    without turning), deflections are small, gauges are points. Statics alone does not show how the arms
     share a load; it follows from their stiffness in stretching, bending and twisting together.
     """
 

@@ -196,7 +196,7 @@ class Amplifier(ArrayRecord):
         return self.amplifier_gain * volts + self.offset
 
     def input(self, output: Any) -> FloatArray:
-        """Give the input that an output tells.
+        """Give the input of an output.
 
         Args:
             output: Voltages at the output; shape (..., c); V.
@@ -297,7 +297,7 @@ class Adc:
         return self.step * (whole + middle)
 
     def at_limit(self, counts: Any) -> BoolArray:
-        """Say which counts cannot be told from a voltage beyond the range: that is saturation.
+        """Find the counts that a voltage beyond the range gives too: they are saturated.
 
         Args:
             counts: Counts; any shape.

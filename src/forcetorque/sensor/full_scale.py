@@ -55,7 +55,7 @@ def full_scale(inverse: Callable[[float], float], *, lowest: float, highest: flo
     """Give what a channel can measure between the limits of its output, thesis (3.10)-(3.12).
 
     Args:
-        inverse: Stimulus that an output tells, at the chosen gain; monotone.
+        inverse: Stimulus of an output, at the chosen gain; monotone.
         lowest: Lowest output; V.
         highest: Highest output; V.
         bits: Bits of the converter.
@@ -64,7 +64,7 @@ def full_scale(inverse: Callable[[float], float], *, lowest: float, highest: flo
         Lowest and highest stimulus, in the unit that `inverse` gives.
 
     Raises:
-        SensorError: If the outputs tell one stimulus only.
+        SensorError: If the outputs show one stimulus only.
     """
     ends = sorted((float(inverse(lowest)), float(inverse(highest))))
     return FullScale(lowest=ends[0], highest=ends[1], bits=bits)
@@ -136,7 +136,7 @@ def _checked(matrix: Any) -> FloatArray:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RawLimits(ArrayRecord):
-    """Counts at which the channels of a sensor saturate, with the calibration that tells a load from counts."""
+    """Counts at which the channels of a sensor saturate, with the calibration that gives a load from counts."""
 
     matrix: FloatArray = field(metadata=array(6, 6))
     """Calibration matrix, `wrench = matrix raw + offset`; shape (6, 6); N/count, N m/count."""
@@ -159,7 +159,9 @@ class RawLimits(ArrayRecord):
         # rows scaled, so that the units of force and moment do not decide
         rows = np.linalg.norm(self.matrix, axis=1, keepdims=True)
         if not rows.all() or np.linalg.matrix_rank(self.matrix / rows) < 6:
-            raise SensorError("RawLimits: the matrix is singular; expected one that tells the counts of every load")
+            raise SensorError(
+                "RawLimits: the matrix is singular; expected one that determines the counts of every load"
+            )
 
     def raw(self, wrench: Any) -> FloatArray:
         """Give the counts of a load, not rounded and not limited.
@@ -236,7 +238,7 @@ class Coverage(ArrayRecord):
 
 
 def coverage(limits: RawLimits, wrench: Any) -> Coverage:
-    """Say which part of a motion's loads a sensor can measure, and what room each channel has left.
+    """Compute the share of a motion's loads that a sensor can measure, and the head-room of each channel.
 
     Args:
         limits: Calibration and limits of the channels.

@@ -63,7 +63,7 @@ class ResistiveGauge:
         return self.resistance * (1.0 + self.relative_change(strain, temperature_change))
 
     def strain(self, resistance: Any, temperature_change: Any = 0.0) -> FloatArray:
-        """Give the strain that a resistance tells, thesis (3.17) with a temperature.
+        """Give the strain of a resistance, thesis (3.17) with a temperature.
 
         Args:
             resistance: Measured resistances; any shape; ohm.
@@ -142,7 +142,7 @@ class ParallelPlates:
         return self._strength() / _above_zero(gap, name="gap", unit="m")
 
     def gap(self, capacitance: Any) -> FloatArray:
-        """Give the distance that a capacitance tells.
+        """Give the distance of a capacitance.
 
         Args:
             capacitance: Capacitances, above zero; any shape; F.
@@ -294,7 +294,7 @@ class QuartzResonator:
         return self.sensitivity * np.asarray(force, dtype=np.float64)
 
     def force(self, frequency_shift: Any) -> FloatArray:
-        """Give the force that a change of frequency tells.
+        """Give the force of a change of frequency.
 
         Args:
             frequency_shift: Changes of frequency; any shape; Hz.
@@ -307,12 +307,12 @@ class QuartzResonator:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReflectedIntensity:
-    """A fibre in front of a mirror on the deformable part; the intensity tells the distance.
+    """A fibre in front of a mirror on the deformable part; the intensity shows the distance.
 
     The thesis (1.3.4) gives no equation, as the relation depends on the geometry. This is the simplest
     one: the light leaves the core as a uniform cone, so at the mirror's image, twice the distance away,
     the part `(a / (a + 2 d tan(angle)))^2` falls on the core of radius a. The mirror stays square to
-    the fibre; losses in a bent fibre cannot be told from a movement of the mirror.
+    the fibre; losses in a bent fibre are not separable from a movement of the mirror.
     """
 
     core_radius: float
@@ -350,7 +350,7 @@ class ReflectedIntensity:
         return self.contact_intensity * (self.core_radius / radius) ** 2
 
     def distance(self, intensity: Any) -> FloatArray:
-        """Give the distance that an intensity tells.
+        """Give the distance of an intensity.
 
         Args:
             intensity: Intensities above zero and at most `contact_intensity`; any shape.
@@ -429,7 +429,7 @@ class FibreBraggGrating:
         return self.wavelength * (self.strain_sensitivity * strains + self.temperature_sensitivity * warming)
 
     def strain(self, shift: Any, temperature_change: Any = 0.0) -> FloatArray:
-        """Give the strain that a shift tells at a known temperature.
+        """Give the strain of a shift at a known temperature.
 
         Args:
             shift: Shifts of the reflected wavelength; any shape; m.

@@ -99,7 +99,7 @@ class ScrewPattern(ArrayRecord):
             raise ShapeError("screws: expected at least three, torques of at least zero and a positive tight_Nm")
 
     def unevenness(self, angle_rad: Any) -> FloatArray:
-        """Tell how much tighter than the mean the rim is held at some places.
+        """Compute by how much the rim is held tighter than in the mean at some angles.
 
         The first two harmonics around the rim are fitted to the screws' deviations, as far as their
         number allows: a rim is stiff and smooths what lies between the screws.

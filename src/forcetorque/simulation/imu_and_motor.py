@@ -59,7 +59,7 @@ class SimulatedImu(ArrayRecord):
         )
 
     def turning(self, motion: RootMotion) -> Signal:
-        """Tell how the link's turning changes, which gyroscopes do not read.
+        """Compute the angular acceleration of the link, which gyroscopes do not measure.
 
         Args:
             motion: Motion of the link's frame, in its own axes; n samples.

@@ -5,7 +5,7 @@ Every function gives a new recording and draws from the generator that it is han
 same seed gives the same bits. Streams with the same stamps and sequence numbers are sent in the same
 messages: where several of them are chosen, they suffer the same faults. Faults at random places spare
 the first and the last message and never touch another of their kind, so that the findings of
-`stream_findings` can be counted against what was asked for.
+`stream_findings` can be counted against what was requested.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def lose_messages(
     rng: np.random.Generator,
     streams: Collection[str] | None = None,
 ) -> Recording:
-    """Lose messages at random places; the sequence numbers tell how many.
+    """Lose messages at random places; the sequence numbers show how many.
 
     Args:
         recording: The recording.
@@ -218,14 +218,14 @@ def _each_port(
 
 
 def _starts(stream: Stream, count: int, *, length: int, rng: np.random.Generator) -> IntArray:
-    """First rows of stretches that neither touch each other nor the first and the last message."""
+    """First rows of segments that neither touch each other nor the first and the last message."""
     if count < 0 or length < 1:
         raise RecordingError(f"expected 0 or more faults of 1 or more messages, got {count} of {length}")
-    # with the stretches taken out, any distinct places are far enough apart
+    # with the segments taken out, any distinct places are far enough apart
     places = len(stream) - 2 - count * length + 1
     if count > max(places, 0):
         raise RecordingError(
-            f"stream {stream.name!r}: expected room for {count} stretches of {length} message(s) that do not touch, "
+            f"stream {stream.name!r}: expected room for {count} segments of {length} message(s) that do not touch, "
             f"got {len(stream)} messages"
         )
     chosen = np.sort(rng.choice(places, size=count, replace=False)) if count else np.empty(0)

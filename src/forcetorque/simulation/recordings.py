@@ -38,8 +38,8 @@ def support_text(link: str, *, down: FloatArray | None) -> str:
     """Write a support.
 
     Args:
-        link: Link that stands still, or whose motion an IMU tells.
-        down: Direction in which things fall, in the axes of the link; shape (3,); None where the IMU tells it.
+        link: Link that stands still, or whose motion an IMU measures.
+        down: Direction in which things fall, in the axes of the link; shape (3,); None where the IMU measures it.
 
     Returns:
         The table, TOML.
@@ -53,8 +53,9 @@ def support_text(link: str, *, down: FloatArray | None) -> str:
 def phases_text(simulated: SimulatedRecording) -> Iterator[str]:
     """Write supports and intervals, one for each phase.
 
-    Gravity is imposed where a foot stands, as on level ground; of a robot that hangs its IMU tells it. While both feet
-    stand nobody knows what each bears: both are touched, and the IMU tells how the robot moves. Landing is ignored.
+    Gravity is imposed where a foot stands, as on level ground; of a robot that hangs its IMU measures it. While both
+    feet stand the load of each is unknown: both are touched, and the IMU measures how the robot moves. Landing is
+    ignored.
 
     Args:
         simulated: The recording, with an IMU.

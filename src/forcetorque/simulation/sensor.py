@@ -30,12 +30,12 @@ def matrix_error(workbench: FloatArray, mounted: FloatArray) -> FloatArray:
 
 
 def random_matrix_error(share: float, lever_m: float, rng: np.random.Generator) -> FloatArray:
-    """Draw an error of a size that is stated.
+    """Draw an error of a given size.
 
     Args:
         share: Root mean square of its coefficients, moments over the lever taken for forces.
         lever_m: Moment over force; m.
-        rng: Source of the error; the same draw whatever the size.
+        rng: Source of the error; the same draw for every size.
 
     Returns:
         E; shape (6, 6); 1, 1/m above on the right, m below on the left.
@@ -138,7 +138,7 @@ class SimulatedSensor(ArrayRecord):
         return hold_on_saturation(within, lowest=-self.limit_counts, highest=self.limit_counts)
 
     def matrix_error(self, matrix: FloatArray) -> FloatArray:
-        """Tell what a matrix makes of a true wrench w: it reads the counts as `(1 + E) w + bias`.
+        """Compute the error of a matrix for a true wrench w: it reads the counts as `(1 + E) w + bias`.
 
         Args:
             matrix: Matrix that readings are made with; shape (6, 6); N/count, N m/count.
@@ -149,7 +149,7 @@ class SimulatedSensor(ArrayRecord):
         return matrix_error(matrix, self.matrix)
 
     def bias(self, matrix: FloatArray) -> FloatArray:
-        """Tell what a matrix reads where nothing loads the sensor, beside `(1 + E) w`.
+        """Compute the wrench by a matrix where nothing loads the sensor, beside `(1 + E) w`.
 
         Args:
             matrix: Matrix that readings are made with; shape (6, 6); N/count, N m/count.

@@ -75,7 +75,7 @@ IN_PLANE = np.array([place.bending is Bending.IN_PLANE for place in _PLACES])
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Spread:
-    """Standard deviations between specimens, and between the gauges of one."""
+    """Standard deviations between sensors, and between the gauges of one."""
 
     sensitivity: float = 0.095
     """Of the whole sensor, relative."""
@@ -95,7 +95,7 @@ class Spread:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SensorFamily:
-    """A design with its electronics, and how its specimens scatter."""
+    """A design with its electronics, and how sensors of it differ."""
 
     name: str
     """Name of the family."""
@@ -109,7 +109,7 @@ class SensorFamily:
     out_of_plane: tuple[float, float, float] = (1.0, 1.0, 1.0)
     """Sensitivity of each arm's channel out of the plane, relative to that of the common design."""
     spread: Spread = Spread()
-    """How specimens differ."""
+    """How sensors differ."""
 
     def nominal(self) -> FloatArray:
         """Give the response of the design.
@@ -121,7 +121,7 @@ class SensorFamily:
         return self._gains(1.0) * self.electronics.counts_per_strain * strain
 
     def draw(self, rng: np.random.Generator) -> FloatArray:
-        """Give the response of a specimen, as a perfect workbench would find it.
+        """Give the response of a sensor, as a perfect workbench would find it.
 
         Args:
             rng: Source of what differs.
@@ -155,7 +155,7 @@ class SensorFamily:
 
 @cache
 def _strain_matrix() -> FloatArray:
-    """That of the common design, which thousands of specimens are drawn from."""
+    """That of the common design, which thousands of sensors are drawn from."""
     return read_only(Y_ELEMENT.strain_matrix(), name="strain_matrix", shape=(6, 6))
 
 

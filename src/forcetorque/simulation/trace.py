@@ -86,7 +86,7 @@ class Trace(ArrayRecord):
             sensors: What each sensor is made of, by its name in the robot.
             rng: Source of noise.
             temperature_degC: Temperature of the sensors at the start and at the end, linear in between; None where
-                nobody measures it.
+                it is not measured.
             imu: An IMU on the link that was traced; none if None.
 
         Returns:
@@ -251,7 +251,7 @@ def record(
         rate_hz: Rate of every stream; Hz.
         rng: Source of stamps and noise.
         temperature_degC: Temperature of the sensors at the start and at the end, linear in between; None where
-            nobody measures it.
+            it is not measured.
         start_ns: When it starts; ns.
         imu: An IMU; none if None.
 

@@ -43,7 +43,8 @@ class Patch(Table):
     link: Text | None = None
     """Link that it is mounted on; that of the layout if left out."""
     table: Path | None = None
-    """Calibration of its taxels, as `forcetorque skin calibrate` writes it; where it is stated, contacts are shown."""
+    """Calibration of its taxels, as `forcetorque skin calibrate` writes it; where it is specified, contacts are
+    shown."""
     friction: Annotated[float, Field(ge=0.0)] | None = None
     """Coefficient that bounds the tangential force, which skin does not measure; without one it is unknown."""
     oldest_s: Positive | None = None
@@ -313,7 +314,7 @@ def links_side_by_side(links: Iterable[str]) -> RobotModel:
 
 
 def is_skin_alone(model: RobotModel) -> bool:
-    """Tell links side by side from a robot.
+    """Check whether links are a row of separate links rather than a robot.
 
     Args:
         model: A robot.

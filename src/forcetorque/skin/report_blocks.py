@@ -18,10 +18,10 @@ _HEURISTIC = (
 
 
 def skin_section(experiment: ExperimentAssessment) -> Section:
-    """Say what the skin of an experiment felt.
+    """Give the contacts on the skin of an experiment.
 
     Args:
-        experiment: The answers about it.
+        experiment: The results about it.
 
     Returns:
         The section; empty without skin.

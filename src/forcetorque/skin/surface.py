@@ -22,7 +22,7 @@ _SURROUNDINGS: Final = 1.5
 _GOLDEN: Final = (np.sqrt(5.0) - 1.0) / 2.0
 """Multiples of it are spread evenly."""
 _TIE: Final = 1e-8
-"""By how much points on one circle are told apart, over the square of the longest edge: else rounding would decide
+"""By how much points on one circle are separated, over the square of the longest edge: else rounding would decide
 which diagonal is taken, and a layout that is turned would get another surface."""
 _SAME_LENGTH_M: Final = 1e-9
 """Difference between lengths that is rounding."""
@@ -428,7 +428,7 @@ def rim_strip(surface: SkinSurface) -> Rim:
 
 
 def edge_taxels(surface: SkinSurface) -> BoolArray:
-    """Tell the taxels at the edge of a patch, beyond which pressure is not felt.
+    """Find the taxels at the edge of a patch, beyond which pressure is not measured.
 
     A hole between four taxels is none: the strip fills it where corners of modules meet.
 

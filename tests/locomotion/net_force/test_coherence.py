@@ -11,9 +11,9 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
-from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
+from forcetorque.estimation.skin_contacts import clock_stream
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of, still_seconds

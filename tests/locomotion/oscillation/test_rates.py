@@ -8,17 +8,16 @@ import pytest
 from scipy.signal import lfilter
 
 from forcetorque.locomotion.oscillation.oscillation import OscillationSearch, find_oscillations
-from forcetorque.locomotion.oscillation.settling import settlings, tracking_error
-from forcetorque.locomotion.oscillation.spectrum import evened
+from forcetorque.locomotion.oscillation.spectrum import resampled
 from tests.locomotion.oscillation.noises import COLOURS, noise, swing
-from tests.locomotion.oscillation.test_settling_and_tracking import settled_after, step_response
+from tests.locomotion.oscillation.test_settling_and_tracking import settled, settled_after, step_response, tracked
 
 DRAWS = 200
 pytestmark = pytest.mark.long
 
 
 def _search(values: np.ndarray, rate_hz: float = 100.0) -> OscillationSearch:  # type: ignore[type-arg]
-    return find_oscillations(evened(np.arange(len(values)) / rate_hz, values, name="x"), name="x")
+    return find_oscillations(resampled(np.arange(len(values)) / rate_hz, values, name="x"), name="x")
 
 
 @pytest.mark.parametrize("colour", COLOURS)
@@ -101,8 +100,8 @@ def test_tracking_intervals_hold_the_truth(kept: float, offset: float) -> None:
     inside = 0
     for k in range(2 * DRAWS):
         error = noise(f"ar {kept}", 6000, np.random.default_rng([95, k]))[3000:] + offset
-        row = tracking_error(np.arange(3000) / 100.0, np.zeros(3000), error, name="x")
-        inside += row.lower <= np.hypot(1.0, offset) <= row.upper
+        row = tracked(np.arange(3000) / 100.0, np.zeros(3000), error)
+        inside += row.rms_lower_95 <= np.hypot(1.0, offset) <= row.rms_upper_95
     assert 0.90 <= inside / (2 * DRAWS) <= 0.985
 
 
@@ -113,8 +112,8 @@ def test_settling_intervals_hold_the_truth(damping: float) -> None:
     values, true = step_response(time - 5.0, 1.0, damping), settled_after(1.0, damping, 0.05)
     for k in range(DRAWS):
         noisy = values + 0.01 * noise("ar 0.9", 2000, np.random.default_rng([96, k]))
-        (row,) = settlings(evened(time, noisy, name="x"), [5.0], band_share=0.05, name="x")
-        inside += row.earliest_s - 0.01 <= true <= row.latest_s + 0.01
-        ended += row.latest_s < np.inf
+        (row,) = settled(time, noisy, [5.0])
+        inside += row.earliest_s - 0.01 <= true <= (np.inf if row.latest_s is None else row.latest_s + 0.01)
+        ended += row.latest_s is not None
     assert inside >= 0.93 * DRAWS
     assert ended >= 0.8 * DRAWS

@@ -9,14 +9,14 @@ from scipy.optimize import curve_fit
 
 from forcetorque.base.errors import RecordingError
 from forcetorque.locomotion.oscillation.oscillation import OscillationSearch, find_oscillations
-from forcetorque.locomotion.oscillation.spectrum import evened
+from forcetorque.locomotion.oscillation.spectrum import resampled
 from tests.locomotion.oscillation.noises import COLOURS, noise, swing
 
 RATE_HZ = 100.0
 
 
 def _search(values: np.ndarray, rate_hz: float = RATE_HZ) -> OscillationSearch:  # type: ignore[type-arg]
-    return find_oscillations(evened(np.arange(len(values)) / rate_hz, values, name="com_y"), name="com_y")
+    return find_oscillations(resampled(np.arange(len(values)) / rate_hz, values, name="com_y"), name="com_y")
 
 
 def test_a_planted_swing_is_told_with_its_interval() -> None:
@@ -96,7 +96,7 @@ def test_an_uneven_clock_still_tells_slow_swings() -> None:
     for start in 150 * np.arange(1, 40) + rng.integers(0, 100, 39):
         kept[start : start + 19] = False
     values = swing(time, 0.2, 4.0, 0.3) + swing(time, 7.0, 2.0, 0.3) + 0.3 * rng.standard_normal(6000)
-    signal = evened(time[kept], values[kept], name="com_y")
+    signal = resampled(time[kept], values[kept], name="com_y")
     assert not signal.even
     assert signal.highest_hz <= 0.1 / 0.2
     search = find_oscillations(signal, name="com_y")
@@ -114,7 +114,7 @@ def test_missing_and_repeated_samples_are_left_out() -> None:
     values[100:103] = np.nan
     stamps = time.copy()
     stamps[201] = stamps[200]
-    signal = evened(stamps, values, name="com_y")
+    signal = resampled(stamps, values, name="com_y")
     assert not signal.even
     assert signal.longest_step_s == pytest.approx(0.04)
 
@@ -134,14 +134,14 @@ def test_missing_and_repeated_samples_are_left_out() -> None:
 def test_what_is_no_signal_is_refused(time: np.ndarray, values: np.ndarray, message: str) -> None:  # type: ignore[type-arg]
     """With what came and what to do."""
     with pytest.raises(RecordingError, match=message):
-        evened(time, values, name="com_y")
+        resampled(time, values, name="com_y")
 
 
 def test_what_is_too_short_for_a_period_is_refused() -> None:
     """Pauses count: 8 s with pauses of 1 s show swings of 10 s or slower, of which there is none."""
     time = np.concatenate([np.arange(400) / 100.0, 5.0 + np.arange(300) / 100.0])
     with pytest.raises(RecordingError, match=r"at least 3.3 periods .* got 8 s .* up to 1.01 s apart, .* 0.099 Hz"):
-        find_oscillations(evened(time, np.sin(time), name="com_y"), name="com_y")
+        find_oscillations(resampled(time, np.sin(time), name="com_y"), name="com_y")
 
 
 @pytest.mark.parametrize("case", ["second half", "a third", "wandering phase"])

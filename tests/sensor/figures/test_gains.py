@@ -15,7 +15,8 @@ from forcetorque.base.errors import MissingExtraError
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.results.figures import COLOURS, png_bytes
-from forcetorque.sensor.gains.figure import gain_figure
+from forcetorque.sensor.figures import gain_figure
+from forcetorque.sensor.gains.amplifier_gains import GainChange
 from forcetorque.sensor.gains.gains import SensorGains, sensor_gains
 from tests.report.drawing import count_of, pixels, size_of
 from tests.scenes.experiments import PARQUET, write_experiments
@@ -49,7 +50,7 @@ def test_every_channel_is_drawn_before_and_after(gains: SensorGains) -> None:
     """Both halves hold the colour of each channel; one of the palette that no channel has is absent."""
     image = pixels(gain_figure([gains]))
     halves = np.array_split(image, 2, axis=1)
-    for colour in COLOURS[: len(gains.advice)]:
+    for colour in COLOURS[: len(gains.channels)]:
         # the edges of a line are mixed with what is behind it, so that few of its pixels have the very colour
         assert all(count_of(half, colour) > 10 for half in halves), colour
     assert count_of(image, COLOURS[7]) == 0
@@ -59,7 +60,8 @@ def test_what_is_drawn_depends_on_the_gains(gains: SensorGains) -> None:
     """Factors of one draw the same lines on both sides; the recommended ones do not."""
     drawn = png_bytes(gain_figure([gains]))
     assert png_bytes(gain_figure([gains])) == drawn
-    same = replace(gains, advice=tuple(replace(advised, factor=1.0) for advised in gains.advice))
+    kept = {"recommended_gain": 1.0, "present_gain": 1.0, "change": GainChange.KEEP}
+    same = replace(gains, channels=tuple(channel.model_copy(update=kept) for channel in gains.channels))
     assert png_bytes(gain_figure([same])) != drawn
 
 
@@ -84,7 +86,7 @@ def test_drawing_leaves_the_program_as_it_is(experiment: Path) -> None:
 import sys
 from forcetorque.experiment import SensorRun, load_experiment
 from forcetorque.sensor import sensor_gains
-from forcetorque.sensor.gains.figure import gain_figure
+from forcetorque.sensor.figures import gain_figure
 experiment = load_experiment({str(experiment)!r})
 gains = sensor_gains(SensorRun(experiment, experiment.sensors[0]))
 assert "matplotlib" not in sys.modules

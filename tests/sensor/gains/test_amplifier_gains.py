@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from forcetorque.base.errors import ForceTorqueError, ShapeError
 from forcetorque.recording.stream import Stream
 from forcetorque.sensor.gains.amplifier_gains import (
+    ChannelGain,
     ChannelRange,
-    GainAdvice,
     GainChange,
     advise_gains,
     axis_resolution,
@@ -46,7 +46,7 @@ def _range(smallest: float, largest: float, saturated: int = 0) -> ChannelRange:
 
 def _advice(
     seen: ChannelRange, margin: float, present: float | None = None, allowed: Sequence[float] | None = None
-) -> GainAdvice:
+) -> ChannelGain:
     (advice,) = advise_gains([seen], margin=margin, present=None if present is None else [present], allowed=allowed)
     return advice
 
@@ -93,10 +93,10 @@ def test_the_largest_gain_that_keeps_the_margin(
 ) -> None:
     """With a present gain of 4, by hand; the expected readings are the read ones times the ratio of gains."""
     advice = _advice(_range(smallest, largest), margin, 4.0, ALLOWED[::-1])
-    assert (advice.recommended, advice.change, advice.keeps_margin) == (recommended, change, keeps)
+    assert (advice.recommended_gain, advice.change, advice.keeps_margin) == (recommended, change, keeps)
     assert advice.factor == recommended / 4.0
-    assert advice.expected.smallest_counts == smallest * recommended / 4.0
-    assert advice.expected.largest_counts == largest * recommended / 4.0
+    assert advice.expected_smallest_counts == smallest * recommended / 4.0
+    assert advice.expected_largest_counts == largest * recommended / 4.0
     assert advice.largest_factor == pytest.approx((1.0 - margin) * LIMIT / max(-smallest, largest))
 
 
@@ -114,22 +114,22 @@ def test_a_saturated_channel_gets_the_next_lower_gain(
 ) -> None:
     """Its range is not known: never the same or a higher gain, whatever the margin, and the motion again."""
     advice = _advice(_range(-400.0, 1000.0, saturated=3), 0.2, present, allowed)
-    assert (advice.recommended, advice.change) == (recommended, change)
+    assert (advice.recommended_gain, advice.change) == (recommended, change)
     assert advice.factor == (1.0 if recommended is None else recommended / present)
 
 
 def test_a_saturated_channel_is_lowered_also_without_a_margin() -> None:
     """At 0.4 % below the limit no margin would keep the gain; control: unsaturated, it stays."""
-    assert _advice(_range(-400.0, 996.0, saturated=1), 0.0, 4.0, ALLOWED).recommended == 2.0
-    assert _advice(_range(-400.0, 994.0), 0.0, 4.0, ALLOWED).recommended == 4.0
+    assert _advice(_range(-400.0, 996.0, saturated=1), 0.0, 4.0, ALLOWED).recommended_gain == 2.0
+    assert _advice(_range(-400.0, 994.0), 0.0, 4.0, ALLOWED).recommended_gain == 4.0
 
 
 def test_without_gains_a_factor_is_recommended() -> None:
     """Neither the present gain alone nor none at all make a gain; the expected readings leave just the margin."""
     for present in (None, 4.0):
         advice = _advice(_range(-50.0, 160.0), 0.2, present)
-        assert (advice.recommended, advice.present, advice.factor) == (None, present, pytest.approx(5.0))
-        assert (advice.change, advice.expected.headroom_above) == (GainChange.RAISE, pytest.approx(0.2))
+        assert (advice.recommended_gain, advice.present_gain, advice.factor) == (None, present, pytest.approx(5.0))
+        assert (advice.change, advice.expected_headroom_above) == (GainChange.RAISE, pytest.approx(0.2))
     assert _advice(_range(-50.0, 900.0), 0.2).change is GainChange.LOWER
     assert _advice(_range(-50.0, 1000.0, saturated=1), 0.2).change is GainChange.LOWER_AND_REPEAT
 
@@ -137,14 +137,14 @@ def test_without_gains_a_factor_is_recommended() -> None:
 def test_no_lower_gain_and_no_margin() -> None:
     """The lowest gain leaves too little: there is nothing to recommend, and the readings stay."""
     advice = _advice(_range(-50.0, 900.0), 0.2, 1.0, ALLOWED)
-    assert (advice.recommended, advice.change, advice.factor) == (None, GainChange.NONE_FITS, 1.0)
+    assert (advice.recommended_gain, advice.change, advice.factor) == (None, GainChange.NONE_FITS, 1.0)
     assert not advice.keeps_margin
 
 
 def test_a_channel_that_reads_nothing_keeps_its_gain() -> None:
     """Zeros say nothing about a gain; no factor is infinite."""
     advice = _advice(_range(0.0, 0.0), 0.2, 4.0, ALLOWED)
-    assert (advice.recommended, advice.largest_factor, advice.change) == (4.0, None, GainChange.KEEP)
+    assert (advice.recommended_gain, advice.largest_factor, advice.change) == (4.0, None, GainChange.KEEP)
     assert _advice(_range(0.0, 0.0), 0.2).factor == 1.0
 
 
@@ -164,10 +164,10 @@ def test_no_larger_allowed_gain_would_keep_the_margin(
     assume(all(abs(peak * gain / present - free) > 1e-9 * free for gain in {*allowed, present}))
     fitting = {gain for gain in {*allowed, present} if peak * gain / present <= free}
     if fitting:
-        assert advice.recommended == max(fitting)
+        assert advice.recommended_gain == max(fitting)
         assert advice.keeps_margin
     else:
-        assert advice.recommended == min((gain for gain in allowed if gain < present), default=None)
+        assert advice.recommended_gain == min((gain for gain in allowed if gain < present), default=None)
         assert not advice.keeps_margin
 
 

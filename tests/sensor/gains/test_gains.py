@@ -102,7 +102,7 @@ def test_the_same_log_through_wrenches_gives_the_same_counts(arm: Path) -> None:
     direct, through = _drawn(raw), _drawn(wrench)
     # 12 printed digits of wrenches through an inverse of condition 1e3, on counts of up to 3e4
     np.testing.assert_allclose(through.counts, direct.counts, atol=1e-4)
-    for one, other in zip(direct.advice, through.advice, strict=True):
+    for one, other in zip(direct.channels, through.channels, strict=True):
         assert one.factor == pytest.approx(other.factor, rel=1e-6)
 
 
@@ -289,7 +289,7 @@ def test_a_limb_that_does_not_move_gets_no_advice(arm: Path, drift_counts: float
     ]
     assert {(channels[k].recommended_gain, channels[k].largest_factor) for k in (0, 1, 3, 4, 5)} == {(None, None)}
     assert channels[0].expected_largest_counts == channels[0].largest_counts
-    assert "none: still" in result.text()
+    assert "none: static" in result.text()
     assert any("ch0, ch1, ch3, ch4, ch5 did not move" in warning for warning in result.warnings)
     moved = select_gains(_run(load_experiment(arm / PARQUET))).sensors[0].channels
     assert GainChange.UNKNOWN not in {channel.change for channel in moved}
@@ -300,8 +300,10 @@ def test_advice_without_a_contact_says_so(arm: Path) -> None:
     free = select_gains(_run(load_experiment(arm / PARQUET)))
     raised = [channel for channel in free.sensors[0].channels if channel.change is GainChange.RAISE]
     assert (free.sensors[0].contact_stated, bool(raised)) == (False, True)
-    assert "no contact is stated beyond the sensor: whether loads of use were recorded" in " ".join(free.text().split())
+    assert "no contact is specified distal to the sensor: whether operating loads were recorded" in " ".join(
+        free.text().split()
+    )
     add(arm / PARQUET, '\n[[contact]]\nframe = "hand"\nintervals = ["fit"]\n')
     touched = select_gains(_run(load_experiment(arm / PARQUET)))
     assert touched.sensors[0].contact_stated
-    assert "no contact is stated" not in " ".join(touched.text().split())
+    assert "no contact is specified" not in " ".join(touched.text().split())

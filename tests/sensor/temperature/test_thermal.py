@@ -86,12 +86,12 @@ def test_doubts_are_named(tmp_path: Path) -> None:
     reading[3000:, 2] -= 2.0
     doubts = " ".join(thermal(_run(write_cycles(tmp_path, time, degrees, reading))).warnings)
     assert "degC only" in doubts
-    assert "heating against cooling is hardly told from a drift in time" in doubts
+    assert "heating against cooling is hardly separable from a drift in time" in doubts
     assert "fz steps by" in doubts
     rise = thermal(_run(write_cycles(tmp_path, *record(np.random.default_rng(13), cycles=0.5))))
     doubts = " ".join(rise.warnings)
     assert "drift with temperature and drift in time are one" in doubts
-    assert "no hysteresis is told" in doubts
+    assert "no hysteresis is determined" in doubts
     assert rise.sensors[0].variable_table() is None
     assert '"drift_half_width_95_per_degC": null' in rise.json_text()
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SkinError
-from forcetorque.skin.taxels.health import Ailment
+from forcetorque.skin.taxels.faults import TaxelFault
 from tests.scenes.chambers import HIGHEST_PA, TAXELS, chamber, responses
 
 
@@ -43,4 +43,4 @@ def test_hysteresis_lowers_counts_while_unloading() -> None:
 def test_a_taxel_that_is_not_there_cannot_break() -> None:
     """It is named."""
     with pytest.raises(SkinError, match="broken: expected taxels of 0 to 59, got 60"):
-        chamber(responses(), 5, broken={60: Ailment.JUMPS})
+        chamber(responses(), 5, broken={60: TaxelFault.JUMPS})

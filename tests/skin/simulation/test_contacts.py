@@ -19,9 +19,9 @@ from forcetorque.skin.simulation.contact import (
     Sphere,
     contacts,
 )
-from forcetorque.skin.simulation.heat import HeatResponses, MotorHeat
 from forcetorque.skin.simulation.recordings import REFERENCE_PA, REST_COUNTS, Loading, TaxelResponses, contact_recording
 from forcetorque.skin.simulation.surface import TrueSurface
+from forcetorque.skin.simulation.temperature import HeatResponses, MotorHeat
 from tests.scenes.patches import cylinder_patch
 
 RADIUS_M: Final = 0.06

@@ -12,7 +12,7 @@ import pytest
 from forcetorque.base.errors import ExperimentError, FitError, SkinError
 from forcetorque.skin.simulation.recordings import REFERENCE_PA
 from forcetorque.skin.taxels.calibrate import SkinCalibration, calibrate_skin
-from forcetorque.skin.taxels.health import Ailment
+from forcetorque.skin.taxels.faults import TaxelFault
 from tests.scenes.chambers import BROKEN, HIGHEST_PA, LATER, TAXELS, chamber, responses, write_chamber, write_chambers
 
 DRAWS = 12
@@ -32,11 +32,11 @@ def answer(tmp_path_factory: pytest.TempPathFactory) -> SkinCalibration:
 
 
 def test_broken_taxels_are_left_out_by_name(answer: SkinCalibration) -> None:
-    """Those that were planted, each with its ailment among the reasons, and no other."""
+    """Those that were planted, each with its fault among the reasons, and no other."""
     reasons = {row.taxel: row.left_out for row in answer.taxels if row.left_out is not None}
     assert set(reasons) == set(BROKEN)
-    for taxel, ailment in BROKEN.items():
-        assert ailment.value in reasons[taxel].split(", ")
+    for taxel, fault in BROKEN.items():
+        assert fault.value in reasons[taxel].split(", ")
     assert (answer.sound, answer.left_out) == (TAXELS - len(BROKEN), len(BROKEN))
 
 
@@ -51,16 +51,16 @@ def test_health_is_per_recording(answer: SkinCalibration) -> None:
     assert answer.taxels[50].inside_kPa is None
 
 
-def test_no_ailment_is_missed_or_made_up(tmp_path: Path) -> None:
+def test_no_fault_is_missed_or_made_up(tmp_path: Path) -> None:
     """Over twelve patches: both error rates are 0, so below 0.6 % of sound and 5 % of broken taxels at 95 %."""
     missed = false = 0
     for seed in range(DRAWS):
         file = write_chamber(tmp_path, f"c{seed}", chamber(responses(seed=seed), 100 + seed, broken=BROKEN))
         for row in _calibrated(file).taxels:
             named = (row.left_out or "").split(", ")
-            ailment = BROKEN.get(row.taxel)
-            missed += ailment is not None and ailment.value not in named
-            false += ailment is None and row.left_out is not None
+            fault = BROKEN.get(row.taxel)
+            missed += fault is not None and fault.value not in named
+            false += fault is None and row.left_out is not None
     assert (missed, false) == (0, 0)
 
 
@@ -145,8 +145,8 @@ def test_what_cannot_be_calibrated_is_refused(tmp_path: Path) -> None:
     kept.write_text(kept.read_text(encoding="utf-8").replace("P7", "P8"), encoding="utf-8")
     with pytest.raises(ExperimentError, match=r"expected the patch 'palm' \(P7\) .* got 'palm' \(P8\)"):
         _calibrated(fit, kept)
-    broken = chamber(responses(), 41, broken=dict.fromkeys(range(TAXELS), Ailment.NEVER_MOVES))
-    with pytest.raises(FitError, match="expected a sound taxel to fit, got none of 60: they are never moves"):
+    broken = chamber(responses(), 41, broken=dict.fromkeys(range(TAXELS), TaxelFault.NEVER_MOVES))
+    with pytest.raises(FitError, match="expected a valid taxel to fit, got none of 60: they are never moves"):
         _calibrated(write_chamber(tmp_path, "dead", broken))
 
 

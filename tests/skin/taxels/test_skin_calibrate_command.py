@@ -93,11 +93,11 @@ def _store(folder: Path, counts: np.ndarray) -> None:
 
 
 def test_inspect_names_broken_taxels(run: Run, palm: Path) -> None:
-    """A finding for every ailment, with the taxels that have it; a file of a patch alone is enough."""
+    """A finding for every fault, with the taxels that have it; a file of a patch alone is enough."""
     findings = run("inspect", "fit.toml", "--format", "json").result()["findings"]
     messages = {finding["kind"]: finding["message"] for finding in findings}
-    for taxel, ailment in BROKEN.items():
-        assert str(taxel) in messages[f"taxel_{ailment.name.lower()}"].partition("'cycle': ")[2].split(", ")
+    for taxel, fault in BROKEN.items():
+        assert str(taxel) in messages[f"taxel_{fault.name.lower()}"].partition("'cycle': ")[2].split(", ")
 
 
 @pytest.mark.parametrize(

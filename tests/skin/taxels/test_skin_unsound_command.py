@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.skin.simulation.heat import Warmth
+from forcetorque.skin.simulation.temperature import Warmth
 from tests.app.outcome import Outcome, Run
 from tests.scenes.warmed import WARM_UP, WarmShank, counts_of, late_pads, with_counts, write_log, write_warmed
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SkinError
-from forcetorque.skin.temperature.heat_compensation import HeatGains, TaxelHeat, ThermalGain, stuck_pads
+from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, TaxelHeat, ThermalGain, stuck_pads
 from tests.scenes.patches import cylinder_patch
 from tests.skin.layout.skins import plane_layout
 

@@ -12,10 +12,10 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.contact.pressure_frame import PatchReader
 from forcetorque.skin.contact.tracking import PatchFollower
-from forcetorque.skin.simulation.heat import Warmth
+from forcetorque.skin.simulation.temperature import Warmth
 from forcetorque.skin.taxels.patch_calibration import PressureTable
-from forcetorque.skin.temperature.heat_compensation import HeatGains, WarmUp
 from forcetorque.skin.temperature.pad_lags import PadFilter
+from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, WarmUp
 from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
 from forcetorque.skin.wrench.patch import SkinPatch
 from tests.scenes.warmed import WARM_UP, WarmShank, counts_of, late_pads

@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SkinError
-from forcetorque.skin.temperature.heat_compensation import HeatGains, WarmUp
+from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, WarmUp
 from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
 from tests.scenes.warmed import WARM_UP, WarmShank, counts_of
 

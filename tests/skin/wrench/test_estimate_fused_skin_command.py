@@ -12,10 +12,9 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
-from forcetorque.estimation.skin_contacts import frames_of_patches
+from forcetorque.estimation.skin_contacts import clock_stream, frames_of_patches
 from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.offsets import corrections_of
@@ -126,7 +125,7 @@ def test_hot_skin_is_named(run: Run, tmp_path: Path) -> None:
         ((("friction = 0.1\n", ""),), "contact 'shank 1': expected friction"),
         ((("[fusion]\nmodel_deviation = 0.02\n", ""),), r"expected \[fusion\] with model_deviation"),
         (((FT, ""), (CURRENT, "")), "expected two sources of joint torques at least, got skin"),
-        (((SKIN, SKIN + '\n[[contact]]\nframe = "foot"\n'),), "skin tells torques of joints only if it feels all"),
+        (((SKIN, SKIN + '\n[[contact]]\nframe = "foot"\n'),), "skin determines torques of joints only if it feels all"),
     ],
 )
 def test_what_skin_lacks_as_a_source_is_asked_for(

@@ -26,7 +26,7 @@ class WindowMeans:
     """Means of what its lasting errors add; shape (w, j, p); N m."""
 
     def window(self, index: int) -> WindowMeans:
-        """Look at one window.
+        """Select one window.
 
         Args:
             index: Its place.
@@ -120,7 +120,7 @@ def combined(
         shared: What one standard deviation of each common error adds; shape (n, j, s) each, with one s.
 
     Returns:
-        The vectors, NaN where nobody knows a component, shape (n, j); and their covariance, shape (n, j, j).
+        The vectors, NaN where a component is unknown, shape (n, j); and their covariance, shape (n, j, j).
     """
     n, _, s = shared[0].shape
     information, cross, own = np.zeros_like(covariances[0]), np.zeros_like(shared[0]), np.tile(np.eye(s), (n, 1, 1))
@@ -161,8 +161,9 @@ def inverse_of_known(weights: FloatArray, unknown: BoolArray) -> FloatArray:
 
 
 VARIANCE_MARGIN = 1.25
-"""Factor by which the noise of sources may be more than stated before that is a conflict: variances of noise are
-estimates themselves, from as many samples as a recording has, and hundreds of windows tell them to a few percent."""
+"""Factor by which the noise of sources may be more than specified before that is a conflict: variances of noise are
+estimates themselves, from as many samples as a recording has, and hundreds of windows determine them to a few
+percent."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -194,7 +195,7 @@ class Disagreement:
     """Squared normalised innovations of sources against each other, in two independent parts."""
 
     lasting: Innovation
-    """Of the lasting errors that sources tell of each other: few numbers, in which an offset shows."""
+    """Of the lasting errors that sources show of each other: few numbers, in which an offset shows."""
     passing: Innovation
     """Of all that changes from window to window beyond these: many numbers, in which a variance shows."""
 
@@ -207,7 +208,7 @@ class Disagreement:
         )
 
     def alarms(self, false_alarm: float) -> bool:
-        """Tell whether there is more of it than chance makes.
+        """Check whether it is larger than chance makes it.
 
         Args:
             false_alarm: Largest rate at which chance does.
@@ -301,10 +302,10 @@ class Conflict:
 
 
 def conflict_between(sources: Mapping[str, WindowMeans], false_alarm: float) -> Conflict:
-    """Look for a conflict, and for the source without which there is none.
+    """Find a conflict, and the source without which there is none.
 
     Sums of squared normalised innovations are distributed as chi-squared if covariances are right and errors normal, so
-    the rate of false alarms is the one asked for. Of two sources, nothing tells which is wrong.
+    the rate of false alarms is the requested one. Of two sources, nothing shows which is wrong.
 
     Args:
         sources: Means of every source over the same windows, by name.
@@ -361,7 +362,7 @@ def fuse(sources: Sequence[TorqueSource], *, false_alarm: float = FALSE_ALARM, w
     """Combine sources of joint torques by least squares weighted by their covariances.
 
     Errors of different sources are independent except for those that they share, such as those of the robot model:
-    these stay whole, whatever the number of sources. How far two sources share them in truth depends on the links that
+    these stay whole, for any number of sources. How far two sources share them in truth depends on the links that
     each uses. Intervals take them as common to all, and the search for conflicts takes them as independent: each of the
     two is on the safe side. A source that alone contradicts the others over the interval is left out of all of it.
 

@@ -84,7 +84,7 @@ class SourceRow(Row):
     source: Annotated[str, Shown("source")]
     """The source."""
     innovation: Annotated[float, Shown("innovation^2", digits=2)]
-    """Mean squared normalised innovation against the others together: about 1 if all is as stated."""
+    """Mean squared normalised innovation against the others together: about 1 if all is as specified."""
     degrees_of_freedom: int
     """Number of innovations."""
     windows_percent: Annotated[float, Shown("windows", "%", digits=1)]
@@ -119,7 +119,7 @@ class TorqueFusion(Row):
     """Joint torques of all sources beside each other and fused."""
 
     false_alarm: float
-    """Largest rate of intervals, or windows, with a conflict though all is as stated."""
+    """Largest rate of intervals, or windows, with a conflict though all is as specified."""
     torques: tuple[JointTorqueRow, ...]
     """One per interval, joint and source, and one for all together."""
     sources: tuple[SourceRow, ...]
@@ -136,14 +136,14 @@ class TorqueFusion(Row):
         yield table_of(self.torques, "joint torques")
         yield table_of(self.sources, "sources of joint torques")
         yield (
-            f"where all variances are as stated, at most {self.false_alarm:.1%} of intervals, and of windows, have a "
-            "conflict"
+            f"where all variances are as specified, at most {self.false_alarm:.1%} of intervals, and of windows, have "
+            "a conflict"
         )
         if self.friction:
             yield table_of(self.friction, "friction, fitted on the calibration intervals")
 
     def warnings(self) -> Iterator[str]:
-        """Say which sources are in conflict.
+        """Give warnings about sources in conflict.
 
         Yields:
             Sentences.
@@ -191,7 +191,7 @@ def fuse_experiment(
 def summarise_fusion(
     experiment: Experiment, fusions: list[IntervalFusion], frictions: tuple[Friction, ...]
 ) -> TorqueFusion:
-    """Say what fused torques amount to.
+    """Summarise fused torques.
 
     Args:
         experiment: The experiment.

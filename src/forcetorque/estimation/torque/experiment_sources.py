@@ -11,9 +11,8 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.estimation.clock_stream import clock_stream
 from forcetorque.estimation.section import FUSION, MOTORS, FusionTable
-from forcetorque.estimation.skin_contacts import SkinSource, frames_of_patches, sources_at
+from forcetorque.estimation.skin_contacts import SkinSource, clock_stream, frames_of_patches, sources_at
 from forcetorque.estimation.torque.motor import Friction, drive_torque, fit_friction, motor_source
 from forcetorque.estimation.torque.source import TorqueSource, wrench_source
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
@@ -151,7 +150,7 @@ class TorqueSources:
         elif any(contact.type is not ContactType.KNOWN for contact in contacts):
             raise ExperimentError(
                 f"interval {interval.label!r}: expected contacts of type known alone, where skin or one of them is a "
-                "source of torques, got others too; skin tells torques of joints only if it feels all that touches"
+                "source of torques, got others too; skin determines torques of joints only if it feels all contacts"
             )
         else:
             contacts += [source.contact for source in skin]
@@ -169,7 +168,7 @@ class TorqueSources:
         )
 
     def _skinned(self, stated: Sequence[Contact]) -> list[Contact]:
-        """Links under skin that no stated contact is on: what touches them, sensors have to tell without skin."""
+        """Links under skin that no specified contact is on: their contacts are estimated from sensors without skin."""
         links = dict.fromkeys(patch.link for patch in force_patches(self.experiment) if patch.link is not None)
         return [Contact(link=link) for link in links if link not in {contact.link for contact in stated}]
 
@@ -296,7 +295,7 @@ class TorqueSources:
 
 
 def _unknown(contact: Contact) -> Contact:
-    """The same contact as the sensors see it: with a wrench that nobody knows."""
+    """The same contact as the sensors see it: with an unknown wrench."""
     if contact.type is not ContactType.KNOWN:
         return contact
     return Contact(link=contact.link, name=contact.name, link_H_contact=contact.link_H_contact)
@@ -309,7 +308,7 @@ def _errors(
     if noise is None or deviation is None:
         raise ExperimentError(
             f"{where}: expected {key}_noise and {key}_deviation, six standard deviations each in N and N m, to weigh "
-            "its torques against others; `forcetorque evaluate` tells errors of a sensor"
+            "its torques against others; `forcetorque evaluate` shows errors of a sensor"
         )
     return np.diag(noise**2), np.diag(deviation)
 

@@ -20,7 +20,7 @@ _FEWEST = 20
 """Samples per direction below which friction is not fitted."""
 
 _BLOCK_S = 1.0
-"""Length of the blocks whose means tell how long errors repeat themselves; s."""
+"""Length of the blocks whose means show how long errors repeat themselves; s."""
 
 _LEAST_SHARE = 0.1
 """Share of the residual variance that is the drive's at least, however noisy the trusted source says it is."""
@@ -51,7 +51,7 @@ class Friction(ArrayRecord):
     coefficients; part of their covariance; shape (4, s)."""
 
     def moves(self, velocity: FloatArray) -> BoolArray:
-        """Tell where the joint moves fast enough.
+        """Find the samples in which the joint moves fast enough.
 
         Args:
             velocity: Velocities; shape (n,); rad/s.
@@ -103,7 +103,7 @@ def fit_friction(
     """Fit friction where another source of the joint's torque is trusted.
 
     Least squares; the covariance of the coefficients counts samples as often as their errors are new, which the means
-    of blocks of a second tell, and holds what the lasting errors of the trusted source move them by.
+    of blocks of a second show, and holds what the lasting errors of the trusted source move them by.
 
     Args:
         joint: Name of the joint.
@@ -121,7 +121,7 @@ def fit_friction(
         The friction.
 
     Raises:
-        FitError: If the joint does not move both ways for long enough, or motions do not tell the terms apart.
+        FitError: If the joint does not move both ways for long enough, or motions do not separate the terms.
     """
     if not 0.0 < standstill < np.inf:
         raise FitError(f"joint {joint!r}: standstill: expected a positive speed in rad/s or m/s, got {standstill}")

@@ -160,11 +160,11 @@ def wrench_source(
 ) -> TorqueSource:
     """Estimate torques, and carry the errors of wrenches to them.
 
-    Torques that are not determined, as of a joint between two contacts that nobody knows, are left to other sources.
+    Torques that are not determined, as of a joint between two unknown contacts, are left to other sources.
 
     Args:
         name: Name of the source.
-        question: What is asked; its torques are those of the source, summed up inside sub-models.
+        question: What is estimated; its torques are those of the source, summed up inside sub-models.
         joints: Motion of the joints; n samples.
         root: Motion of the root link.
         stamp_ns: Instants; shape (n,); ns.
@@ -181,14 +181,14 @@ def wrench_source(
     Raises:
         EstimationError: If an error is of a wrench that is not given, or a covariance is none.
     """
-    answer = estimate_determined(question, joints, root, measured=measured, known=known, uncertainty=uncertainty)
-    lasting = np.nan_to_num(answer.torque_lasting)
-    noise = np.nan_to_num(answer.torque_covariance) - lasting @ lasting.transpose(0, 2, 1)
+    uncertain = estimate_determined(question, joints, root, measured=measured, known=known, uncertainty=uncertainty)
+    lasting = np.nan_to_num(uncertain.torque_lasting)
+    noise = np.nan_to_num(uncertain.torque_covariance) - lasting @ lasting.transpose(0, 2, 1)
     return TorqueSource(
         name=name,
         joints=question.torques,
         stamp_ns=stamp_ns,
-        torque=answer.torques,
+        torque=uncertain.torques,
         noise=noise + OWN_MODEL_SHARE * np.diag(model_deviation**2),
         lasting=lasting,
         noise_time_s=noise_time_s,

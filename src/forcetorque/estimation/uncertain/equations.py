@@ -37,7 +37,7 @@ class Scene:
     """What acts on which body, and what the bodies need."""
 
     question: Question
-    """What is asked."""
+    """What is estimated."""
     actors: Sequence[Actor]
     """What acts."""
     actions: Sequence[Action]
@@ -152,7 +152,7 @@ class Posterior:
     """What n samples of equations say; u unknowns, m errors."""
 
     unknowns: FloatArray
-    """The likeliest unknowns, the smallest where they cannot be told; shape (n, u)."""
+    """The likeliest unknowns, the smallest where they cannot be determined; shape (n, u)."""
     by_errors: FloatArray
     """How they follow errors; shape (n, u, m)."""
     errors: FloatArray
@@ -168,15 +168,15 @@ class Posterior:
     residual: FloatArray
     """What neither unknowns nor errors explain; shape (n, r)."""
 
-    def answers(self, rows: Affine) -> tuple[FloatArray, FloatArray]:
-        """Give answers that are linear in unknowns and errors.
+    def linear(self, rows: Affine) -> tuple[FloatArray, FloatArray]:
+        """Evaluate quantities that are linear in unknowns and errors.
 
         Args:
-            rows: The answers; shape (n, r).
+            rows: The quantities; shape (n, r).
 
         Returns:
             Means, shape (n, r), and what one standard deviation of each error leaves them wrong by, shape (n, r, m),
-            whose product with its transpose is their covariance; NaN where they depend on what cannot be told.
+            whose product with its transpose is their covariance; NaN where they depend on what cannot be determined.
         """
         mean = rows.constant + _times(rows.free, self.unknowns) + _times(rows.errors, self.errors)
         wrong = (rows.errors + rows.free @ self.by_errors) @ self.left

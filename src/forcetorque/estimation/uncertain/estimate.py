@@ -48,7 +48,7 @@ class UncertainEstimates:
     contact_covariance: FloatArray
     """Covariance of its error; shape (n, contacts, 6, 6)."""
     joints: tuple[str, ...]
-    """Joints whose torque was asked for."""
+    """Joints whose torque is estimated."""
     torques: FloatArray
     """What the motor does along +q; shape (n, joints); N m, N where prismatic."""
     torque_covariance: FloatArray
@@ -166,7 +166,7 @@ def estimate_with_covariance(
     than unknowns, what is surplus corrects readings and known wrenches, each as far as its covariance allows.
 
     Args:
-        question: What is asked; its torques are summed up inside sub-models (`TorqueSum.SUB_MODEL`).
+        question: What is estimated; its torques are summed up inside sub-models (`TorqueSum.SUB_MODEL`).
         joints: Motion of at least the joints that it depends on (`required_joints_of`); n samples.
         root: Motion of the root link's frame; one sample or n.
         measured: Readings of at least the sensors that the tree is cut at, in their frames and directions.
@@ -175,17 +175,17 @@ def estimate_with_covariance(
         uncertainty: What is not known of these; all is exact if None.
 
     Returns:
-        The answer.
+        The estimates.
 
     Raises:
         EstimationError: If a covariance is not one, inputs are missing, the question sums torques up otherwise, or
             something is determined in no sample; the message says along which forces.
     """
-    answer = estimate_determined(
+    uncertain = estimate_determined(
         question, joints, root, measured=measured, known=known, active=active, uncertainty=uncertainty
     )
-    _refuse_undetermined(answer)
-    return answer
+    _refuse_undetermined(uncertain)
+    return uncertain
 
 
 def estimate_determined(
@@ -201,7 +201,7 @@ def estimate_determined(
     """Estimate as `estimate_with_covariance` does what is determined, however little that is.
 
     Args:
-        question: What is asked; its torques are summed up inside sub-models (`TorqueSum.SUB_MODEL`).
+        question: What is estimated; its torques are summed up inside sub-models (`TorqueSum.SUB_MODEL`).
         joints: Motion of the joints; n samples.
         root: Motion of the root link's frame; one sample or n.
         measured: Readings of the sensors.
@@ -231,8 +231,8 @@ def _answer(question: Question, inputs: Inputs, uncertainty: Uncertainty, block:
     parts = inputs.needs.solved
     posterior = posterior_of(scene.equations(parts))
     n = len(posterior.rank)
-    wrenches, wrong = posterior.answers(scene.contact_rows())
-    torques, torques_wrong = posterior.answers(scene.torque_rows())
+    wrenches, wrong = posterior.linear(scene.contact_rows())
+    torques, torques_wrong = posterior.linear(scene.torque_rows())
     contacts = tuple(contact.name for contact in (*question.unknown, *question.known))
     wrong = wrong.reshape(n, len(contacts), 6, wrong.shape[2])
     return UncertainEstimates(
@@ -362,10 +362,10 @@ def _hidden_over(blocks: list[UncertainEstimates]) -> Iterator[Undetermined]:
         yield Undetermined(contacts=contacts, samples=np.concatenate(marks), directions=directions or ())
 
 
-def _refuse_undetermined(answer: UncertainEstimates) -> None:
+def _refuse_undetermined(uncertain: UncertainEstimates) -> None:
     """Refuse where no sample is determined; where some are, the others are NaN."""
-    if len(answer) and not answer.determined.any():
-        words = "; ".join(one.sentence for one in answer.undetermined)
+    if len(uncertain) and not uncertain.determined.any():
+        words = "; ".join(one.sentence for one in uncertain.undetermined)
         raise EstimationError(
             f"{words}; take a contact away or make it a pure force, state the friction of skin contacts, or measure "
             "with one more sensor in between"

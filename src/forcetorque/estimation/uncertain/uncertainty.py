@@ -17,7 +17,7 @@ from forcetorque.robot.mechanics.question import Question
 
 SLIPPING: Final = 1.0 / np.sqrt(2.0)
 """Standard deviation of each tangential component, over friction coefficient times normal force, of a contact that
-slips in a direction that nobody knows: the most that friction allows, so a contact that holds is covered too."""
+slips in an unknown direction: the most that friction allows, so a contact that holds is covered too."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -62,7 +62,7 @@ class Uncertainty:
 
 
 def tangent_maps(points: FloatArray, normals: FloatArray) -> FloatArray:
-    """Say what tangential forces at points do.
+    """Compute the effect of tangential forces at points.
 
     Args:
         points: Where they act; NaN where nothing touches; shape (n, 3); m.
@@ -200,7 +200,7 @@ def actors_of(
 
 
 def actions_of(question: Question, poses: Mapping[int, FloatArray]) -> Iterator[Action]:
-    """Say what the actors do to which body: a sensor acts on what is outboard of it, and against what is inboard.
+    """Give the actions of the actors on bodies: a sensor acts on its outboard side, and against its inboard side.
 
     Args:
         question: The question.

@@ -12,8 +12,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import transform_wrench
-from forcetorque.estimation.clock_stream import clock_stream
-from forcetorque.estimation.estimate import IntervalQuestion
+from forcetorque.estimation.estimate import IntervalProblem
+from forcetorque.estimation.skin_contacts import clock_stream
 from forcetorque.experiment.applicability import one_per_sensor, overlapping
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
@@ -42,17 +42,17 @@ class NetContact:
     Upright axes have z against gravity, and x is the x axis of the support frame made level.
     """
 
-    asked: IntervalQuestion
-    """What is asked of the sensors; n samples."""
+    problem: IntervalProblem
+    """The estimation of its contacts; n samples."""
     upright_R_support: FloatArray
-    """Rotation from the support frame to upright axes; shape (3, 3), or (n, 3, 3) where an IMU tells gravity."""
+    """Rotation from the support frame to upright axes; shape (3, 3), or (n, 3, 3) where an IMU measures gravity."""
     demanded: FloatArray | None
     """Wrench that all contacts must have together for the robot to move as it does, upright, about the origin of the
     support frame; shape (n, 6); N, N m; None where a joint that it depends on is in no stream."""
 
     @classmethod
     def of(cls, experiment: Experiment, interval: Interval) -> NetContact:
-        """Ask what touches over an interval.
+        """Set up the estimation of contacts over an interval.
 
         Args:
             experiment: The experiment.
@@ -62,25 +62,25 @@ class NetContact:
             Its links.
 
         Raises:
-            ExperimentError: If a contact that is named cannot be told from the sensors, or two links that touch move
-                against each other.
+            ExperimentError: If a contact that is named is not identifiable from the sensors, or two links that touch
+                move against each other.
         """
         samples = padded_samples(experiment.recording, clock_stream(experiment), interval, None)
-        asked = IntervalQuestion.of(experiment, interval, samples, experiment.contacts, asked=True)
-        net = cls(asked=asked, upright_R_support=_upright(asked), demanded=None)
+        problem = IntervalProblem.of(experiment, interval, samples, experiment.contacts, only_named=True)
+        net = cls(problem=problem, upright_R_support=_upright(problem), demanded=None)
         net._refuse_slip()
-        demanded = _demanded(asked)
+        demanded = _demanded(problem)
         return net if demanded is None else replace(net, demanded=net._upright(demanded))
 
     @property
     def touching(self) -> tuple[str, ...]:
         """Names of the contacts."""
-        return tuple(contact.name for contact in self.asked.question.contacts)
+        return tuple(contact.name for contact in self.problem.question.contacts)
 
     @property
     def time_s(self) -> FloatArray:
         """Instants since the start of the recording; shape (n,); s."""
-        return seconds_since(self.asked.samples.stamp_ns, self.asked.experiment.recording.start_ns)
+        return seconds_since(self.problem.samples.stamp_ns, self.problem.experiment.recording.start_ns)
 
     def wrench(self, measured: Wrenches) -> FloatArray:
         """Add up what the contacts bear.
@@ -108,13 +108,13 @@ class NetContact:
         }
 
     def leans_deg(self) -> dict[str, float]:
-        """Tell how far links that are stated to stand on level ground lean by the joints.
+        """Compute the lean by the joints of links that are specified to stand on level ground.
 
         Returns:
             Angle by name of the contact, in the mean; deg.
         """
         leans = {}
-        for contact in self.asked.question.contacts:
+        for contact in self.problem.question.contacts:
             lean = self._lean(contact)
             if lean is not None:
                 cosine = 0.5 * (np.trace(lean, axis1=1, axis2=2) - 1.0)
@@ -130,7 +130,7 @@ class NetContact:
         Returns:
             Norm of the mean force by sensor at the base of the part; N.
         """
-        question, estimates = self.asked.question, self.asked.estimates(measured)
+        question, estimates = self.problem.question, self.problem.estimates(measured)
         touched = {part.name for part in question.parts if question.unknown_in(part)}
         return {
             name: float(np.linalg.norm(np.nanmean(estimates.residual_of(name)[:, :3], axis=0)))
@@ -138,40 +138,40 @@ class NetContact:
             if name not in touched
         }
 
-    def answers(self, row: int) -> FloatArray:
-        """Tell how the net wrench answers the readings at one instant.
+    def sensitivity(self, row: int) -> FloatArray:
+        """Compute the sensitivity of the net wrench to the measurements at one instant.
 
         Args:
-            row: Place of the instant.
+            row: Index of the instant.
 
         Returns:
             Change of the net wrench per change of the reading of each sensor; shape (6, sensors, 6); the unit of a
             component over that of a component.
         """
-        names = [sensor.name for sensor in self.asked.experiment.sensors]
+        names = [sensor.name for sensor in self.problem.experiment.sensors]
         count = 6 * len(names) + 1
         steps = np.concatenate([np.zeros((1, 6 * len(names))), np.eye(6 * len(names))]).reshape(count, -1, 6)
         rows = np.full(count, row)
-        root = self.asked.root
-        one = replace(
-            self.asked,
-            joints=self.asked.joints.samples(rows),
+        root, known = self.problem.root, self.problem.known
+        repeated = replace(
+            self.problem,
+            joints=self.problem.joints.samples(rows),
             root=root if root.proper_acceleration.ndim == 1 else root.samples(rows),
-            known=None if self.asked.known is None else replace(self.asked.known, values=self.asked.known.values[rows]),
+            known=None if known is None else replace(known, values=known.values[rows]),
         )
         upright = self.upright_R_support if self.upright_R_support.ndim == 2 else self.upright_R_support[rows]
-        net = replace(self, asked=one, upright_R_support=upright)
+        net = replace(self, problem=repeated, upright_R_support=upright)
         wrench = net.wrench(Wrenches(names=tuple(names), values=steps))
         return np.moveaxis((wrench[1:] - wrench[0]).reshape(len(names), 6, 6), -1, 0)
 
     def _by_contact(self, measured: Wrenches) -> dict[str, FloatArray]:
         """What each contact bears, in the support frame about its origin; shape (n, 6) by name."""
-        asked, estimates = self.asked, self.asked.estimates(measured)
+        problem, estimates = self.problem, self.problem.estimates(measured)
         wrenches = {}
-        for contact in asked.question.contacts:
-            known = asked.known is not None and contact.name in asked.known.names
-            own = asked.known.of_name(contact.name) if known and asked.known else estimates.contact(contact.name)
-            root_H_contact = link_pose(asked.question.tree, asked.joints, contact.link) @ contact.link_H_contact
+        for contact in problem.question.contacts:
+            known = problem.known is not None and contact.name in problem.known.names
+            own = problem.known.of_name(contact.name) if known and problem.known else estimates.contact(contact.name)
+            root_H_contact = link_pose(problem.question.tree, problem.joints, contact.link) @ contact.link_H_contact
             lean = self._lean(contact)
             if lean is not None:
                 root_H_contact[:, :3, :3] = np.swapaxes(lean, 1, 2) @ root_H_contact[:, :3, :3]
@@ -180,13 +180,13 @@ class NetContact:
 
     def _lean(self, contact: Contact) -> FloatArray | None:
         """Rotation from where level ground must have a link to where the joints have it; (n, 3, 3); None if unknown."""
-        asked = self.asked
-        tree = asked.question.tree
-        stated = next((one for one in asked.experiment.supports if one.frame == contact.link), None)
+        problem = self.problem
+        tree = problem.question.tree
+        stated = next((one for one in problem.experiment.supports if one.frame == contact.link), None)
         if stated is None or contact.link == tree.root_link:
             return None
-        up = np.broadcast_to(self.upright_R_support[..., 2, :], (len(asked.joints), 3))
-        leaning = link_pose(tree, asked.joints, contact.link)[:, :3, :3] @ -stated.gravity_direction
+        up = np.broadcast_to(self.upright_R_support[..., 2, :], (len(problem.joints), 3))
+        leaning = link_pose(tree, problem.joints, contact.link)[:, :3, :3] @ -stated.gravity_direction
         return _shortest_rotation(up, leaning)
 
     def _upright(self, wrench: FloatArray) -> FloatArray:
@@ -195,17 +195,17 @@ class NetContact:
         return np.concatenate(list(parts), axis=1)
 
     def _refuse_slip(self) -> None:
-        asked = self.asked
-        if not isinstance(asked.interval.support, Support):
-            return  # an IMU tells how the robot moves, whatever its feet do
-        for contact in asked.question.contacts:
-            place = link_pose(asked.question.tree, asked.joints, contact.link)[:, :3, 3]
+        problem = self.problem
+        if not isinstance(problem.interval.support, Support):
+            return  # an IMU measures how the robot moves, independently of its feet
+        for contact in problem.question.contacts:
+            place = link_pose(problem.question.tree, problem.joints, contact.link)[:, :3, 3]
             travel = float(np.nanmax(np.linalg.norm(place - np.nanmedian(place, axis=0), axis=1)))
             if travel > SLIP_M:
                 raise ExperimentError(
-                    f"interval {asked.interval.label!r}: {asked.interval.support.frame} and {contact.name} both touch, "
-                    f"but move by {travel * 1e3:.0f} mm against each other, so that not both stand still; name both in "
-                    "touched, with an IMU in the recording, or end the interval where the robot moves"
+                    f"interval {problem.interval.label!r}: {problem.interval.support.frame} and {contact.name} both "
+                    f"touch, but move by {travel * 1e3:.0f} mm against each other, so that not both stand still; "
+                    "name both in touched, with an IMU in the recording, or end the interval where the robot moves"
                 )
 
 
@@ -215,12 +215,12 @@ def _shortest_rotation(start: FloatArray, end: FloatArray) -> FloatArray:
     return np.eye(3) + axis + axis @ axis / (1.0 + cosine)[:, None, None]
 
 
-def _upright(asked: IntervalQuestion) -> FloatArray:
+def _upright(problem: IntervalProblem) -> FloatArray:
     """Rotation from the support frame to upright axes; shape (3, 3) or (n, 3, 3)."""
-    frame = asked.question.tree.root_link
-    # a level ground that the file states is known better than an accelerometer tells it
-    stated = next((one for one in asked.experiment.supports if one.frame == frame), None)
-    up = asked.root.proper_acceleration if stated is None else -stated.gravity_direction
+    frame = problem.question.tree.root_link
+    # a level ground that the file states is known better than an accelerometer shows it
+    stated = next((one for one in problem.experiment.supports if one.frame == frame), None)
+    up = problem.root.proper_acceleration if stated is None else -stated.gravity_direction
     z = up / np.linalg.norm(up, axis=-1, keepdims=True)
     # the x axis of the frame gives the heading; where it stands upright, less its z axis
     heading = np.array([1.0, 0.0, 0.0]) if np.nanmean(np.abs(z[..., 0])) < 0.9 else np.array([0.0, 0.0, -1.0])
@@ -229,9 +229,9 @@ def _upright(asked: IntervalQuestion) -> FloatArray:
     return np.stack([x, np.cross(z, x), z], axis=-2)
 
 
-def _demanded(asked: IntervalQuestion) -> FloatArray | None:
+def _demanded(problem: IntervalProblem) -> FloatArray | None:
     """What one contact at the support would have to bear, in its frame; shape (n, 6)."""
-    experiment, support, tree = asked.experiment, asked.interval.support, asked.question.tree
+    experiment, support, tree = problem.experiment, problem.interval.support, problem.question.tree
     question = Question(tree=tree, contacts=(Contact(link=tree.root_link),), equations=())
     needed = required_joints_of(question)
     if support is None or not set(needed) <= set(experiment.recording.joint_signals("position")):
@@ -242,7 +242,7 @@ def _demanded(asked: IntervalQuestion) -> FloatArray | None:
         support,
         needed,
         clock_stream(experiment),
-        asked.samples.stamp_ns,
+        problem.samples.stamp_ns,
         processing=experiment.processing,
     )
     return estimate(question, joints, root).contact_wrenches[:, 0]
@@ -268,7 +268,7 @@ class Reader:
     """Calibration intervals of the experiment."""
 
     def evidence(self, experiment: Experiment, interval: Interval) -> bool:
-        """Tell whether neither offset nor matrix come from a phase.
+        """Check whether neither offset nor matrix come from a phase.
 
         Args:
             experiment: The experiment.
@@ -342,8 +342,8 @@ LEAN_DEG = 0.5
 robot of 30 kg it makes 1.3 N."""
 
 
-def contact_doubts(phases: Sequence[NetContact], readers: Sequence[Reader], weight: float) -> list[str]:
-    """Refuse links that are said to touch and do not, or the other way round, whatever reads them.
+def contact_warnings(phases: Sequence[NetContact], readers: Sequence[Reader], weight: float) -> list[str]:
+    """Refuse links that are said to touch and do not, or the other way round, independently of the calibrations.
 
     Args:
         phases: The phases.
@@ -351,15 +351,15 @@ def contact_doubts(phases: Sequence[NetContact], readers: Sequence[Reader], weig
         weight: Weight of the robot; N.
 
     Returns:
-        What is doubtful of who touches, in words.
+        Warnings about contacts.
 
     Raises:
         ExperimentError: If a link that is said to touch bears nothing, or one that is not bears the robot.
     """
-    doubts = []
+    warnings = []
     for phase in phases:
-        measured: list[Wrenches] = [phase.asked.measured(reader.corrections) for reader in readers]
-        label = phase.asked.interval.label
+        measured: list[Wrenches] = [phase.problem.measured(reader.corrections) for reader in readers]
+        label = phase.problem.interval.label
         borne = [phase.forces(one) for one in measured]
         for name in borne[0] if borne else ():
             most = max(abs(forces[name]) for forces in borne)
@@ -379,12 +379,12 @@ def contact_doubts(phases: Sequence[NetContact], readers: Sequence[Reader], weig
             if least > BEARING_SHARE * weight:
                 raise ExperimentError(f"{words}; name both feet in touched, or the other in [[contact]]")
             if least > DOUBT_SHARE * weight:
-                doubts.append(f"{words}: a sensor errs by as much, or another link touches")
-    return doubts
+                warnings.append(f"{words}: a sensor errs by as much, or another link touches")
+    return warnings
 
 
 def leans(phases: Sequence[NetContact]) -> Iterator[str]:
-    """Say which links stand on level ground and lean by the joints.
+    """Give warnings about links that stand on level ground and lean by the joints.
 
     Args:
         phases: The phases.
@@ -396,13 +396,13 @@ def leans(phases: Sequence[NetContact]) -> Iterator[str]:
         for name, angle in phase.leans_deg().items():
             if angle > LEAN_DEG:
                 yield (
-                    f"interval {phase.asked.interval.label!r}: by the joints {name} leans by {angle:.1f} deg against "
+                    f"interval {phase.problem.interval.label!r}: by the joints {name} leans by {angle:.1f} deg against "
                     "the level ground that [[support]] states; its force is taken upright by what is stated"
                 )
 
 
-def reading_doubts(readers: Sequence[Reader], summary: Sequence[CoherenceSummary]) -> Iterator[str]:
-    """Say what makes readings doubtful, and which candidates err more than the prior.
+def measurement_warnings(readers: Sequence[Reader], summary: Sequence[CoherenceSummary]) -> Iterator[str]:
+    """Give warnings about measurements, and about calibrations under test that err more than the prior matrix.
 
     Args:
         readers: All that read the sensors.
@@ -417,7 +417,7 @@ def reading_doubts(readers: Sequence[Reader], summary: Sequence[CoherenceSummary
             yield f"{candidate}: has no calibration of {', '.join(sensors)}, which the prior reads here too"
     for reader in readers:
         if reader.policy.offset is Offset.NONE and reader.candidate == PRIOR:
-            yield "offset none: no offset removed, so that the errors hold whatever offsets the sensors have"
+            yield "offset none: no offset removed, so that the errors include the offsets of the sensors"
         if reader.policy.offset is Offset.FITTED:
             for sensor, correction in reader.corrections.items():
                 if not correction.removes_offset:

@@ -24,10 +24,10 @@ from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
 from forcetorque.locomotion.net_force.net_contact import (
     NetContact,
     Reader,
-    contact_doubts,
+    contact_warnings,
     leans,
+    measurement_warnings,
     readers_of,
-    reading_doubts,
 )
 from forcetorque.locomotion.net_force.result import Coherence, CoherenceSummary, OffsetOfSensor, PhaseForce, ThreeOrNull
 from forcetorque.recording.recording import Interval, MovingSupport, Use
@@ -47,7 +47,7 @@ def coherence(
         experiment: The experiment; every interval that is not to be ignored is a phase, in which its support, or the
             links that it names as touched, and its contacts touch the world.
         candidates: By name of the candidate its calibrations by name of their file, at most one for each sensor; what
-            has none is read by the prior of the experiment. The prior is always judged.
+            has none is read by the prior of the experiment. The prior is always evaluated.
         offsets: Where the offsets come from, in turn; from the first phase in which one link alone is touched if none
             is named.
 
@@ -56,7 +56,7 @@ def coherence(
 
     Raises:
         ExperimentError: If there is no phase, a link that is said to touch bears nothing, one that is not bears the
-            robot, or an offset cannot be told.
+            robot, or an offset cannot be determined.
         FitError: If an offset has too few samples.
     """
     phases = [NetContact.of(experiment, interval) for interval in _phases(experiment)]
@@ -70,7 +70,9 @@ def coherence(
             )
     readers = [reader for policy in policies for reader in readers_of(experiment, candidates or {}, policy)]
     rows = [row for reader in readers for row in _rows(experiment, reader, phases, weight)]
-    doubts = contact_doubts(phases, [reader for reader in readers if reader.policy.offset is not Offset.NONE], weight)
+    warnings = contact_warnings(
+        phases, [reader for reader in readers if reader.policy.offset is not Offset.NONE], weight
+    )
     summary = tuple(_summary(rows))
     return Coherence(
         experiment=experiment.name,
@@ -79,7 +81,7 @@ def coherence(
         rows=tuple(sorted(rows, key=lambda row: _order(row, policies, phases))),
         offsets=tuple(row for reader in readers for row in _offset_rows(reader)),
         summary=summary,
-        warnings=(*doubts, *leans(phases), *reading_doubts(readers, summary)),
+        warnings=(*warnings, *leans(phases), *measurement_warnings(readers, summary)),
     )
 
 
@@ -124,12 +126,12 @@ def _default_policy(experiment: Experiment) -> OffsetPolicy:
 def _rows(experiment: Experiment, reader: Reader, phases: Sequence[NetContact], weight: float) -> Iterator[PhaseForce]:
     moments_known = not any(offset.not_logged for offset in reader.offsets.values())
     for phase in phases:
-        wrench = phase.wrench(phase.asked.measured(reader.corrections))
+        wrench = phase.wrench(phase.problem.measured(reader.corrections))
         error = np.concatenate([force_error(wrench[:, :3], weight), _moment_error(phase, wrench)], axis=1)
         # where moments are not known their columns are no gaps
         columns = 6 if moments_known and phase.demanded is not None else 3
         whole = np.isfinite(error[:, :columns]).all(axis=1)
-        label = phase.asked.interval.label
+        label = phase.problem.interval.label
         if not whole.any():
             raise ExperimentError(f"interval {label!r}: expected a sample in which all sensors read, got none")
         error = error[whole, :columns]
@@ -154,7 +156,7 @@ def _rows(experiment: Experiment, reader: Reader, phases: Sequence[NetContact], 
             moment_deviation_Nm=_axes(samples.deviation[3:]) if columns == 6 else None,
             moment_smallest_Nm=samples.smallest[3:] if columns == 6 else None,
             moment_largest_Nm=samples.largest[3:] if columns == 6 else None,
-            evidence=reader.evidence(experiment, phase.asked.interval),
+            evidence=reader.evidence(experiment, phase.problem.interval),
         )
 
 
@@ -171,16 +173,16 @@ def _offset_half_width(experiment: Experiment, reader: Reader, phase: NetContact
     """What the intervals of the offsets make of the net wrench at one instant; shape (6,)."""
     if not reader.offsets:
         return np.zeros(6)
-    answers = phase.answers(row)
+    sensitivity = phase.sensitivity(row)
     if phase.demanded is not None:
         force, moment = phase.demanded[row, :3], phase.demanded[row, 3:]
         point = np.array([-moment[1], moment[0], 0.0]) / force[2]
-        answers[3:] -= np.cross(point, answers[:3].reshape(3, -1), axisb=0).T.reshape(answers[:3].shape)
+        sensitivity[3:] -= np.cross(point, sensitivity[:3].reshape(3, -1), axisb=0).T.reshape(sensitivity[:3].shape)
     squares = np.zeros(6)
     for k, sensor in enumerate(experiment.sensors):
         if sensor.name in reader.offsets:
             half = reader.offsets[sensor.name].estimate.half_width
-            gain = answers[:, k]
+            gain = sensitivity[:, k]
             squares += (np.where(np.abs(gain) > 1e-12, gain * half, 0.0) ** 2).sum(axis=1)
     return np.sqrt(squares)
 
@@ -229,5 +231,5 @@ def _summary(rows: Sequence[PhaseForce]) -> Iterator[CoherenceSummary]:
 
 def _order(row: PhaseForce, policies: Sequence[OffsetPolicy], phases: Sequence[NetContact]) -> tuple[int, int]:
     """By offset, then by phase; candidates stay as they come."""
-    labels = [phase.asked.interval.label for phase in phases]
+    labels = [phase.problem.interval.label for phase in phases]
     return policies.index(OffsetPolicy(row.offset, row.offset_interval)), labels.index(row.phase)

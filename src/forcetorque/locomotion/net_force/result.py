@@ -60,7 +60,7 @@ class PhaseForce(Row):
     moment_largest_Nm: AxisValues | None
     """Largest error of a sample, with its sign."""
     evidence: bool
-    """Whether the phase tells anything: in one that gave the offset, or the matrix, the error is near zero by
+    """Whether the phase carries information: in one that gave the offset, or the matrix, the error is near zero by
     construction."""
 
 
@@ -82,7 +82,7 @@ class OffsetOfSensor(Row):
     value: WrenchValues
     """To be added; N, N m; zero for moments that are not known."""
     half_width_95: WrenchValues | None
-    """Half-width of its 95 % interval; null where it cannot be told."""
+    """Half-width of its 95 % interval; null where it cannot be determined."""
     moments_known: bool
     """Whether the log holds all joints that the moments depend on."""
 
@@ -143,7 +143,8 @@ class Coherence(Result):
             "F: mean net contact force, z up; E: F less (0, 0, weight), ± half a 95 % interval of the mean where the "
             "phase is stationary noise (without ± it bears the error of the offset too); M: error of the net moment "
             f"about the ground below the centre of mass. {NOT_EVIDENCE}: the phase gave offset or matrix, so its error "
-            "is near zero by construction. Forces of one foot against the other cancel in F: their size is not judged."
+            "is near zero by construction. Forces of one foot against the other cancel in F: their size is not "
+            "evaluated."
         )
         if self.figure is not None:
             yield f"errors drawn to {self.figure}"

@@ -17,7 +17,7 @@ from forcetorque.locomotion.oscillation.spectrum import (
     LEAST_CYCLES,
     Candidate,
     ComplexArray,
-    EvenedSignal,
+    ResampledSignal,
     Sensitivity,
     growth_pattern,
     pieces,
@@ -27,8 +27,11 @@ from forcetorque.locomotion.oscillation.spectrum import (
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TaperedSwings:
-    """Swings of one record; the shape of one is its cycles per record, and the growth of its logarithm per record."""
+class TaperedOscillations:
+    """Oscillations of one record, tapered.
+
+    The shape of one is its cycles per record, and the growth of its logarithm per record.
+    """
 
     place: FloatArray
     """Where the samples are, from the middle of the record; shape (n,); records."""
@@ -51,7 +54,7 @@ class TaperedSwings:
         return cls(place=place, carrier=carrier)
 
     def seen(self, signals: FloatArray) -> FloatArray:
-        """Tell what the tapers see of signals.
+        """Compute the coefficients of signals under the tapers.
 
         Args:
             signals: Signals; shape (n, ...).
@@ -78,7 +81,7 @@ class TaperedSwings:
         return detrend(np.column_stack([envelope * np.cos(angle), envelope * np.sin(angle)]), axis=0)
 
     def columns(self, shape: Any) -> FloatArray:
-        """Tell what the tapers see of these two.
+        """Compute the coefficients of these two under the tapers.
 
         Args:
             shape: Cycles and growth.
@@ -97,15 +100,15 @@ _STEP = 1e-4
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Oscillation(ArrayRecord):
-    """A swing, over the whole record or in parts of it."""
+    """An oscillation, over the whole record or in parts of it."""
 
     frequency_hz: float
     """Frequency; Hz."""
     amplitude: float
-    """Amplitude of a steady swing with the same mean square; half of peak to peak; in the unit of the signal."""
+    """Amplitude of a steady oscillation with the same mean square; half of peak to peak; in the unit of the signal."""
     damping: float
-    """Damping ratio, decay over angular frequency; 0 of a steady swing, below 0 of one that grows; NaN of one that does
-    not keep its phase over the whole record."""
+    """Damping ratio, decay over angular frequency; 0 of a steady oscillation, below 0 of one that grows; NaN of one
+    that does not keep its phase over the whole record."""
     standard_error: FloatArray = field(metadata=array(3))
     """Of frequency, amplitude and damping; shape (3,)."""
     degrees_of_freedom: int
@@ -124,7 +127,7 @@ class Oscillation(ArrayRecord):
 
 
 def fit_oscillation(values: FloatArray, rate_hz: float, candidate: Candidate) -> Oscillation:
-    """Fit a swing about a candidate that keeps its phase over the whole record.
+    """Fit an oscillation about a candidate that keeps its phase over the whole record.
 
     Args:
         values: The signal without mean and trend; shape (n,).
@@ -134,7 +137,7 @@ def fit_oscillation(values: FloatArray, rate_hz: float, candidate: Candidate) ->
     Returns:
         The oscillation.
     """
-    swings = TaperedSwings.about(candidate, len(values))
+    swings = TaperedOscillations.about(candidate, len(values))
     data = swings.seen(values)
     shape, squares = _closest_shape(swings, data, candidate)
     columns = swings.columns(shape)
@@ -162,8 +165,8 @@ def fit_oscillation(values: FloatArray, rate_hz: float, candidate: Candidate) ->
     )
 
 
-def _closest_shape(swings: TaperedSwings, data: FloatArray, candidate: Candidate) -> tuple[FloatArray, float]:
-    """Cycles and growth of the swing nearest to the data, and the sum of squares that it leaves."""
+def _closest_shape(swings: TaperedOscillations, data: FloatArray, candidate: Candidate) -> tuple[FloatArray, float]:
+    """Cycles and growth of the oscillation nearest to the data, and the sum of squares that it leaves."""
     from scipy.optimize import least_squares  # here because importing it takes longer than most commands
 
     def residual(shape: Any) -> FloatArray:
@@ -210,7 +213,7 @@ _CYCLE_STEP = 0.05
 
 
 def fit_wandering(values: FloatArray, rate_hz: float, candidate: Candidate) -> Oscillation:
-    """Fit a swing in parts about a candidate.
+    """Fit an oscillation in parts about a candidate.
 
     The error of the frequency is that of the noise, or by how much parts disagree where that is more. The amplitude is
     that of what keeps its phase within parts; its interval is by how much parts differ, and reaches at least to what
@@ -275,7 +278,7 @@ class _Parts:
         return np.asarray(self.pieces @ (self.tapers * np.exp(-2j * np.pi * cycles * self.place)).T)
 
     def explained(self, cycles: float) -> FloatArray:
-        """Power of each part that a swing which keeps its phase within it explains; shape (parts,)."""
+        """Power of each part that an oscillation which keeps its phase within it explains; shape (parts,)."""
         return np.abs(self.numbers(cycles) @ self.steady) ** 2 / self.size
 
     def strongest(self, about: float) -> float:
@@ -295,9 +298,9 @@ class _Parts:
 
 
 MOST_OSCILLATIONS = 3
-"""Oscillations that are told apart."""
+"""Oscillations that are separated."""
 LEAST_SHARE = 0.1
-"""Part of the largest amplitude below which others are not told: no swing of a robot is a pure sine."""
+"""Part of the largest amplitude below which others are not determined: no oscillation of a robot is a pure sine."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -322,13 +325,13 @@ class OscillationSearch:
             frequency_hz: Frequency; Hz.
 
         Returns:
-            Amplitude of a steady swing that is seen with the probability `POWER`.
+            Amplitude of a steady oscillation that is seen with the probability `POWER`.
         """
         known = self.sensitivity
         return float(np.interp(frequency_hz * self.duration_s, known.cycles, known.amplitude))
 
 
-def find_oscillations(signal: EvenedSignal, *, name: str) -> OscillationSearch:
+def find_oscillations(signal: ResampledSignal, *, name: str) -> OscillationSearch:
     """Find what swings in a signal.
 
     Args:
@@ -336,7 +339,7 @@ def find_oscillations(signal: EvenedSignal, *, name: str) -> OscillationSearch:
         name: What it is, for messages.
 
     Returns:
-        Oscillations that stand out of the noise, whatever its colour; of records of noise about 2 % seem to swing.
+        Oscillations that stand out of the noise, of any colour; of records of noise about 2 % seem to oscillate.
 
     Raises:
         RecordingError: If it is too short for a period, or its clock too uneven.
@@ -348,8 +351,8 @@ def find_oscillations(signal: EvenedSignal, *, name: str) -> OscillationSearch:
     highest = min(signal.highest_hz * duration, 0.5 * len(signal.values) - FAMILIES[-1].half_bandwidth)
     if highest <= LEAST_CYCLES:
         raise RecordingError(
-            f"{name}: expected a time of at least {LEAST_CYCLES:g} periods of the fastest swing that its clock shows, "
-            f"got {duration:.3g} s of samples that are up to {signal.longest_step_s:.3g} s apart, which show "
+            f"{name}: expected a time of at least {LEAST_CYCLES:g} periods of the fastest oscillation that its clock "
+            f"shows, got {duration:.3g} s of samples that are up to {signal.longest_step_s:.3g} s apart, which show "
             f"{signal.highest_hz:.3g} Hz at most; record longer or without pauses"
         )
     left = np.asarray(detrend(signal.values), dtype=np.float64)

@@ -2,8 +2,8 @@
 """Spectra of a resampled signal by several tapers, and where it oscillates more than its noise by chance.
 
 Whatever colour noise has, within the narrow band of the tapers it is white, so that what an oscillation's pattern
-leaves of their numbers is the noise that the pattern itself is told with [1]. Nothing needs to be known of the noise
-elsewhere.
+leaves of their numbers is the noise that the pattern itself is determined with [1]. Nothing needs to be known of the
+noise elsewhere.
 
 At every frequency the share that an oscillation explains of the tapers' numbers is held against what noise would give
 it (Thomson's F test), for oscillations that stay, grow or die. One that comes and goes, or whose phase wanders, does
@@ -38,7 +38,7 @@ LEAST_SAMPLES = 32
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class EvenedSignal(ArrayRecord):
+class ResampledSignal(ArrayRecord):
     """One signal at even instants."""
 
     start_s: float
@@ -48,7 +48,7 @@ class EvenedSignal(ArrayRecord):
     values: FloatArray = field(metadata=array(None))
     """Samples; shape (n,)."""
     highest_hz: float
-    """Frequency up to which it tells of vibrations: half of the rate, less where the clock is uneven; Hz."""
+    """Frequency up to which it shows vibrations: half of the rate, less where the clock is uneven; Hz."""
     longest_step_s: float
     """Longest time between samples that were taken; s."""
     even: bool
@@ -65,7 +65,7 @@ class EvenedSignal(ArrayRecord):
         return self.start_s + np.arange(len(self.values)) / self.rate_hz
 
 
-def evened(time_s: Any, values: Any, *, name: str) -> EvenedSignal:
+def resampled(time_s: Any, values: Any, *, name: str) -> ResampledSignal:
     """Bring a signal to even instants.
 
     Samples that are even, as `even_record` takes them for, stay as they are. Others are read off straight lines at the
@@ -106,7 +106,7 @@ def evened(time_s: Any, values: Any, *, name: str) -> EvenedSignal:
     except RecordingError:
         rate = (len(time) - 1) / float(time[-1] - time[0])
         grid = time[0] + np.arange(len(time)) / rate
-        return EvenedSignal(
+        return ResampledSignal(
             start_s=float(time[0]),
             rate_hz=rate,
             values=np.interp(grid, time, signal),
@@ -114,7 +114,7 @@ def evened(time_s: Any, values: Any, *, name: str) -> EvenedSignal:
             longest_step_s=longest,
             even=False,
         )
-    return EvenedSignal(
+    return ResampledSignal(
         start_s=record.start_s,
         rate_hz=record.rate_hz,
         values=signal,
@@ -170,7 +170,7 @@ FAMILIES = (
     TaperFamily(half_bandwidth=3, count=5, from_cycles=3.3),
     TaperFamily(half_bandwidth=5, count=8, from_cycles=7.0),
 )
-"""Few cycles are told with a narrow band, which knows the noise less well."""
+"""Few cycles are determined with a narrow band, which knows the noise less well."""
 LEAST_CYCLES = FAMILIES[0].from_cycles
 """Cycles that a record must hold of an oscillation."""
 
@@ -195,7 +195,7 @@ def tapered_spectrum(values: FloatArray, tapers: FloatArray) -> tuple[FloatArray
 
 
 def growth_pattern(tapers: FloatArray, growth: float) -> FloatArray:
-    """Give what a swing of unit amplitude in the middle, growing evenly, is under every taper at its own frequency.
+    """Give an evenly growing oscillation of unit amplitude in the middle, under every taper at its own frequency.
 
     Args:
         tapers: Shape (k, n).
@@ -210,36 +210,36 @@ def growth_pattern(tapers: FloatArray, growth: float) -> FloatArray:
 
 
 CHANCE = 1e-3
-"""Weighed p-value below which a swing is one. Several growths and dense frequencies are looked at, which makes of it
-about 2 % of records of noise that seem to swing."""
+"""Weighed p-value below which an oscillation is one. Several growths and dense frequencies are looked at, which makes
+of it about 2 % of records of noise that seem to oscillate."""
 PARTS = (1, 2, 4, 8, 16, 32)
-"""Parts of the record within which a swing may keep its phase."""
+"""Parts of the record within which an oscillation may keep its phase."""
 GROWTHS = (0.0, 1.5, -1.5, 3.0, -3.0, 6.0, -6.0)
 """Logarithms of amplitude at the end over the start that are tried; a single step or spike looks like larger ones."""
 _LEAST_PIECE = 64
 """Samples of a part."""
 _LEAST_RANGE = 30.0
-"""Cycles from the lowest to the highest frequency that tell how noise comes and goes."""
+"""Cycles from the lowest to the highest frequency that show how noise comes and goes."""
 _GRID = 50
-"""p-values at which the size of a swing is computed that passes the test."""
+"""p-values at which the size of an oscillation is computed that passes the test."""
 POWER = 0.95
-"""Probability with which a swing of the stated size is seen."""
+"""Probability with which an oscillation of the given size is seen."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Candidate:
-    """The frequency at which a swing is least likely to be noise."""
+    """The frequency at which an oscillation is least likely to be noise."""
 
     cycles: float
     """Cycles in the record."""
     parts: int
     """Parts of the record in which it keeps its phase."""
     growth: float
-    """Logarithm of the amplitude at the end over that at the start; 0 of a swing in parts."""
+    """Logarithm of the amplitude at the end over that at the start; 0 of an oscillation in parts."""
     chance: float
     """Its weighed p-value."""
     family: TaperFamily
-    """Tapers that tell."""
+    """Tapers that carry information."""
 
     @property
     def stands_out(self) -> bool:
@@ -254,11 +254,11 @@ class Sensitivity:
     cycles: FloatArray
     """Frequencies; shape (m,); cycles per record."""
     amplitude: FloatArray
-    """Amplitude of a steady swing that is seen with the probability `POWER`; shape (m,)."""
+    """Amplitude of a steady oscillation that is seen with the probability `POWER`; shape (m,)."""
 
 
 def strongest_candidate(values: FloatArray, highest: float, excluded: Sequence[tuple[float, float]] = ()) -> Candidate:
-    """Find the frequency at which a swing is least likely to be noise.
+    """Find the frequency at which an oscillation is least likely to be noise.
 
     Args:
         values: The signal without mean and trend; shape (n,).
@@ -310,7 +310,7 @@ def pieces(values: FloatArray, parts: int) -> FloatArray:
 
 
 def _levels(n: int, highest: float) -> list[int]:
-    """Numbers of parts that are long enough for a swing."""
+    """Numbers of parts that are long enough for an oscillation."""
     return [parts for parts in PARTS if parts == 1 or (n // parts >= _LEAST_PIECE and _ranges(highest / parts))]
 
 
@@ -335,10 +335,10 @@ def _chances(values: FloatArray, parts: int, family: TaperFamily) -> tuple[Float
 
 
 def _inflation(chance: FloatArray, cycles: FloatArray) -> float:
-    """Tell how much more than by chance all frequencies seem to swing, where noise comes in bursts or grows.
+    """Compute by how much all frequencies seem to oscillate beyond chance, where noise comes in bursts or grows.
 
     Such noise looks alike under several tapers, at all frequencies. Logarithms of p-values are divided by what makes
-    their upper tenth that of chance, as genomic control does [1]; too few frequencies cannot tell it.
+    their upper tenth that of chance, as genomic control does [1]; too few frequencies cannot show it.
 
     Args:
         chance: p-values of all frequencies; shape (m,).
@@ -356,7 +356,7 @@ def _inflation(chance: FloatArray, cycles: FloatArray) -> float:
 
 
 def sensitivity(noise: FloatArray, highest: float) -> Sensitivity:
-    """Tell which amplitudes would be seen.
+    """Compute the detectable amplitudes.
 
     Args:
         noise: The signal without mean, trend and what swings in it; shape (n,).
@@ -384,7 +384,7 @@ def sensitivity(noise: FloatArray, highest: float) -> Sensitivity:
 
 
 def _noncentrality(chance: FloatArray, degrees: int) -> FloatArray:
-    """Size of a swing over the noise with which the F test is passed with the probability `POWER`."""
+    """Size of an oscillation over the noise with which the F test is passed with the probability `POWER`."""
     from scipy.special import ncfdtrinc
 
     # it is smooth, and takes long: some of it, and lines between

@@ -96,7 +96,7 @@ class PlaneTolerance:
 
 
 def coplanar(ground_H_soles: Sequence[FloatArray], down: BoolArray, tolerance: PlaneTolerance) -> BoolArray:
-    """Tell when all soles that are down lie in one plane, that of the ground's frame.
+    """Find the samples in which all soles that are down lie in one plane, that of the ground's frame.
 
     Args:
         ground_H_soles: Poses of the soles in the frame of the ground, that of one of them; shape (n, 4, 4) each; m.
@@ -156,7 +156,7 @@ class Sole(ArrayRecord):
     position: FloatArray = field(default_factory=lambda: np.zeros(3), metadata=array(3))
     """Origin of the sole in that frame, a point of its plane; shape (3,); m."""
     outline: FloatArray | None = field(default=None, metadata=array(None, 2))
-    """Corners of the sole along x and y from its origin; shape (k, 2); m; None where nobody knows how far it reaches.
+    """Corners of the sole along x and y from its origin; shape (k, 2); m; None where its extent is unknown.
     The ground presses, so the centre of pressure lies in the smallest convex shape around them."""
     edges: FloatArray = field(init=False)
     """Outward unit normals of that shape and their offsets, `normal . point + offset` being positive outside; shape
@@ -173,7 +173,7 @@ class Sole(ArrayRecord):
         return Contact.at_point(self.frame, self.position)
 
     def beyond(self, points: FloatArray) -> FloatArray:
-        """Tell how far points lie outside the sole.
+        """Compute how far points lie outside the sole.
 
         Args:
             points: Points of its plane; shape (n, 2); m.
@@ -254,7 +254,7 @@ class ComAcceleration(ArrayRecord):
 
 
 def stays_in_band(height_m: FloatArray, time_s: FloatArray, *, band_m: float) -> BoolArray:
-    """Tell when the height of the centre of mass stays within a band around its median.
+    """Find the samples in which the height of the centre of mass stays within a band around its median.
 
     Args:
         height_m: Height over the ground; NaN where it is not known; shape (n,); m.
@@ -262,7 +262,7 @@ def stays_in_band(height_m: FloatArray, time_s: FloatArray, *, band_m: float) ->
         band_m: How far it may be from the median; m.
 
     Returns:
-        Samples of stretches of `STAY_S` at least in which it never leaves the band; shape (n,).
+        Samples of segments of `STAY_S` at least in which it never leaves the band; shape (n,).
 
     Raises:
         EstimationError: If the band has no width, or no height is known.

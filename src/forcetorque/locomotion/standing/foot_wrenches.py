@@ -15,8 +15,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import invert_pose, make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import transform_wrench
-from forcetorque.estimation.clock_stream import clock_stream
-from forcetorque.estimation.skin_contacts import uncertainty_of
+from forcetorque.estimation.skin_contacts import clock_stream, uncertainty_of
 from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_determined
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
@@ -55,7 +54,7 @@ class FootForces:
     intervals: tuple[RecordedSpan, ...]
     """Intervals in the order of the file."""
     model: RobotModel | None
-    """The robot, which tells its weight; None where the file names none."""
+    """The robot, which gives its weight; None where the file names none."""
     gravity: float
     """Magnitude of gravity; m/s2."""
 
@@ -87,7 +86,7 @@ class FootForces:
 
 
 def has_foot_forces(path: Path | str) -> bool:
-    """Tell whether an experiment file is about feet whose vertical forces alone were logged.
+    """Check whether an experiment file is about feet whose vertical forces alone were logged.
 
     Args:
         path: TOML file.
@@ -231,7 +230,7 @@ def _nearest_sensors(scene: BalanceScene, sole: Sole) -> tuple[str, ...]:
 
 def _reading_alone(scene: BalanceScene, sole: Sole, sensor: str, reading: FloatArray) -> FloatArray:
     """The reading as the ground's wrench on the foot, its moment taken as one about the point of the sole below it."""
-    # seen from the sole the sensor tells what the foot does to the rest: the ground's doing, but for weight and inertia
+    # seen from the sole the sensor shows what the foot does to the rest: the ground's doing, but for weight and inertia
     sign = build_tree(scene.experiment.model, sole.frame).cuts[sensor].sign
     cut = scene.tree.cuts[sensor]
     root_H_sensor = body_pose(scene.tree, scene.joints, cut.body) @ cut.body_H_sensor
@@ -280,7 +279,7 @@ VERTICAL_ONLY: Final = (
     "centre of pressure and zero moment point: only the vertical forces of the feet were logged, and a point takes the "
     "moments too; they are not guessed"
 )
-"""What vertical forces do not tell."""
+"""What vertical forces do not show."""
 
 
 def balance_of_forces(content: FootForces, options: BalanceOptions) -> Iterator[IntervalBalance]:

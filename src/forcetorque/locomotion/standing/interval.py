@@ -39,7 +39,7 @@ class BalanceOptions:
     least_load: ForceLimit | None = None
     """Load below which there is no centre of pressure; that of `touch` if None."""
     height_band_m: float | None = None
-    """How far the centre of mass may be from its median height where (5.22) is asked for; m; it is not if None."""
+    """How far the centre of mass may be from its median height where (5.22) is requested; m; it is not if None."""
     plane: PlaneTolerance = PlaneTolerance()
     """How far soles may be out of one plane."""
 
@@ -47,7 +47,7 @@ class BalanceOptions:
         """Settle the thresholds for a robot.
 
         Args:
-            weight_N: Its weight; None where nobody knows it; N.
+            weight_N: Its weight; None where it is unknown; N.
 
         Returns:
             The thresholds.
@@ -59,7 +59,7 @@ class BalanceOptions:
         """Settle the load below which there is no point.
 
         Args:
-            weight_N: Weight of the robot; None where nobody knows it; N.
+            weight_N: Weight of the robot; None where it is unknown; N.
 
         Returns:
             The load; N.
@@ -74,11 +74,11 @@ class FootPressure:
     sole: Sole
     """The sole."""
     sensors: tuple[str, ...]
-    """Sensors that tell it."""
+    """Sensors that measure it."""
     wrench: FloatArray
     """What the ground does to the foot, in and about the sole's frame; shape (n, 6); N, N m."""
     covariance: FloatArray | None
-    """Covariance of its error; shape (n, 6, 6); None where nobody states that of the sensors."""
+    """Covariance of its error; shape (n, 6, 6); None where that of the sensors is not specified."""
     pressure: PressureCentres
     """Centre of pressure on the sole."""
     reading_alone: FloatArray | None
@@ -123,7 +123,7 @@ class IntervalBalance:
     time_s: FloatArray
     """The same from the start of the recording; shape (n,); s."""
     weight_N: float | None
-    """Weight of the robot; None where nobody knows it."""
+    """Weight of the robot; None where it is unknown."""
     forces: Mapping[str, FloatArray]
     """Force of the ground along the normal of each sole, by its frame; shape (n,) each; N."""
     net_N: FloatArray
@@ -131,11 +131,11 @@ class IntervalBalance:
     phases: SupportPhases
     """Which feet are down when."""
     feet: tuple[FootPressure, ...] = ()
-    """What presses on each foot, where wrenches tell it."""
+    """What presses on each foot, where wrenches were measured."""
     robot: RobotBalance | None = None
-    """Of the robot, where wrenches tell it."""
+    """Of the robot, where wrenches were measured."""
     refused: tuple[str, ...] = field(default=())
-    """What cannot be told, in words."""
+    """What cannot be determined, as text."""
 
     @property
     def share(self) -> Mapping[str, FloatArray]:
@@ -162,8 +162,8 @@ class IntervalBalance:
         """Give everything as numbers for every sample.
 
         Yields:
-            `force.SOLE`, `share.SOLE`, `down.SOLE`, `net_force`; where wrenches tell them `cop.SOLE.x`, `beyond.SOLE`,
-            `cop.robot.x` with `half_width.cop.robot.x`, `zmp.x`, `com.x`, `com_acceleration.x`.
+            `force.SOLE`, `share.SOLE`, `down.SOLE`, `net_force`; where wrenches were measured `cop.SOLE.x`,
+            `beyond.SOLE`, `cop.robot.x` with `half_width.cop.robot.x`, `zmp.x`, `com.x`, `com_acceleration.x`.
         """
         down = self.phases.down.astype(np.float64)
         share = self.share

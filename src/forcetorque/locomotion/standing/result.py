@@ -19,7 +19,7 @@ from forcetorque.results.table import Row, Shown
 
 _MM = 1e3
 _FEWEST_STRETCHES = 3
-"""Stretches of which two differences at least tell how much one differs from the next."""
+"""Segments of which two differences at least show how much one differs from the next."""
 
 
 class SupportPhaseRow(Row):
@@ -36,7 +36,7 @@ class SupportPhaseRow(Row):
     net_N: Annotated[float | None, Shown("net force", "N", digits=1, error="half_width_95_N")]
     """Mean upward force on all feet together."""
     half_width_95_N: float | None
-    """Half of its 95 % interval: of stationary noise, and of three stretches or more that each have an offset of their
+    """Half of its 95 % interval: of stationary noise, and of three segments or more that each have an offset of their
     own, as of another foothold, the wider; None where there are fewer and the force is no stationary noise."""
     deviation_N: Annotated[float | None, Shown("deviation", "N", digits=1)]
     """Standard deviation of a sample."""
@@ -47,7 +47,7 @@ class SupportPhaseRow(Row):
     independent: Annotated[float | None, Shown("independent", digits=0)]
     """How many independent samples they are worth."""
     from_weight_N: Annotated[float | None, Shown("from weight", "N", digits=1)]
-    """That mean less the weight of the robot; None where nobody knows it."""
+    """That mean less the weight of the robot; None where it is unknown."""
 
 
 class FootPressureRow(Row):
@@ -60,7 +60,7 @@ class FootPressureRow(Row):
     sole: Annotated[str, Shown("sole")]
     """Its frame."""
     sensors: Annotated[tuple[str, ...], Shown("by")]
-    """Sensors that tell it."""
+    """Sensors that measure it."""
     samples: Annotated[int, Shown("points")]
     """Samples with a centre of pressure."""
     load_N: Annotated[float | None, Shown("load", "N", digits=1)]
@@ -68,7 +68,7 @@ class FootPressureRow(Row):
     x_mm: Annotated[float | None, Shown("x", "mm", digits=1)]
     """Mean of the centre of pressure along x of the sole."""
     half_width_x_mm: Annotated[float | None, Shown("± of a point, x", "mm", digits=1)]
-    """Half of the 95 % interval of one point, root mean square; None where the sensors' errors are not stated."""
+    """Half of the 95 % interval of one point, root mean square; None where the sensors' errors are not specified."""
     deviation_x_mm: Annotated[float | None, Shown("deviation x", "mm", digits=1)]
     """Standard deviation of the points along x."""
     y_mm: Annotated[float | None, Shown("y", "mm", digits=1)]
@@ -78,7 +78,7 @@ class FootPressureRow(Row):
     deviation_y_mm: Annotated[float | None, Shown("deviation y", "mm", digits=1)]
     """The same along y."""
     outside_percent: Annotated[float | None, Shown("outside", "%", digits=1)]
-    """Share of points outside the outline; None where it is not stated."""
+    """Share of points outside the outline; None where it is not specified."""
     beyond_mm: Annotated[float | None, Shown("furthest", "mm", digits=1)]
     """Furthest point from the outline, negative inside."""
     neglect_mm: Annotated[float | None, Shown("neglect", "mm", digits=1)]
@@ -100,7 +100,7 @@ class RobotPressureRow(Row):
     x_mm: Annotated[float | None, Shown("x", "mm", digits=1)]
     """Mean of the centre of pressure along x."""
     half_width_x_mm: Annotated[float | None, Shown("± of a point, x", "mm", digits=1)]
-    """Half of the 95 % interval of one point, root mean square; None where the sensors' errors are not stated."""
+    """Half of the 95 % interval of one point, root mean square; None where the sensors' errors are not specified."""
     deviation_x_mm: Annotated[float | None, Shown("deviation x", "mm", digits=1)]
     """Standard deviation of the points along x."""
     y_mm: Annotated[float | None, Shown("y", "mm", digits=1)]
@@ -135,7 +135,7 @@ class PendulumRow(Row):
     rms_m_s2: Annotated[float | None, Shown("rms", "m/s2", digits=3)]
     """Root mean square acceleration."""
     half_width_95_m_s2: Annotated[float | None, Shown("± of a sample", "m/s2", digits=3)]
-    """Half of the 95 % interval of one sample, root mean square; None where the sensors' errors are not stated."""
+    """Half of the 95 % interval of one sample, root mean square; None where the sensors' errors are not specified."""
     from_joints_m_s2: Annotated[float | None, Shown("from joints", "m/s2", digits=3)]
     """Root mean square difference from what the joints' motion demands."""
     within_percent: Annotated[float | None, Shown("within", "%", digits=1)]
@@ -162,7 +162,7 @@ def phase_rows(intervals: Sequence[IntervalBalance]) -> Iterator[SupportPhaseRow
         weight_N = weights.pop() if len(weights) == 1 else None
         force = sample_statistics(net[:, None], time)
         mean = float(force.mean[0])
-        # of noise, or of stretches, NaN where there is none
+        # of noise, or of segments, NaN where there is none
         half = np.fmax(float(force.half_width[0]), _half_width_of_stretches(stretches))
         yield SupportPhaseRow(
             phase=name,
@@ -180,7 +180,7 @@ def phase_rows(intervals: Sequence[IntervalBalance]) -> Iterator[SupportPhaseRow
 
 
 def _half_width_of_stretches(stretches: Sequence[FloatArray]) -> float:
-    """Half of the 95 % interval of the mean over all samples if every stretch has an offset of its own; NaN for few."""
+    """Half of the 95 % interval of the mean over all samples if every segment has an offset of its own; NaN for few."""
     if len(stretches) < _FEWEST_STRETCHES:
         return np.nan
     means, shares = np.array([(net.mean(), len(net)) for net in stretches]).T

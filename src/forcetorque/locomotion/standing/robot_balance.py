@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import EstimationError, ExperimentError, known_names
 from forcetorque.base.pose import invert_pose
-from forcetorque.estimation.clock_stream import clock_stream
+from forcetorque.estimation.skin_contacts import clock_stream
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact
 from forcetorque.locomotion.section import SOLES
@@ -229,7 +229,7 @@ class BalanceScene:
 
 
 def _whole(tree: BodyTree, contact: Contact) -> Question:
-    """Ask what one contact has to do that bears the whole robot."""
+    """The wrench of one contact that bears the whole robot, as an estimation problem."""
     return Question(tree=tree, contacts=(contact,), equations=())
 
 
@@ -257,7 +257,7 @@ def robot_balance(
         options: Tolerance of the plane, least load, and height band.
 
     Returns:
-        The balance of the robot, and what cannot be told of it, in words.
+        The balance of the robot, and what cannot be determined of it, as text.
     """
     refused = []
     poses = [scene.ground_H_sole(foot.sole) for foot in feet]

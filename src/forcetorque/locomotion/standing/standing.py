@@ -51,7 +51,7 @@ class Balance(Result):
     experiments: tuple[str, ...]
     """Names of the experiments that are counted."""
     weight_N: float | None
-    """Weight of the robot; None where nobody knows it, or robots differ."""
+    """Weight of the robot; None where it is unknown, or robots differ."""
     touch_N: float
     """Force that a contact reaches."""
     release_N: float
@@ -63,13 +63,13 @@ class Balance(Result):
     phases: tuple[SupportPhaseRow, ...]
     """One per set of feet that are down together."""
     feet: tuple[FootPressureRow, ...]
-    """One per interval and sole, where wrenches tell it."""
+    """One per interval and sole, where wrenches were measured."""
     robot: tuple[RobotPressureRow, ...]
-    """One per interval, where wrenches tell it."""
+    """One per interval, where wrenches were measured."""
     pendulum: tuple[PendulumRow, ...]
-    """One per interval in which (5.22) was asked for and holds."""
+    """One per interval in which (5.22) was requested and holds."""
     refused: tuple[str, ...]
-    """What cannot be told, in words."""
+    """What cannot be determined, as text."""
     intervals: tuple[IntervalBalance, ...] = Field(default=(), exclude=True, repr=False)
     """Every sample, for files and pictures."""
 
@@ -130,7 +130,7 @@ def balance(
     corrections: Sequence[Mapping[str, Correction]] = (),
     options: BalanceOptions | None = None,
 ) -> Balance:
-    """Say how a robot stood, over all intervals that are not to be ignored.
+    """Compute how a robot stood, over all intervals that are not ignored.
 
     Recordings that hold the same forces, sample for sample, under two names are noticed, and counted once.
 
@@ -140,43 +140,43 @@ def balance(
         options: What counts as a contact, as a point, and as a height that does not change.
 
     Returns:
-        Phases, centres of pressure and of mass, and what cannot be told.
+        Phases, centres of pressure and of mass, and what cannot be determined.
 
     Raises:
         ExperimentError: If there is no recording, or one has no sole.
         EstimationError: If no foot is down in any interval, or thresholds cross.
     """
-    asked = BalanceOptions() if options is None else options
+    chosen = BalanceOptions() if options is None else options
     if not recordings:
         raise ExperimentError("expected an experiment at least, got none")
     by_place = tuple(corrections) or ({},) * len(recordings)
     names: dict[str, str] = {}
     counted: list[IntervalBalance] = []
-    doubts = []
+    warnings = []
     for content, reading in zip(recordings, by_place, strict=True):
         with stated_in(str(content.file)):
             intervals = tuple(
-                balance_of_forces(content, asked)
+                balance_of_forces(content, chosen)
                 if isinstance(content, FootForces)
-                else balance_of_sensors(content, reading, asked)
+                else balance_of_sensors(content, reading, chosen)
             )
         mark = _fingerprint(intervals)
         if mark in names:
-            doubts.append(f"{content.name}: its forces are those of {names[mark]}, sample for sample; counted once")
+            warnings.append(f"{content.name}: its forces are those of {names[mark]}, sample for sample; counted once")
             continue
         names[mark] = content.name
-        doubts += [
-            f"{content.name}: {sensor}: no offset was removed, so that forces and points have whatever offset it has; "
+        warnings += [
+            f"{content.name}: {sensor}: no offset was removed, so that forces and points include its offset; "
             "give a calibration, or an interval for calibration"
             for sensor, correction in reading.items()
             if not correction.removes_offset
         ]
         counted += intervals
-    return _summed_up(tuple(counted), tuple(names.values()), asked, doubts)
+    return _summed_up(tuple(counted), tuple(names.values()), chosen, warnings)
 
 
 def _summed_up(
-    intervals: tuple[IntervalBalance, ...], names: tuple[str, ...], options: BalanceOptions, doubts: Sequence[str]
+    intervals: tuple[IntervalBalance, ...], names: tuple[str, ...], options: BalanceOptions, warnings: Sequence[str]
 ) -> Balance:
     weights = {interval.weight_N for interval in intervals}
     weight_N = weights.pop() if len(weights) == 1 else None
@@ -205,11 +205,11 @@ def _summed_up(
         ),
         refused=refused,
         intervals=intervals,
-        warnings=(*doubts, *refused, *_doubts(feet), *_doubted_weights(phases, weight_N)),
+        warnings=(*warnings, *refused, *_warnings(feet), *_weight_warnings(phases, weight_N)),
     )
 
 
-def _doubted_weights(phases: Sequence[SupportPhaseRow], weight_N: float | None) -> Iterator[str]:
+def _weight_warnings(phases: Sequence[SupportPhaseRow], weight_N: float | None) -> Iterator[str]:
     """Phases in which feet bear so much more or less than the robot weighs that their readings cannot be right."""
     for row in phases:
         if weight_N is None or row.net_N is None or row.phase == NO_FOOT:
@@ -222,7 +222,7 @@ def _doubted_weights(phases: Sequence[SupportPhaseRow], weight_N: float | None) 
             )
 
 
-def _doubts(feet: Sequence[FootPressureRow]) -> Iterator[str]:
+def _warnings(feet: Sequence[FootPressureRow]) -> Iterator[str]:
     for row in feet:
         where = f"{row.interval}: sole {row.sole}"
         if not row.samples:

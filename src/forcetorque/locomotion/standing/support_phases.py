@@ -24,7 +24,7 @@ RELEASE_SHARE: Final = 0.06
 class ContactThresholds:
     """Which forces make a contact.
 
-    A foot is down over a stretch in which it always bears more than `release_N` and at some time `touch_N`: the first
+    A foot is down over a segment in which it always bears more than `release_N` and at some time `touch_N`: the first
     says when a contact begins and ends, the second that it is one. A recording that is played backwards has the same
     contacts, which a rule that looks at the past alone does not give.
     """
@@ -40,17 +40,17 @@ class ContactThresholds:
         if not (np.isfinite(self.touch_N) and 0.0 < self.release_N <= self.touch_N):
             raise EstimationError(
                 f"thresholds: expected 0 < release <= touch, got touch {self.touch_N:g} N and release "
-                f"{self.release_N:g} N; where they cross no force would tell whether a foot is down"
+                f"{self.release_N:g} N; where they cross no force determines whether a foot is down"
             )
         if not 0.0 <= self.dwell_s < np.inf:
             raise EstimationError(f"thresholds: expected a dwell time of at least 0 s, got {self.dwell_s:g} s")
 
 
 def contact_state(force_N: Any, time_s: Any, thresholds: ContactThresholds) -> BoolArray:
-    """Tell when a foot is down.
+    """Find the samples in which a foot is down.
 
-    Pauses shorter than the dwell time are filled first, then contacts that are shorter still are dropped; stretches at
-    an end of the log, or at a gap of it, are kept, because nobody saw how long they were.
+    Pauses shorter than the dwell time are filled first, then contacts that are shorter still are dropped; segments at
+    an end of the log, or at a gap of it, are kept, because their length is unknown.
 
     Args:
         force_N: Force of the ground on the sole along its normal; positive where it presses; NaN where it is not known;
@@ -82,7 +82,7 @@ def unbroken(time_s: FloatArray, rows: IntArray) -> Iterator[IntArray]:
         rows: Samples that are known, in order; shape (m,).
 
     Yields:
-        Rows of every stretch without a gap of more than `GAP_PERIODS` median periods.
+        Rows of every segment without a gap of more than `GAP_PERIODS` median periods.
 
     Raises:
         ShapeError: If time does not rise.
@@ -129,7 +129,7 @@ NO_FOOT = "no foot"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SupportPhase:
-    """A stretch in which the same feet are down."""
+    """A segment in which the same feet are down."""
 
     feet: tuple[str, ...]
     """Feet that are down."""
@@ -142,7 +142,7 @@ class SupportPhase:
 
     @property
     def name(self) -> str:
-        """Feet that are down, in words."""
+        """Feet that are down, as text."""
         return " + ".join(self.feet) or NO_FOOT
 
     @property
@@ -305,19 +305,19 @@ class ForceLimit:
         """Give the force.
 
         Args:
-            weight_N: Weight of the robot; None where nobody knows it; N.
+            weight_N: Weight of the robot; None where it is unknown; N.
 
         Returns:
             The force; N.
 
         Raises:
-            EstimationError: If it is a share of a weight that nobody knows.
+            EstimationError: If it is a share of an unknown weight.
         """
         if self.force_N is not None:
             return self.force_N
         if weight_N is None:
             raise EstimationError(
-                f"force: expected newtons, got {self} of a body weight that nobody knows; name the robot in [robot], "
+                f"force: expected newtons, got {self} of an unknown body weight; name the robot in [robot], "
                 "or state thresholds such as 50N"
             )
         return (self.share or 0.0) * weight_N

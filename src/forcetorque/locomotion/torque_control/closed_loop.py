@@ -98,7 +98,7 @@ def drawn_matrices(size: float, length: float, rng: np.random.Generator, copies:
 
 
 def torque_question(biped: Biped) -> Question:
-    """Ask for the torques of both legs from the four sensors (thesis 2.8).
+    """Set up the estimation of the torques of both legs from the four sensors (thesis 2.8).
 
     A torque is the sum over the links between its joint and the next sensors, and what these sensors read: knees and
     ankles live by the sensors of the feet, the hip's pitch and roll by those below them.

@@ -75,7 +75,7 @@ class LinearRobot:
         )
 
     def stability(self, matrix: FloatArray) -> Stability:
-        """Tell whether the robot stands with errors of its sensors.
+        """Check whether the robot stands with errors of its sensors.
 
         Args:
             matrix: E of the four sensors; shape (4, 6, 6).

@@ -36,7 +36,7 @@ class LinearPlant(ArrayRecord):
     velocity: FloatArray = field(metadata=array("j", "n"))
     """Joint velocities by states; shape (j, n); rad/s."""
     demand: FloatArray = field(metadata=array("j", "n"))
-    """Desired torques by states, by whatever controls the posture; shape (j, n); N m."""
+    """Desired torques by states, by the controller of the posture; shape (j, n); N m."""
 
     @property
     def joints(self) -> int:
@@ -240,7 +240,7 @@ class TorqueLoop:
 
 
 def stability(loop: TorqueLoop, error: Any = 0.0) -> Stability:
-    """Tell whether a loop is stable.
+    """Check whether a loop is stable.
 
     Args:
         loop: The loop.
@@ -296,7 +296,7 @@ def onset(loop: TorqueLoop, error: Any, *, largest: float) -> Onset | None:
 
 
 def delay_margin(loop: TorqueLoop, *, most: int) -> int | None:
-    """Tell how many steps later estimates may come before the loop is unstable.
+    """Find by how many steps estimates may be late before the loop is unstable.
 
     Args:
         loop: The loop.

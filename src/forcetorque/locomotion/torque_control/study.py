@@ -14,7 +14,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.locomotion.oscillation.oscillation import find_oscillations
-from forcetorque.locomotion.oscillation.spectrum import evened
+from forcetorque.locomotion.oscillation.spectrum import resampled
 from forcetorque.locomotion.torque_control.balancing import Phase, Reference, standing, switching
 from forcetorque.locomotion.torque_control.closed_loop import (
     LoopRun,
@@ -90,7 +90,7 @@ class TorqueLoopOnsetRow(Row):
     below_one_percent: Annotated[float, Shown("unstable at 1", "%", digits=0)]
     """Share of draws that are unstable at their own size."""
     median_frequency_hz: Annotated[float | None, Shown("frequency", "Hz", digits=2)]
-    """Median frequency at which they begin; 0 is a drift away without a swing."""
+    """Median frequency at which they begin; 0 is a drift away without an oscillation."""
     largest_scale: float
     """Largest multiple that was looked at."""
 
@@ -100,9 +100,9 @@ NO_ERROR: Final = "none"
 _LARGEST: Final = 20.0
 """Largest multiple of the largest size of E at which the linear loop is looked at."""
 _STANDING_S, _SETTLED_S, _PUSH_N = 4.0, 1.0, 20.0
-"""How long it stands on the left foot, from when on a swing counts, and the push before; s, N."""
+"""How long it stands on the left foot, from when on an oscillation counts, and the push before; s, N."""
 _LEAST_SWING_M: Final = 1e-4
-"""A swing of the centre of mass that is smaller is the trembling that noise of the sensors makes; m."""
+"""An oscillation of the centre of mass that is smaller is the trembling that noise of the sensors makes; m."""
 _EVERY = 10
 """One of so many instants is looked at for swings: 100 Hz."""
 _SUPPORTS: Final = {"both feet": Phase.DOUBLE, "the left foot": Phase.LEFT, "the right foot": Phase.RIGHT}
@@ -160,27 +160,27 @@ def torque_loop(
         MissingExtraError: If MuJoCo is not installed.
         ControlError: If gains are unstable without any error.
     """
-    asked = TorqueLoopFile() if file is None else file
-    rng = np.random.default_rng(asked.seed)
-    unit = drawn_matrices(1.0, asked.sensor.lever_m, rng, asked.seeds)
+    settings = TorqueLoopFile() if file is None else file
+    rng = np.random.default_rng(settings.seed)
+    unit = drawn_matrices(1.0, settings.sensor.lever_m, rng, settings.seeds)
     rows: list[TorqueLoopRow] = []
     onsets: list[TorqueLoopOnsetRow] = []
-    for tilt_deg in asked.tilt_deg:
+    for tilt_deg in settings.tilt_deg:
         biped = Biped.on_soles(tilt_deg)
-        reference = switching(biped, asked.timing, PERIOD_S)
-        for gain_factor in asked.gain_factors:
-            setting = asked.setting(biped, gain_factor)
-            case = _Case(file=asked, biped=biped, setting=setting, reference=reference, gain_factor=gain_factor)
+        reference = switching(biped, settings.timing, PERIOD_S)
+        for gain_factor in settings.gain_factors:
+            setting = settings.setting(biped, gain_factor)
+            case = _Case(file=settings, biped=biped, setting=setting, reference=reference, gain_factor=gain_factor)
             progress(f"soles at {tilt_deg:g} degrees, gains times {gain_factor:g}: the linear loop")
             robots = case.linear_robots()
             onsets += case.onset_rows(robots, unit)
             rows += case.rows(unit, rng, progress)
     weight_N = biped.mass * STANDARD_GRAVITY
     return TorqueLoopStudy(
-        name=asked.name,
+        name=settings.name,
         weight_N=weight_N,
-        duration_s=asked.timing.duration_s,
-        delay_s=asked.estimator.delay_s + 1.0 / asked.estimator.rate_hz - PERIOD_S,
+        duration_s=settings.timing.duration_s,
+        delay_s=settings.estimator.delay_s + 1.0 / settings.estimator.rate_hz - PERIOD_S,
         rows=tuple(rows),
         onsets=tuple(onsets),
     )
@@ -298,7 +298,7 @@ def _amplitudes(pushed: LoopRun) -> FloatArray:
             continue
         lasting = []
         for axis in (0, 1):
-            signal = evened(time_s, pushed.centre_error[k, first::_EVERY, axis], name="centre of mass")
+            signal = resampled(time_s, pushed.centre_error[k, first::_EVERY, axis], name="centre of mass")
             lasting += [
                 swing.amplitude
                 for swing in find_oscillations(signal, name="centre of mass").oscillations

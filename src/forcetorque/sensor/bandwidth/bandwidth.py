@@ -19,23 +19,23 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
-from forcetorque.sensor.bandwidth.decays import Decays, free_decays, numbers
+from forcetorque.sensor.bandwidth.decays import DecayCurve, Decays, EventRow, ResponseNumber, free_decays, numbers
 from forcetorque.sensor.bandwidth.excited_records import ExcitationKind, ExcitedRecord, component_index, excited_records
 from forcetorque.sensor.bandwidth.frequency_response import (
     HIGHEST_SHARE,
     LEAST_AVERAGES,
     FrequencyResponse,
+    ResponseCurve,
     frequency_response,
     overlapping,
     require_coherence,
 )
-from forcetorque.sensor.bandwidth.result import DecayCurve, EventRow, InverseRow, ResponseCurve, ResponseNumber
 from forcetorque.sensor.bandwidth.second_order import MISFIT, InverseFilter, SecondOrder, inverse_filter, jackknifed
 
 BEFORE_S = 0.05
 """Quiet before an event that belongs to its segment; s."""
 SWING_SEGMENTS = 9
-"""Segments of a swing, which overlap by half."""
+"""Segments of an oscillation, which overlap by half."""
 
 
 def driven_response(
@@ -59,7 +59,7 @@ def driven_response(
 
     Raises:
         FitError: If the force does not explain the reading, or too little was recorded.
-        ExperimentError: If the force has no such component, or a swing was recorded in several stretches.
+        ExperimentError: If the force has no such component, or an oscillation was recorded in several segments.
     """
     direction = np.eye(6)[component] if decays is None else decays.direction
     name = "; ".join(record.name for record in records)
@@ -69,8 +69,8 @@ def driven_response(
     if decays is None:
         if len(pairs) > 1:
             raise ExperimentError(
-                f"{name}: expected one stretch with a swing, got {len(pairs)}; name one by --interval, from Python "
-                "intervals"
+                f"{name}: expected one segment with an oscillation, got {len(pairs)}; name one by --interval, from "
+                "Python intervals"
             )
         segment = 2 * len(pairs[0][0]) // (SWING_SEGMENTS + 1)
         force, reading = (overlapping(series, segment) for series in pairs[0])
@@ -118,7 +118,7 @@ def _segments(
     return force, reading
 
 
-LEAST_SWING = 0.02
+LEAST_VIBRATION = 0.02
 """Share of a vibration that may be left at the end of a segment."""
 
 FOLDED_SHARE = 0.35
@@ -149,13 +149,13 @@ class Response(Result):
     events: tuple[EventRow, ...]
     """Impacts or releases in the order of time."""
     numbers: tuple[ResponseNumber, ...]
-    """Natural frequency, damping, gain, bandwidth, by what tells them."""
+    """Natural frequency, damping, gain, bandwidth, by source."""
     curve: ResponseCurve | None = Field(repr=False)
-    """Frequency response; null where it is not told."""
-    inverse: InverseRow | None = Field(repr=False)
-    """Filter that undoes the response; null where it is not told well enough."""
+    """Frequency response; null where it is not determined."""
+    inverse: InverseFilter | None = Field(repr=False)
+    """Filter that undoes the response; null where it is not determined well enough."""
     refused: tuple[str, ...]
-    """What is not told, and why."""
+    """What is not determined, and why."""
     figure: str | None = None
     """File of the figure."""
     decays: tuple[DecayCurve, ...] = Field(default=(), repr=False)
@@ -205,7 +205,7 @@ class Response(Result):
             Force; the same shape.
 
         Raises:
-            FitError: If the response is not told well enough to be undone.
+            FitError: If the response is not determined well enough to be undone.
         """
         if self.inverse is None:
             raise FitError(f"{self.sensor}: expected a filter that undoes its response, got none: {self.refused[-1]}")
@@ -225,7 +225,7 @@ def response(
     name: str | None = None,
     calibration: Calibration | None = None,
 ) -> Response:
-    """Tell what a sensor does to fast forces.
+    """Compute the response of a sensor to fast forces.
 
     Args:
         runs: The sensor, in one or several recordings.
@@ -243,8 +243,8 @@ def response(
         Events with their decays, and where a force is known the response, its fit, and a filter that undoes it.
 
     Raises:
-        ExperimentError: If something is asked for that the experiment or the excitation does not have.
-        FitError: If nothing at all is told.
+        ExperimentError: If something is requested that the experiment or the excitation does not have.
+        FitError: If nothing is determined.
     """
     several = [runs] if isinstance(runs, SensorRun) else list(runs)
     run, kind = several[0], _excitation(excitation)
@@ -270,10 +270,12 @@ def response(
     rate = records[0].wrench.rate_hz
     inverse = None
     try:
-        inverse = None if fit is None else inverse_filter(fit, rate, cut_off_hz=cut_off_hz, name=run.sensor.name)
+        if fit is not None:
+            quiet = None if decays is None else decays.quiet
+            inverse = inverse_filter(fit, rate, cut_off_hz=cut_off_hz, name=run.sensor.name, quiet=quiet)
     except FitError as error:
         refused.append(str(error))
-    answer = Response(
+    result = Response(
         sensor=run.sensor.name,
         serial=run.sensor.serial,
         reading=correction.source,
@@ -285,11 +287,11 @@ def response(
         events=() if decays is None else decays.rows,
         numbers=tuple(numbers(decays, fit if transfer is not None else None, _gain_unit(records, mass_kg))),
         curve=None if transfer is None else _curve(transfer, fit),
-        inverse=None if inverse is None else _inverse(inverse, decays),
+        inverse=inverse,
         refused=tuple(refused),
         decays=() if decays is None else decays.curves,
     )
-    return answer.model_copy(update={"warnings": tuple(_doubts(answer, fit, transfer, decays))})
+    return result.model_copy(update={"warnings": tuple(_warnings(result, fit, transfer, decays))})
 
 
 def _excitation(name: ExcitationKind | str) -> ExcitationKind:
@@ -306,8 +308,8 @@ def _refuse_lacking(
     if kind is ExcitationKind.PENDULUM and (force is None or component is None):
         raise ExperimentError(
             "pendulum: expected the stream of the measured force or acceleration, --force, and the component that it "
-            f"excites, --component, from Python force and component, got {force!r} and {component_name!r}: a swing is "
-            "no event that could tell them"
+            f"excites, --component, from Python force and component, got {force!r} and {component_name!r}: an "
+            "oscillation is no event that could determine them"
         )
     if kind is ExcitationKind.RELEASE and mass_kg is not None and component is not None and component > 2:
         raise ExperimentError(
@@ -348,62 +350,49 @@ def _curve(transfer: FrequencyResponse, fit: SecondOrder | None) -> ResponseCurv
     )
 
 
-def _inverse(inverse: InverseFilter, decays: Decays | None) -> InverseRow:
-    quiet = None if decays is None else decays.quiet
-    at_rest = float(inverse.numerator.sum() / inverse.denominator.sum())
-    ratio = None
-    if quiet is not None and quiet.std() > 0.0:
-        ratio = float(inverse.apply(quiet).std() / quiet.std() / abs(at_rest))
-    return InverseRow(
-        rate_hz=inverse.rate_hz,
-        cut_off_hz=inverse.cut_off_hz,
-        noise_gain=inverse.noise_gain / abs(at_rest),
-        quiet_gain=ratio,
-        numerator=inverse.numerator,
-        denominator=inverse.denominator,
-    )
-
-
-def _doubts(
-    answer: Response, fit: SecondOrder | None, transfer: FrequencyResponse | None, decays: Decays | None
+def _warnings(
+    result: Response, fit: SecondOrder | None, transfer: FrequencyResponse | None, decays: Decays | None
 ) -> Iterator[str]:
-    yield from (row.untold for row in answer.events if row.untold is not None)
-    for row in answer.events:
-        if row.frequency_hz is not None and row.frequency_hz > FOLDED_SHARE * answer.rate_hz:
+    yield from (row.untold for row in result.events if row.untold is not None)
+    for row in result.events:
+        if row.frequency_hz is not None and row.frequency_hz > FOLDED_SHARE * result.rate_hz:
             yield (
                 f"{row.recording}: at {row.time_s:.3f} s it rings at {row.frequency_hz:.4g} Hz, near half of the rate, "
-                f"{0.5 * answer.rate_hz:.4g} Hz: it may be one from above, folded back; sample faster"
+                f"{0.5 * result.rate_hz:.4g} Hz: it may be one from above, folded back; sample faster"
             )
     if decays is not None and decays.ring_downs:
         frequency = decays.frequency
         if frequency.scatter is not None and frequency.scatter > 0.1 * frequency.mean:
             frequencies = [ring_down.frequency_hz for ring_down in decays.ring_downs]
             yield (
-                f"{answer.sensor}: events ring at {min(frequencies):.3g} to {max(frequencies):.3g} Hz: they are not "
+                f"{result.sensor}: events ring at {min(frequencies):.3g} to {max(frequencies):.3g} Hz: they are not "
                 "one vibration; strike one place in one posture, or choose another component"
             )
     if fit is None or transfer is None:
         return
     if fit.misfit is not None and fit.misfit > MISFIT:
         yield (
-            f"{answer.sensor}: one resonance leaves {fit.misfit:.2g} times the noise: there are more, or a delay; "
+            f"{result.sensor}: one resonance leaves {fit.misfit:.2g} times the noise: there are more, or a delay; "
             "intervals are widened for it"
         )
     reached = float(transfer.frequency_hz[transfer.driven].max())
     if fit.natural_frequency_hz > reached:
         yield (
-            f"{answer.sensor}: its natural frequency, {fit.natural_frequency_hz:.4g} Hz, lies above what the force "
+            f"{result.sensor}: its natural frequency, {fit.natural_frequency_hz:.4g} Hz, lies above what the force "
             f"drove, {reached:.4g} Hz: it is extrapolated by the form of the fit; confirm it by taps"
         )
-    if decays is not None and kept_swing(fit, transfer) > LEAST_SWING:
+    if decays is None:
+        return
+    remaining = remaining_vibration(fit, transfer)
+    if remaining > LEAST_VIBRATION:
         yield (
-            f"{answer.sensor}: {100 * kept_swing(fit, transfer):.0f} % of a vibration is left when its segment ends, "
+            f"{result.sensor}: {100 * remaining:.0f} % of a vibration is left when its segment ends, "
             "which makes damping look larger; leave more time between events"
         )
 
 
-def kept_swing(fit: SecondOrder, transfer: FrequencyResponse) -> float:
-    """Tell how much of a vibration is left at the end of a segment.
+def remaining_vibration(fit: SecondOrder, transfer: FrequencyResponse) -> float:
+    """Compute the share of a vibration that is left at the end of a segment.
 
     Args:
         fit: The sensor.

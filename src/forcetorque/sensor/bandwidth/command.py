@@ -76,7 +76,7 @@ def response(
         )
     if figure is not None:
         from forcetorque.results.figures import png_bytes
-        from forcetorque.sensor.bandwidth.figure import response_figure
+        from forcetorque.sensor.figures import response_figure
 
         write_bytes_atomically(figure, png_bytes(response_figure(result)))
         result = result.model_copy(update={"figure": str(figure)})

@@ -5,18 +5,76 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.results.table import FloatOrNull, Row, Shown
 from forcetorque.sensor.bandwidth.excited_records import EvenRecord, ExcitationKind, ExcitedRecord
-from forcetorque.sensor.bandwidth.result import DecayCurve, EventRow, ResponseNumber
 from forcetorque.sensor.bandwidth.ring_down import Event, RingDown, find_events, gains, ring_downs, step_direction
 from forcetorque.sensor.bandwidth.second_order import SecondOrder
+
+
+class EventRow(Row):
+    """One impact or release, and the free decay behind it; null where none was determined."""
+
+    recording: Annotated[str, Shown("recording")]
+    """Experiment and interval."""
+    time_s: Annotated[float, Shown("at", "s", digits=3)]
+    """When it stands out most, from the start of the recording."""
+    height: Annotated[float, Shown("stands out by", digits=0)]
+    """Robust deviations of the fast part of the reading."""
+    strongest: Annotated[str, Shown("most in")]
+    """Component in which it stands out most."""
+    frequency_hz: Annotated[float | None, Shown("rings at", "Hz", digits=2, error="frequency_half_width_95_hz")]
+    """Natural frequency of the strongest mode of the decay."""
+    frequency_half_width_95_hz: FloatOrNull | None
+    """Half of its 95 % interval."""
+    damping: Annotated[float | None, Shown("damping", digits=4, error="damping_half_width_95")]
+    """Damping ratio of that mode."""
+    damping_half_width_95: FloatOrNull | None
+    """Half of its 95 % interval."""
+    modes: Annotated[int | None, Shown("modes")]
+    """Modes of the decay."""
+    left_share: Annotated[float | None, Shown("left", digits=2)]
+    """Share of the variance of the decay that these modes leave."""
+    untold: str | None = None
+    """Why no decay was determined."""
+
+
+class ResponseNumber(Row):
+    """One number of the response with its 95 % interval."""
+
+    quantity: Annotated[str, Shown("")]
+    """What it is."""
+    source: Annotated[str, Shown("of")]
+    """Its source."""
+    value: Annotated[float, Shown("value", digits=4)]
+    """The number."""
+    half_width_95: Annotated[FloatOrNull, Shown("±", digits=4)]
+    """Half of its 95 % interval."""
+    unit: Annotated[str, Shown("unit")]
+    """Its unit."""
+    scatter: Annotated[float | None, Shown("scatter", digits=4)]
+    """Standard deviation from event to event; null of one event, or where it is not determined by event."""
+
+
+class DecayCurve(Row):
+    """One free decay and its fit, for the figure."""
+
+    title: str
+    """Which event."""
+    time_s: Annotated[FloatArray, ArrayField((None,))]
+    """Instants behind the event; shape (m,); s."""
+    reading: Annotated[FloatArray, ArrayField((None,))]
+    """Reading; shape (m,)."""
+    fitted: Annotated[FloatArray, ArrayField((None,))]
+    """Fit; shape (m,)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,7 +125,7 @@ class Struck:
     record: ExcitedRecord
     """The record."""
     signal: EvenRecord
-    """The signal that is judged; shape (n, 1)."""
+    """The signal that is evaluated; shape (n, 1)."""
     events: tuple[Event, ...]
     """Events."""
     decays: tuple[RingDown | FitError, ...]
@@ -89,11 +147,11 @@ class Decays:
     struck: tuple[Struck, ...]
     """Records that were struck."""
     gain: Pooled | None
-    """What is read of a newton of a released weight; None where no weight was stated."""
+    """What is read of a newton of a released weight; None where no weight was specified."""
 
     @property
     def ring_downs(self) -> list[RingDown]:
-        """Decays that were told."""
+        """Decays that were determined."""
         return [decay for one in self.struck for _, decay in one.ring_downs]
 
     @property
@@ -110,7 +168,7 @@ class Decays:
 
     @property
     def second_order(self) -> SecondOrder | None:
-        """Response, where a released weight told the gain."""
+        """Response, where a released weight determines the gain."""
         if self.gain is None or not self.ring_downs:
             return None
         half = np.array([self.frequency.half_width, self.damping.half_width, self.gain.half_width])
@@ -123,7 +181,7 @@ class Decays:
 
     @property
     def quiet(self) -> FloatArray | None:
-        """The longest quiet stretch before an event; None without one of two samples."""
+        """The longest quiet segment before an event; None without one of two samples."""
         stretches = [one.signal.signals[event.quiet, 0] for one in self.struck for event in one.events]
         longest = max(stretches, key=len)
         return longest if len(longest) > 1 else None
@@ -231,7 +289,7 @@ DECAYS, WEIGHT, RESPONSE = "free decays", "the released weight", "frequency resp
 
 
 def numbers(decays: Decays | None, fit: SecondOrder | None, gain_unit: str) -> Iterator[ResponseNumber]:
-    """Write natural frequency, damping, gain and bandwidth by what tells them.
+    """Write natural frequency, damping, gain and bandwidth by source.
 
     Args:
         decays: Free decays; None without events.

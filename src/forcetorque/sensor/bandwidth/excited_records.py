@@ -82,7 +82,7 @@ def even_record(time_s: Any, signals: Any, *, name: str) -> EvenRecord:
         raise RecordingError(
             f"{name}: uneven sampling: {len(odd)} of {len(steps)} steps differ from the usual {1e3 * usual:.4g} ms by "
             f"more than half, the first at {time[odd[0]]:.4f} s (sample {odd[0] + 1}) is {1e3 * steps[odd[0]]:.4g} ms; "
-            "a decay and a spectrum need even samples: leave the stretch out of the interval, or log without losses"
+            "a decay and a spectrum need even samples: leave the segment out of the interval, or log without losses"
         )
     scatter = float(np.sqrt(((steps - usual) ** 2).mean())) / usual
     if scatter > JITTER:
@@ -110,7 +110,7 @@ def _refuse_drift(time: FloatArray, name: str) -> None:
         raise RecordingError(
             f"{name}: uneven sampling: from {time[edges[worst]]:.4f} s to {time[edges[worst + 1]]:.4f} s steps are "
             f"{100 * drift[worst]:+.1f} % off the mean {1e3 * mean:.4g} ms, expected at most {100 * DRIFT:.0f} %: log "
-            "the sensor's own clock, or choose a stretch of one rate"
+            "the sensor's own clock, or choose a segment of one rate"
         )
 
 
@@ -164,7 +164,7 @@ def flat_tops(values: FloatArray) -> BoolArray:
 
 
 SAME_RATE = 1e-3
-"""Share by which rates of stretches that are taken together may differ."""
+"""Share by which rates of segments that are taken together may differ."""
 SPLINE_SHARE = 0.2
 """Part of the rate of a force that had to be brought to the instants of the sensor, up to which it is read: there a
 cubic spline is within one percent."""
@@ -172,7 +172,7 @@ cubic spline is within one percent."""
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ExcitedRecord:
-    """One stretch."""
+    """One segment."""
 
     name: str
     """Experiment and interval."""
@@ -187,7 +187,7 @@ class ExcitedRecord:
 def excited_records(
     runs: Sequence[SensorRun], correction: Correction, *, intervals: Collection[str], force: str | None
 ) -> list[ExcitedRecord]:
-    """Take the stretches.
+    """Take the segments.
 
     Args:
         runs: One sensor in one or several recordings.
@@ -196,7 +196,7 @@ def excited_records(
         force: Stream with the force that was measured; None for none.
 
     Returns:
-        Evenly sampled stretches that did not reach a limit.
+        Evenly sampled segments that did not reach a limit.
 
     Raises:
         ExperimentError: If an interval is not there, the force has other axes, or rates differ.
@@ -291,7 +291,7 @@ def _splined(
     from scipy.interpolate import CubicSpline
 
     require_overlap(sensor, stream)
-    # a little more than the stretch, so that its ends are not extrapolated
+    # a little more than the segment, so that its ends are not extrapolated
     first = max(0, int(np.searchsorted(stream.stamp_ns, at_ns[0], side="right")) - 1)
     last = min(len(stream), int(np.searchsorted(stream.stamp_ns, at_ns[-1])) + 1)
     time = seconds_since(stream.stamp_ns[first:last], origin_ns)

@@ -10,9 +10,10 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.base.noise.slow_noise import CONFIDENCE
+from forcetorque.results.table import Row, Values
 
 LEAST_AVERAGES = 4
-"""Averages of a spectrum; of one the coherence is 1, whatever was measured."""
+"""Averages of a spectrum; of one the coherence is 1, for any measurement."""
 LEAST_EXPLAINED = 0.8
 """Share of the power of the reading that the measured force must explain, of all and of the middle frequency up to
 where its slope is largest: slow motion of an arm may be all of the power, and explained, where taps are not."""
@@ -87,6 +88,33 @@ class FrequencyResponse(ArrayRecord):
         return uniform_filter1d(self.noise_power, 2 * _BINS + 1, mode="nearest")
 
 
+class ResponseCurve(Row):
+    """Frequency response with coherence, for the figure and for other fits."""
+
+    frequency_hz: Values
+    """Frequencies; shape (m,); Hz."""
+    real: Values
+    """Real part of the response; shape (m,)."""
+    imaginary: Values
+    """Imaginary part; shape (m,)."""
+    fitted_real: Values | None = None
+    """Real part of the second order that is fitted to it; shape (m,); null without a fit."""
+    fitted_imaginary: Values | None = None
+    """Imaginary part of that; shape (m,)."""
+    radius_95: Values
+    """Radius of the circle that holds it with 95 %; shape (m,)."""
+    coherence: Values
+    """Shape (m,)."""
+    chance: float
+    """Coherence that chance alone exceeds in 5 % of the frequencies."""
+    driven: Values
+    """1 where the force drives the sensor; only these are fitted; shape (m,)."""
+    explained_share: float
+    """Share of the power of the reading that the force explains."""
+    averages: float
+    """Independent averages."""
+
+
 def overlapping(series: FloatArray, segment: int) -> FloatArray:
     """Cut a series into segments that overlap by half.
 
@@ -130,7 +158,7 @@ def frequency_response(
     if force.shape != reading.shape:
         raise ShapeError(f"expected force and reading of one shape, got {force.shape} and {reading.shape}")
     count, segment = force.shape
-    if count < LEAST_AVERAGES - 1:  # one may be left out, to see what it tells
+    if count < LEAST_AVERAGES - 1:  # one may be left out, to see what it shows
         raise FitError(f"expected at least {LEAST_AVERAGES - 1} segments for a coherence, got {count}")
     if not np.ptp(force) > 0.0:
         raise FitError("expected a force that changes, got one that stays: nothing drives the sensor")

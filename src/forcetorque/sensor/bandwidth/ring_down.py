@@ -23,7 +23,7 @@ APART_S = 0.25
 """Quiet that parts two events; s: what rings on without it is one."""
 
 QUIET_SHARE = 0.3
-"""Last part of the stretch before an event that is taken for quiet: before it, weights may be hung up again."""
+"""Last part of the segment before an event that is taken for quiet: before it, weights may be hung up again."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,9 +35,9 @@ class Event:
     peak: int
     """Sample at which it stands out most."""
     before: int
-    """First sample of the stretch before it in which nothing stood out."""
+    """First sample of the segment before it in which nothing stood out."""
     quiet: slice
-    """Samples of that stretch that are taken for quiet, and a weight for hanging still."""
+    """Samples of that segment that are taken for quiet, and a weight for hanging still."""
     after: int
     """One past the last sample before the next event, or the end."""
     height: float
@@ -57,7 +57,7 @@ def find_events(record: EvenRecord, *, name: str) -> tuple[Event, ...]:
         Events in the order of time.
 
     Raises:
-        RecordingError: If there is none, or the record is too short to tell.
+        RecordingError: If there is none, or the record is too short.
     """
     if len(record) < 4 * SLOW_S * record.rate_hz:
         raise RecordingError(
@@ -102,7 +102,7 @@ def _event(height: FloatArray, start: int, end: int, before: int, after: int, gu
 
 
 def outstanding(record: EvenRecord) -> FloatArray:
-    """Tell by how much the fast part of signals stands out.
+    """Compute by how much the fast part of signals stands out.
 
     Args:
         record: Signals.
@@ -126,22 +126,22 @@ def _resolution(signals: FloatArray) -> FloatArray:
 
 
 MOST_MODES = 3
-"""Modes that are told apart."""
+"""Modes that are separated."""
 LEAST_SHARE = 0.5
 """Share of what a fit leaves that a further mode must explain; slow noise alone lets modes explain a tenth."""
 ABOVE_NOISE = 1.5
-"""Times the level of the quiet stretches beside it at which a decay ends."""
+"""Times the level of the quiet segments beside it at which a decay ends."""
 BLOCKS = 40
 """Blocks in which a decay is looked at for its end."""
 MOST_DAMPING = 0.8
-"""Damping from which on a mode hardly swings, and is not told from the force that excites it."""
+"""Damping from which on a mode hardly swings, and is not separable from the force that excites it."""
 LEAST_SAMPLES = 50
 """Samples of a decay."""
 
 _CALM = 3
 """Blocks in a row without swing that end a decay."""
 _LAGS = 3
-"""Part of a stretch up to which its autocovariance is taken, tapered."""
+"""Part of a segment up to which its autocovariance is taken, tapered."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -157,7 +157,7 @@ class RingDown(ArrayRecord):
     error: FloatArray = field(metadata=array(2))
     """Standard errors of frequency and damping; shape (2,)."""
     modes: int
-    """Modes that were told apart."""
+    """Modes that were separated."""
     level: float
     """Level in the middle of the decay."""
     level_error: float
@@ -235,7 +235,7 @@ def _ring_down(
     frequency, damping, gradient = strongest
     residual = decay - best.model(best.parameters)
     own = _autocovariance([residual * math.sqrt(len(decay) / (len(decay) - len(best.parameters)))])
-    # what the fit leaves beyond the noise, such as further modes, makes it doubtful too
+    # what the fit leaves beyond the noise, such as further modes, makes it uncertain too
     known = own if noise is None or own[0] > noise[0] else noise
     covariance = _covariance(_jacobian(best.model, best.parameters), known)
     return RingDown(
@@ -275,7 +275,7 @@ def error_of_mean(count: int, noise: FloatArray) -> float:
 
 
 def _span(values: FloatArray, event: Event) -> tuple[int, int]:
-    """First sample of the free decay, half a swing behind the peak, and one past its end in the noise."""
+    """First sample of the free decay, half a period behind the peak, and one past its end in the noise."""
     behind = values[event.peak : event.after]
     if len(behind) < LEAST_SAMPLES:
         return event.peak, event.after
@@ -403,7 +403,7 @@ def _covariance(jacobian: FloatArray, autocovariance: FloatArray) -> FloatArray:
 
 
 SETTLED = 0.3
-"""Part of the stretch behind an event that is averaged for the first look at a step, before weights hang again."""
+"""Part of the segment behind an event that is averaged for the first look at a step, before weights hang again."""
 
 
 def step_direction(record: EvenRecord, events: tuple[Event, ...]) -> FloatArray:
@@ -424,7 +424,7 @@ def step_direction(record: EvenRecord, events: tuple[Event, ...]) -> FloatArray:
 def gains(
     record: EvenRecord, events: tuple[Event, ...], decays: Sequence[RingDown], weight_N: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Tell what the sensor reads of a newton of each released weight.
+    """Compute the measurement per newton of each released weight.
 
     Args:
         record: One signal; shape (n, 1).

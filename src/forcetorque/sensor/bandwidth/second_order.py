@@ -5,14 +5,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays
+from forcetorque.base.arrays import ArrayField, ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.base.units import NORMAL_95
+from forcetorque.results.table import Row, Shown
 from forcetorque.sensor.bandwidth.frequency_response import FrequencyResponse, frequency_response
 
 MISFIT = 2.0
@@ -42,7 +43,7 @@ class SecondOrder(ArrayRecord):
 
     @property
     def determined(self) -> bool:
-        """Whether natural frequency and damping are told from none, and not the gain alone."""
+        """Whether natural frequency and damping are separable from none, and not the gain alone."""
         half = self.half_width
         return bool(half[0] < 0.5 * self.natural_frequency_hz and half[1] < self.damping)
 
@@ -59,7 +60,7 @@ class SecondOrder(ArrayRecord):
         return self.gain / (1.0 + 2j * self.damping * ratio - ratio**2)
 
     def bandwidth(self) -> tuple[float, float]:
-        """Tell up to which frequency the response is within 3 dB, a factor of `sqrt(0.5)`, of that at rest, or above.
+        """Compute the bandwidth: the response is within 3 dB, a factor of `sqrt(0.5)`, of that at rest, or above it.
 
         Returns:
             Frequency, Hz, and half of its 95 % interval, by its gradient.
@@ -91,10 +92,10 @@ def fit_second_order(response: FrequencyResponse, *, name: str) -> SecondOrder:
         name: What was recorded, for messages.
 
     Returns:
-        Natural frequency, damping and gain; their covariance is `jackknifed`'s to tell.
+        Natural frequency, damping and gain; the covariance is computed by `jackknifed`.
 
     Raises:
-        FitError: If too few frequencies are driven, or nothing swings.
+        FitError: If too few frequencies are driven, or nothing oscillates.
     """
     from scipy.optimize import least_squares
 
@@ -217,50 +218,59 @@ _DRAWS = 400
 _ORDER = 2
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class InverseFilter(ArrayRecord):
-    """`corrected = filter(reading)`, sample by sample."""
+class InverseFilter(Row):
+    """Filter that undoes the response: `corrected[t] = b0 y[t] + b1 y[t-1] + b2 y[t-2] - a1 c[t-1] - a2 c[t-2]`."""
 
-    rate_hz: float
-    """Rate for which it is made; Hz."""
-    cut_off_hz: float
-    """Cut-off; Hz."""
-    numerator: FloatArray = field(metadata=array(_ORDER + 1))
-    """Coefficients b; shape (3,)."""
-    denominator: FloatArray = field(metadata=array(_ORDER + 1))
-    """Coefficients a, the first 1; shape (3,)."""
+    rate_hz: Annotated[float, Shown("rate", "Hz", digits=2)]
+    """Rate of the samples that it filters."""
+    cut_off_hz: Annotated[float, Shown("cut-off", "Hz", digits=2)]
+    """Cut-off of the Butterworth low-pass of second order that the corrected sensor is."""
+    noise_gain: Annotated[float, Shown("white noise times", digits=3)]
+    """Standard deviation of white noise behind the filter over that before it, over the static gain."""
+    quiet_gain: Annotated[float | None, Shown("quiet reading times", digits=3)]
+    """The same of the quiet samples before an event; null without an event."""
+    numerator: Annotated[FloatArray, ArrayField((_ORDER + 1,))]
+    """Coefficients b."""
+    denominator: Annotated[FloatArray, ArrayField((_ORDER + 1,))]
+    """Coefficients a, the first 1."""
 
-    def __post_init__(self) -> None:
-        check_arrays(self)
-        if not (np.abs(np.roots(self.denominator)) < 1.0).all():
-            raise FitError(f"inverse filter: expected one that is stable, got the denominator {self.denominator}")
-
-    def apply(self, reading: FloatArray) -> FloatArray:
-        """Correct a reading; it starts as if the first sample had always been there.
+    def apply(self, measurement: FloatArray) -> FloatArray:
+        """Correct a measurement; it starts as if the first sample had always been there.
 
         Args:
-            reading: Samples at its rate, without missing values; shape (n,) or (n, k).
+            measurement: Samples at its rate, without missing values; shape (n,) or (n, k).
 
         Returns:
             Force; the same shape.
+
+        Raises:
+            FitError: If the filter is not stable.
         """
-        from scipy.signal import lfilter, lfilter_zi
-
-        values = np.asarray(reading, dtype=np.float64)
-        settled = lfilter_zi(self.numerator, self.denominator)
-        state = np.multiply.outer(settled, values[0]) if len(values) else np.zeros((_ORDER, *values.shape[1:]))
-        return lfilter(self.numerator, self.denominator, values, axis=0, zi=state)[0]
-
-    @property
-    def noise_gain(self) -> float:
-        """Standard deviation of white noise behind the filter over that before it."""
-        from scipy.signal import freqz
-
-        _, response = freqz(self.numerator, self.denominator, worN=8192)
-        return math.sqrt(float((np.abs(response) ** 2).mean()))
+        return _filtered(self.numerator, self.denominator, measurement)
 
 
-def inverse_filter(sensor: SecondOrder, rate_hz: float, *, cut_off_hz: float | None, name: str) -> InverseFilter:
+def _filtered(numerator: FloatArray, denominator: FloatArray, measurement: FloatArray) -> FloatArray:
+    from scipy.signal import lfilter, lfilter_zi
+
+    if not (np.abs(np.roots(denominator)) < 1.0).all():
+        raise FitError(f"inverse filter: expected one that is stable, got the denominator {denominator}")
+    values = np.asarray(measurement, dtype=np.float64)
+    settled = lfilter_zi(numerator, denominator)
+    state = np.multiply.outer(settled, values[0]) if len(values) else np.zeros((_ORDER, *values.shape[1:]))
+    return lfilter(numerator, denominator, values, axis=0, zi=state)[0]
+
+
+def _noise_gain(numerator: FloatArray, denominator: FloatArray) -> float:
+    """Standard deviation of white noise behind a filter over that before it."""
+    from scipy.signal import freqz
+
+    _, response = freqz(numerator, denominator, worN=8192)
+    return math.sqrt(float((np.abs(response) ** 2).mean()))
+
+
+def inverse_filter(
+    sensor: SecondOrder, rate_hz: float, *, cut_off_hz: float | None, name: str, quiet: FloatArray | None = None
+) -> InverseFilter:
     """Make the filter that undoes a sensor.
 
     Args:
@@ -268,12 +278,13 @@ def inverse_filter(sensor: SecondOrder, rate_hz: float, *, cut_off_hz: float | N
         rate_hz: Rate of its samples; Hz.
         cut_off_hz: Up to which frequency it is undone; Hz; its natural frequency if None.
         name: Name of the sensor, for messages.
+        quiet: Samples before an event, whose noise the filter changes; shape (n,); None if there are none.
 
     Returns:
         The filter.
 
     Raises:
-        FitError: If the cut-off is beyond what samples tell, or the response is not known well enough below it.
+        FitError: If the cut-off is beyond what samples show, or the response is not known well enough below it.
     """
     from scipy.signal import butter
 
@@ -294,17 +305,24 @@ def inverse_filter(sensor: SecondOrder, rate_hz: float, *, cut_off_hz: float | N
     angle = turn * np.emath.sqrt(1.0 - sensor.damping**2)  # imaginary, and its cosine real, where it is overdamped
     zeros = np.array([1.0, -2.0 * decay * float(np.cos(angle).real), decay**2])
     _, poles = butter(_ORDER, cut_off, fs=rate_hz)
+    numerator = zeros * poles.sum() / zeros.sum() / sensor.gain
+    static_gain = abs(float(numerator.sum() / poles.sum()))
+    quiet_gain = None
+    if quiet is not None and quiet.std() > 0.0:
+        quiet_gain = float(_filtered(numerator, poles, quiet).std() / quiet.std() / static_gain)
     return InverseFilter(
         rate_hz=rate_hz,
         cut_off_hz=cut_off,
-        numerator=zeros * poles.sum() / zeros.sum() / sensor.gain,
+        noise_gain=_noise_gain(numerator, poles) / static_gain,
+        quiet_gain=quiet_gain,
+        numerator=numerator,
         denominator=poles,
     )
 
 
 def _doubt(sensor: SecondOrder, cut_off_hz: float) -> float:
     """Largest share below the cut-off by which the corrected response is off, held by 95 % of what may be so."""
-    rng = np.random.default_rng(0)  # a fixed sample: the same data give the same answer
+    rng = np.random.default_rng(0)  # a fixed sample: the same data give the same result
     mean = np.array([sensor.natural_frequency_hz, sensor.damping, sensor.gain])
     root = np.linalg.svd(sensor.covariance)
     draws = mean + rng.normal(size=(_DRAWS, 3)) @ (np.sqrt(root.S)[:, None] * root.Vh)

@@ -13,7 +13,7 @@ References:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
@@ -22,6 +22,7 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, re
 from forcetorque.base.errors import ForceTorqueError, ShapeError
 from forcetorque.recording.stream import Stream
 from forcetorque.recording.stream_faults import saturation_findings
+from forcetorque.results.table import Row
 from forcetorque.sensor.full_scale import axis_resolution as largest_step
 
 MARGIN = 0.2
@@ -41,9 +42,9 @@ class GainChange(StrEnum):
     LOWER = "lower"
     """The channel comes closer to a limit than the margin."""
     LOWER_AND_REPEAT = "lower_and_repeat"
-    """The channel saturates, so that nobody knows how far it would have gone: repeat the motion with less gain."""
+    """The channel saturates, so that its range is unknown: repeat the motion with less gain."""
     UNKNOWN = "unknown"
-    """The load did not move, so that nothing tells how far the channel goes in use."""
+    """The load did not move, so that nothing shows how far the channel goes in use."""
     NONE_FITS = "none_fits"
     """The channel saturates or lacks the margin, and no lower gain is allowed."""
 
@@ -88,27 +89,64 @@ class ChannelRange:
         return self.saturated_samples / self.samples
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class GainAdvice:
-    """Which gain a channel should have, and what it would then read."""
+class ChannelGain(Row):
+    """The range of a channel over a recording, the gain that it should have, and the range with that gain."""
 
     channel: str
     """Name of the channel."""
-    present: float | None
-    """Gain with which the recording was made; None if it is not known."""
-    recommended: float | None
-    """Allowed gain to set; None if no gains are known, none fits, or the load did not move."""
+    smallest_counts: float
+    """Smallest raw sample."""
+    largest_counts: float
+    """Largest raw sample."""
+    headroom_below: float
+    """Distance to the negative limit; share of the limit."""
+    headroom_above: float
+    """Distance to the positive limit; share of the limit."""
+    saturated_share: float
+    """Share of samples at a limit."""
+    present_gain: float | None
+    """Gain with which it was recorded; none if it is not known."""
+    recommended_gain: float | None
+    """Largest allowed gain that keeps the margin; where none does, the lowest below the present one; none if no gains
+    are known, none fits, or the load did not move."""
     largest_factor: float | None
-    """Factor on the gain that would leave just the margin; where the channel saturates, an upper bound;
-    None for a channel that reads zero throughout, or whose load did not move."""
-    factor: float
-    """Factor on the counts that the expected readings are made with: that of the recommended gain, else the largest."""
+    """Factor on the gain that would leave just the margin; an upper bound where the channel saturates; none for a
+    channel that is zero throughout, or whose load did not move."""
     change: GainChange
-    """What to do."""
-    expected: ChannelRange
-    """What the channel would have read; where it saturated, at least this far."""
+    """How to change the gain."""
     keeps_margin: bool
-    """Whether that leaves the margin, as far as the recording can tell."""
+    """Whether that leaves the margin, as far as the recording shows."""
+    expected_smallest_counts: float
+    """Smallest raw sample with the recommended gain, else with the largest factor."""
+    expected_largest_counts: float
+    """Largest raw sample likewise."""
+    expected_headroom_below: float
+    """Distance to the negative limit with that gain; share of the limit."""
+    expected_headroom_above: float
+    """Distance to the positive limit with that gain; share of the limit."""
+
+    @property
+    def factor(self) -> float:
+        """Factor on the counts of the expected range: that of the recommended gain, else the largest."""
+        if self.change in {GainChange.UNKNOWN, GainChange.NONE_FITS}:
+            return 1.0
+        if self.recommended_gain is not None and self.present_gain is not None:
+            return self.recommended_gain / self.present_gain
+        return 1.0 if self.largest_factor is None else self.largest_factor
+
+    @property
+    def advice(self) -> str:
+        """The change of the gain, in a few words."""
+        if self.change is GainChange.UNKNOWN:
+            return "none: static"
+        change = self.change.value.replace("_", " ")
+        if self.change in {GainChange.KEEP, GainChange.NONE_FITS}:
+            return change
+        is_repeated = self.change is GainChange.LOWER_AND_REPEAT
+        verb = "repeat" if is_repeated else change
+        if self.recommended_gain is not None:
+            return f"{verb} {'at' if is_repeated else 'to'} {self.recommended_gain:g}"
+        return verb if self.largest_factor is None else f"{verb} x {self.largest_factor:.3g}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -164,7 +202,7 @@ def advise_gains(
     margin: float = MARGIN,
     present: Sequence[float] | None = None,
     allowed: Sequence[float] | None = None,
-) -> tuple[GainAdvice, ...]:
+) -> tuple[ChannelGain, ...]:
     """Choose for each channel the largest gain that keeps the margin to both limits.
 
     A channel that saturates gets a lower gain in any case, and is to be recorded again. Where no gain
@@ -179,7 +217,7 @@ def advise_gains(
         allowed: Gains that can be set; the present ones can.
 
     Returns:
-        Advice for each channel.
+        Range and recommended gain of each channel.
 
     Raises:
         ForceTorqueError: If the margin is not below 1, or a gain not above 0.
@@ -192,11 +230,11 @@ def advise_gains(
     if any(not (gain > 0.0 and np.isfinite(gain)) for gain in (*(present or ()), *(allowed or ()))):
         raise ForceTorqueError("gains: expected finite numbers above 0")
     gains: Sequence[float | None] = [None] * len(ranges) if present is None else present
-    return tuple(_advice(channel, gain, allowed, margin) for channel, gain in zip(ranges, gains, strict=True))
+    return tuple(_channel_gain(channel, gain, allowed, margin) for channel, gain in zip(ranges, gains, strict=True))
 
 
 def axis_resolution(matrix: FloatArray, *, factors: Sequence[float] | None = None) -> AxisResolution:
-    """Tell what one count is worth.
+    """Compute the wrench of one count.
 
     Args:
         matrix: Matrix for the present gains; shape (6, c); N/count, N m/count.
@@ -223,45 +261,42 @@ def strongest_samples(counts: FloatArray) -> tuple[IntArray, int]:
     return magnitudes.argmax(axis=0).astype(np.int64), int(np.linalg.norm(magnitudes, axis=1).argmax())
 
 
-def _advice(channel: ChannelRange, present: float | None, allowed: Sequence[float] | None, margin: float) -> GainAdvice:
+def _channel_gain(
+    channel: ChannelRange, present: float | None, allowed: Sequence[float] | None, margin: float
+) -> ChannelGain:
     free = (1.0 - margin) * channel.limit_counts
     largest = free / channel.peak_counts if channel.peak_counts > 0.0 else None
     recommended = None
     if not channel.moved and not channel.saturated_samples and channel.peak_counts <= free:
-        return GainAdvice(
-            channel=channel.channel,
-            present=present,
-            recommended=None,
-            largest_factor=None,
-            factor=1.0,
-            change=GainChange.UNKNOWN,
-            expected=channel,
-            keeps_margin=True,
-        )
-    if present is not None and allowed:
+        largest, factor, change = None, 1.0, GainChange.UNKNOWN
+    elif present is not None and allowed:
         recommended = _choose(channel, present, allowed, largest)
         factor = 1.0 if recommended is None else recommended / present
         change = GainChange.NONE_FITS if recommended is None else _change(channel, recommended, present)
     else:
         factor = 1.0 if largest is None else largest
         change = _change(channel, factor, 1.0)
-    expected = ChannelRange(
-        channel=channel.channel,
-        samples=channel.samples,
+    expected = replace(
+        channel,
         smallest_counts=channel.smallest_counts * factor,
         largest_counts=channel.largest_counts * factor,
-        limit_counts=channel.limit_counts,
-        saturated_samples=0 if factor < 1.0 else channel.saturated_samples,
     )
-    return GainAdvice(
+    return ChannelGain(
         channel=channel.channel,
-        present=present,
-        recommended=recommended,
+        smallest_counts=channel.smallest_counts,
+        largest_counts=channel.largest_counts,
+        headroom_below=channel.headroom_below,
+        headroom_above=channel.headroom_above,
+        saturated_share=channel.saturated_share,
+        present_gain=present,
+        recommended_gain=recommended,
         largest_factor=largest,
-        factor=factor,
         change=change,
-        expected=expected,
         keeps_margin=expected.peak_counts <= free * (1.0 + _ROUNDING),
+        expected_smallest_counts=expected.smallest_counts,
+        expected_largest_counts=expected.largest_counts,
+        expected_headroom_below=expected.headroom_below,
+        expected_headroom_above=expected.headroom_above,
     )
 
 

@@ -61,7 +61,7 @@ def gains(
     if figure is not None:
         from forcetorque.base.output_file import write_bytes_atomically
         from forcetorque.results.figures import png_bytes
-        from forcetorque.sensor.gains.figure import gain_figure
+        from forcetorque.sensor.figures import gain_figure
 
         drawn = gain_figure([sensor_gains(run, margin=margin) for run in runs])
         write_bytes_atomically(figure, png_bytes(drawn))

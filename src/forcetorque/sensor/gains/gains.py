@@ -26,20 +26,19 @@ from forcetorque.results.table import Table
 from forcetorque.robot.model import RobotModel
 from forcetorque.sensor.gains.amplifier_gains import (
     MARGIN,
-    ChannelRange,
-    GainAdvice,
+    ChannelGain,
     GainChange,
     advise_gains,
     axis_resolution,
     channel_ranges,
 )
-from forcetorque.sensor.gains.result import ChannelRow, ResolutionRow, SensorRow, strongest_rows
+from forcetorque.sensor.gains.result import ResolutionRow, SensorRow, strongest_rows
 
 _STILL = 0.01
 """Change of the expected wrench, relative to its size, below which the limb did not move: one that turns by half a
 degree changes it by as much."""
 _LEVER_M = 0.01
-"""Least lever by which the size of the moment is judged."""
+"""Least lever by which the size of the moment is evaluated."""
 _WINDOW_S = 0.5
 """Length of the means of which the range is held against the noise; s."""
 _BEYOND_NOISE = 5.0
@@ -49,7 +48,7 @@ _INSTANTS = 400
 
 
 def moved_channels(run: SensorRun, counts: RawCounts) -> BoolArray:
-    """Tell in which channels the recording shows a load that moves.
+    """Find the channels in which the recording shows a load that moves.
 
     Args:
         run: The sensor.
@@ -67,13 +66,14 @@ def moved_channels(run: SensorRun, counts: RawCounts) -> BoolArray:
 
 
 def has_contact(run: SensorRun) -> bool:
-    """Tell whether the file says of any interval that something touches the robot beyond the sensor.
+    """Check whether the file specifies a contact distal to the sensor in any interval.
 
     Args:
         run: The sensor.
 
     Returns:
-        Whether the robot stands on what is beyond the sensor, a contact is stated there, or a known wrench is applied.
+        Whether the robot stands on what is beyond the sensor, a contact is specified there, or a known wrench is
+        applied.
     """
     experiment = run.experiment
     if experiment.loads is not None and experiment.loads.in_place_of_robot:
@@ -171,25 +171,25 @@ class SensorGains(ArrayRecord):
     """Instants from the earliest stamp over all streams; shape (n,); s."""
     counts: FloatArray = field(metadata=array("n", "c"))
     """Raw readings over all intervals that are not ignored; shape (n, c); counts."""
-    advice: tuple[GainAdvice, ...] = field(metadata=names("c"))
-    """Which gain each channel should have."""
+    channels: tuple[ChannelGain, ...] = field(metadata=names("c"))
+    """Range and recommended gain of each channel."""
 
     @property
     def factors(self) -> FloatArray:
         """Factor on the counts of each channel; shape (c,)."""
-        return np.array([advised.factor for advised in self.advice])
+        return np.array([channel.factor for channel in self.channels])
 
 
 @with_recording_notes
 def select_gains(
     run: SensorRun, *, margin: float = MARGIN, calibration: tuple[str, Calibration] | None = None
 ) -> Gains:
-    """Look how a sensor uses its range over all intervals that are not ignored.
+    """Compute how a sensor uses its range over all intervals that are not ignored, and recommend gains.
 
     Args:
         run: The sensor, with its present and allowed gains if they are known.
         margin: Share of the limit to keep free.
-        calibration: Name and calibration whose matrix tells what a count is worth; the prior's if left out.
+        calibration: Name and calibration whose matrix gives what a count is worth; the prior's if left out.
 
     Returns:
         Ranges, advice and resolution.
@@ -199,10 +199,10 @@ def select_gains(
         ShapeError: If the matrix does not have a column per channel.
     """
     counts = raw_counts(run)
-    ranges, advice = _advised(run, counts, margin)
+    channels = _channel_gains(run, counts, margin)
     matrix, source = _matrix(run, calibration)
     if matrix is not None:
-        require_shape(matrix, name=f"{source}: matrix", shape=(6, len(ranges)))
+        require_shape(matrix, name=f"{source}: matrix", shape=(6, len(channels)))
     row = SensorRow(
         sensor=run.sensor.name,
         serial=run.sensor.serial,
@@ -212,17 +212,17 @@ def select_gains(
         recovered=counts.recovered,
         limit_counts=run.sensor.limit_counts,
         contact_stated=has_contact(run),
-        repeat=counts.frozen > 0 or any(channel.saturated_samples for channel in ranges),
-        channels=tuple(_channel_row(channel, advised) for channel, advised in zip(ranges, advice, strict=True)),
+        repeat=counts.frozen > 0 or any(channel.saturated_share > 0.0 for channel in channels),
+        channels=channels,
         matrix=source,
-        resolution=() if matrix is None else _resolution_rows(matrix, advice),
+        resolution=() if matrix is None else _resolution_rows(matrix, channels),
         strongest=strongest_rows(run.experiment.recording, counts),
     )
     return Gains(
         experiment=run.experiment.name,
         margin=margin,
         sensors=(row,),
-        warnings=tuple(_doubts(row, run.sensor.prior_source)),
+        warnings=tuple(_warnings(row, run.sensor.prior_source)),
     )
 
 
@@ -237,7 +237,6 @@ def sensor_gains(run: SensorRun, *, margin: float = MARGIN) -> SensorGains:
         Samples and advice.
     """
     counts = raw_counts(run)
-    _, advice = _advised(run, counts, margin)
     return SensorGains(
         sensor=run.sensor.name,
         serial=run.sensor.serial,
@@ -245,13 +244,11 @@ def sensor_gains(run: SensorRun, *, margin: float = MARGIN) -> SensorGains:
         limit_counts=run.sensor.limit_counts,
         time_s=seconds_since(counts.stream.stamp_ns, run.experiment.recording.start_ns),
         counts=counts.values,
-        advice=advice,
+        channels=_channel_gains(run, counts, margin),
     )
 
 
-def _advised(
-    run: SensorRun, counts: RawCounts, margin: float
-) -> tuple[tuple[ChannelRange, ...], tuple[GainAdvice, ...]]:
+def _channel_gains(run: SensorRun, counts: RawCounts, margin: float) -> tuple[ChannelGain, ...]:
     sensor = run.sensor
     ranges = channel_ranges(
         counts.stream,
@@ -261,8 +258,8 @@ def _advised(
         recovered=counts.recovered,
     )
     moved = moved_channels(run, counts)
-    ranges = tuple(replace(channel, moved=bool(one)) for channel, one in zip(ranges, moved, strict=True))
-    return ranges, advise_gains(ranges, margin=margin, present=sensor.amplifier_gain, allowed=sensor.allowed_gains)
+    ranges = tuple(replace(channel, moved=bool(has_moved)) for channel, has_moved in zip(ranges, moved, strict=True))
+    return advise_gains(ranges, margin=margin, present=sensor.amplifier_gain, allowed=sensor.allowed_gains)
 
 
 def _matrix(run: SensorRun, calibration: tuple[str, Calibration] | None) -> tuple[FloatArray | None, str | None]:
@@ -275,29 +272,9 @@ def _matrix(run: SensorRun, calibration: tuple[str, Calibration] | None) -> tupl
     return run.sensor.prior, run.sensor.prior_source
 
 
-def _channel_row(channel: ChannelRange, advice: GainAdvice) -> ChannelRow:
-    return ChannelRow(
-        channel=channel.channel,
-        smallest_counts=channel.smallest_counts,
-        largest_counts=channel.largest_counts,
-        headroom_below=channel.headroom_below,
-        headroom_above=channel.headroom_above,
-        saturated_share=channel.saturated_share,
-        present_gain=advice.present,
-        recommended_gain=advice.recommended,
-        largest_factor=advice.largest_factor,
-        change=advice.change,
-        keeps_margin=advice.keeps_margin,
-        expected_smallest_counts=advice.expected.smallest_counts,
-        expected_largest_counts=advice.expected.largest_counts,
-        expected_headroom_below=advice.expected.headroom_below,
-        expected_headroom_above=advice.expected.headroom_above,
-    )
-
-
-def _resolution_rows(matrix: FloatArray, advice: Sequence[GainAdvice]) -> tuple[ResolutionRow, ...]:
+def _resolution_rows(matrix: FloatArray, channels: Sequence[ChannelGain]) -> tuple[ResolutionRow, ...]:
     present = axis_resolution(matrix)
-    expected = axis_resolution(matrix, factors=[advised.factor for advised in advice])
+    expected = axis_resolution(matrix, factors=[channel.factor for channel in channels])
     return tuple(
         ResolutionRow(
             component=component,
@@ -311,8 +288,8 @@ def _resolution_rows(matrix: FloatArray, advice: Sequence[GainAdvice]) -> tuple[
     )
 
 
-def _doubts(row: SensorRow, prior: str | None) -> Iterator[str]:
-    """What the recording cannot tell."""
+def _warnings(row: SensorRow, prior: str | None) -> Iterator[str]:
+    """What the recording cannot show."""
     if row.recovered:
         yield (
             f"{row.sensor}: counts were recovered through {prior}; an offset that the electronics took off is not in "
@@ -326,8 +303,8 @@ def _doubts(row: SensorRow, prior: str | None) -> Iterator[str]:
     still = [channel.channel for channel in row.channels if channel.change is GainChange.UNKNOWN]
     if still:
         yield (
-            f"{row.sensor}: the load of {', '.join(still)} did not move, so that nothing tells how far they go in use, "
-            "and no gain is advised; record the motions and contacts of use"
+            f"{row.sensor}: the load of {', '.join(still)} did not move, so that their range under operating loads is "
+            "unknown, and no gain is advised; record the motions and contacts of use"
         )
     for channel in row.channels:
         if channel.saturated_share > 0.0:

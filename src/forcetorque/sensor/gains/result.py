@@ -14,7 +14,7 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Stream
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import Row, Table, Values
-from forcetorque.sensor.gains.amplifier_gains import GainChange, strongest_samples
+from forcetorque.sensor.gains.amplifier_gains import ChannelGain, GainChange, strongest_samples
 
 
 class JointRow(Row):
@@ -82,55 +82,6 @@ def _postures(recording: Recording, source: Stream, at_ns: IntArray) -> list[tup
     return [tuple(posture) for posture in postures]
 
 
-class ChannelRow(Row):
-    """One channel of a sensor."""
-
-    channel: str
-    """Name of the channel."""
-    smallest_counts: float
-    """Smallest reading."""
-    largest_counts: float
-    """Largest reading."""
-    headroom_below: float
-    """What is left towards the negative limit; share of the limit."""
-    headroom_above: float
-    """What is left towards the positive limit; share of the limit."""
-    saturated_share: float
-    """Share of samples at a limit."""
-    present_gain: float | None
-    """Gain with which it was recorded."""
-    recommended_gain: float | None
-    """Largest allowed gain that keeps the margin; where none does, the lowest below the present one."""
-    largest_factor: float | None
-    """Factor on the gain that would leave just the margin; an upper bound where the channel saturates."""
-    change: GainChange
-    """What to do."""
-    keeps_margin: bool
-    """Whether that leaves the margin, as far as the recording can tell."""
-    expected_smallest_counts: float
-    """Smallest reading with the recommended gain, else with the largest factor."""
-    expected_largest_counts: float
-    """Largest reading likewise."""
-    expected_headroom_below: float
-    """What would be left towards the negative limit; share of the limit."""
-    expected_headroom_above: float
-    """What would be left towards the positive limit; share of the limit."""
-
-    @property
-    def advice(self) -> str:
-        """What to do, in a word or two."""
-        if self.change is GainChange.UNKNOWN:
-            return "none: still"
-        words = self.change.value.replace("_", " ")
-        if self.change in {GainChange.KEEP, GainChange.NONE_FITS}:
-            return words
-        is_repeated = self.change is GainChange.LOWER_AND_REPEAT
-        verb = "repeat" if is_repeated else words
-        if self.recommended_gain is not None:
-            return f"{verb} {'at' if is_repeated else 'to'} {self.recommended_gain:g}"
-        return verb if self.largest_factor is None else f"{verb} x {self.largest_factor:.3g}"
-
-
 class ResolutionRow(Row):
     """What one count is worth along an axis."""
 
@@ -160,7 +111,7 @@ class SensorRow(Row):
     missing: int
     """Samples without a reading."""
     frozen: int
-    """Samples that a saturated board held, by its status; without one, samples in long stretches of one reading."""
+    """Samples that a saturated board held, by its status; without one, samples in long segments of one reading."""
     recovered: bool
     """Whether counts came through the inverse of the prior; an offset of the electronics is not in them."""
     limit_counts: float
@@ -169,7 +120,7 @@ class SensorRow(Row):
     """Whether the file says of any interval that something touches the robot beyond the sensor."""
     repeat: bool
     """Whether the motion is to be repeated because a channel saturated or the reading froze."""
-    channels: tuple[ChannelRow, ...]
+    channels: tuple[ChannelGain, ...]
     """Channels in the order of the electronics."""
     matrix: str | None
     """Where the matrix for the resolution comes from."""
@@ -187,9 +138,9 @@ class SensorRow(Row):
         yield _channel_table(self)
         if not self.contact_stated and any(channel.change is GainChange.RAISE for channel in self.channels):
             yield (
-                "no contact is stated beyond the sensor: whether loads of use were recorded, and the head-room under "
-                "contact, is unknown; raise a gain only if nothing will touch the limb, or record the contacts of use "
-                "and state them as [[contact]]"
+                "no contact is specified distal to the sensor: whether operating loads were recorded, and the "
+                "head-room under contact, is unknown; raise a gain only if nothing will touch the limb, or record the "
+                "contacts of operation and state them as [[contact]]"
             )
         if self.resolution:
             yield _resolution_table(self.resolution)
@@ -216,7 +167,7 @@ def _channel_table(row: SensorRow) -> Table:
     )
 
 
-def _channel_line(channel: ChannelRow) -> tuple[str, ...]:
+def _channel_line(channel: ChannelGain) -> tuple[str, ...]:
     return (
         channel.channel,
         f"{channel.smallest_counts:.0f} to {channel.largest_counts:.0f}",

@@ -65,7 +65,7 @@ def thermal(
         )
     if figure is not None:
         from forcetorque.results.figures import png_bytes
-        from forcetorque.sensor.temperature.figure import thermal_figure
+        from forcetorque.sensor.figures import thermal_figure
 
         write_bytes_atomically(figure, png_bytes(thermal_figure(result.sensors)))
         result = result.model_copy(update={"figure": str(figure)})

@@ -63,7 +63,7 @@ def find_branches(temperature_degC: FloatArray, threshold_degC: float) -> Branch
 
 
 def compared_share(temperature_degC: FloatArray, heating: FloatArray) -> float:
-    """Tell how much of the range of temperature was gone through in both directions.
+    """Compute the share of the range of temperature that was covered in both directions.
 
     Args:
         temperature_degC: Temperatures; shape (m,); degC.

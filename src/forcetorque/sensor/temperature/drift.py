@@ -16,22 +16,22 @@ from forcetorque.sensor.temperature.cycles import LEAST_OVERLAP, Cycles, compare
 SAME_AS_TIME = 0.98
 """Share of the variance of a temperature that offset and time explain, from which on the two are one."""
 MIXED_WITH_TIME = 0.5
-"""Share of heating against cooling that offset, time and temperature explain, from which on they are hard to tell
-apart: 0.75 for one even cycle, 0.19 for two."""
+"""Share of heating against cooling that offset, time and temperature explain, from which on they are hard to
+separate: 0.75 for one even cycle, 0.19 for two."""
 LEAST_RANGE_DEGC = 5.0
-"""Range of temperatures below which little is told of what a day, or a motor that warms up, does; degC."""
+"""Range of temperatures below which little is determined of what a day, or a motor that warms up, does; degC."""
 
 USUAL_LAG_S = 120.0
 """How late a thermometer is, or how early, as a standard deviation before the record is seen; s."""
 
 LAG_UNTOLD_S = 0.5 * USUAL_LAG_S
-"""Standard error of a lag from which on a record tells it hardly; s."""
+"""Standard error of a lag from which on a record hardly determines it; s."""
 
 _HOUR_S = 3600.0
 _LAG_STEPS = 4
 """Steps in which a lag settles: readings are nearly linear in it."""
 _SPEED_SHARE = 0.5
-"""Share of the noise of a thermometer in what the other columns leave of its speed, from which on it tells no lag."""
+"""Share of the noise of a thermometer in what the other columns leave of its speed, from which on it shows no lag."""
 _SPEED_MEANS = 3
 """Means to either side over which the speed of a temperature is taken."""
 _NODES, _WEIGHTS = np.array([-1.0, 0.0, 1.0]) * np.sqrt(3.0), np.array([1.0, 4.0, 1.0]) / 6.0
@@ -40,7 +40,7 @@ _NODES, _WEIGHTS = np.array([-1.0, 0.0, 1.0]) * np.sqrt(3.0), np.array([1.0, 4.0
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class DriftFit(ArrayRecord):
-    """Drift of k signals; half-widths are of 95 % intervals and infinite where nothing tells."""
+    """Drift of k signals; half-widths are of 95 % intervals and infinite where it is not determined."""
 
     reference_degC: float
     """Temperature T0, the mean; degC."""
@@ -55,15 +55,15 @@ class DriftFit(ArrayRecord):
     hysteresis_half_width: FloatArray | None = field(metadata=array("k"))
     """Shape (k,)."""
     drift_per_hour: FloatArray | None = field(metadata=array("k"))
-    """Change with time, mean of the power-ups; shape (k,); None where it cannot be told from temperature."""
+    """Change with time, mean of the power-ups; shape (k,); None where it is not separable from temperature."""
     drift_half_width: FloatArray | None = field(metadata=array("k"))
     """Of the largest half-width of a power-up; shape (k,)."""
     time_share: float
     """Share of the variance of the temperature that offset and time explain."""
     lag_s: float
-    """By how much the thermometer is later than the gauges, as told by all signals and by what is usual; s."""
+    """By how much the thermometer is later than the gauges, as determined by all signals and by what is usual; s."""
     lag_error_s: float
-    """Its standard error; s: of the signal that tells it best, because noise of signals may go together; 0 where
+    """Its standard error; s: of the signal that shows it best, because noise of signals may go together; 0 where
     heating and cooling are so even that a lag is hysteresis, and changes nothing else."""
     hysteresis_share: float
     """Share of heating against cooling that offset, time and temperature explain."""
@@ -74,7 +74,7 @@ class DriftFit(ArrayRecord):
 
     @property
     def told_from_time(self) -> bool:
-        """Whether drift with temperature was told from drift with time."""
+        """Whether drift with temperature was separable from drift with time."""
         return self.drift_per_hour is not None
 
 
@@ -229,7 +229,7 @@ class LoadStep:
 
 
 def find_load_step(cycles: Cycles, residual: FloatArray) -> LoadStep | None:
-    """Look for a step in the residual of a fit.
+    """Find a step in the residual of a fit.
 
     Args:
         cycles: Means that were fitted.

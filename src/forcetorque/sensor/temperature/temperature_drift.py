@@ -39,7 +39,7 @@ from forcetorque.sensor.temperature.drift import (
 
 
 class ThermalDriftRow(Row):
-    """Drift of one component or channel; half-widths are of 95 % intervals, null where nothing tells."""
+    """Drift of one component or channel; half-widths are of 95 % intervals, null where it is not determined."""
 
     signal: Annotated[str, Shown("")]
     """Component of the wrench, or channel."""
@@ -56,7 +56,7 @@ class ThermalDriftRow(Row):
     hysteresis_half_width_95: Annotated[FloatOrNull | None, Shown("±", digits=4)]
     """Half-width of its interval."""
     drift_per_hour: Annotated[float | None, Shown("per hour", digits=4)]
-    """What an hour adds, mean of the power-ups; null where it cannot be told from the temperature."""
+    """What an hour adds, mean of the power-ups; null where it is not separable from the temperature."""
     drift_half_width_95_per_hour: Annotated[FloatOrNull | None, Shown("±", digits=4)]
     """Half-width of its interval, the largest of the power-ups."""
     residual_rms: Annotated[float, Shown("left RMS", digits=4)]
@@ -102,13 +102,14 @@ class SensorThermal(Row):
     cycles: float
     """Cycles of heating and cooling; 0.5 for one of both."""
     told_from_time: bool
-    """Whether drift with temperature was told from drift in time."""
+    """Whether drift with temperature was separable from drift in time."""
     components: tuple[ThermalDriftRow, ...]
     """Drift of fx fy fz tx ty tz."""
     channels: tuple[ThermalDriftRow, ...]
     """Drift of every raw channel; none where wrenches were logged."""
     thermometer_lag_s: float | None
-    """By how much the thermometer reads later than the gauges; null where heating and cooling are too even to tell."""
+    """By how much the thermometer reads later than the gauges; null where heating and cooling are too even for an
+    estimate."""
     thermometer_lag_half_width_95_s: float | None
     """Half-width of its interval."""
     corrected: bool
@@ -117,7 +118,7 @@ class SensorThermal(Row):
     """Means, for the figure."""
 
     def blocks(self) -> Iterator[Table | str]:
-        """Give the drift, and what `calibrate` can be told of it.
+        """Give the drift, and what `calibrate` can use of it.
 
         Yields:
             Tables and sentences.
@@ -138,7 +139,7 @@ class SensorThermal(Row):
             yield from table
 
     def variable_table(self) -> tuple[str, ...] | None:
-        """Write what the fit can be told to expect: the coefficients that take the drift off, and their errors.
+        """Write what the fit can expect: the coefficients that take the drift off, and their errors.
 
         Returns:
             Lines of TOML; None where the drift is not known, or is what another correction leaves.
@@ -252,8 +253,8 @@ def thermal(
         ),
     )
     step = find_load_step(settled, fit.residual)
-    doubts = _doubts(sensor, settled, fit, step)
-    return Thermal(experiment=run.experiment.name, sensors=(sensor,), warnings=tuple(doubts))
+    warnings = _warnings(sensor, settled, fit, step)
+    return Thermal(experiment=run.experiment.name, sensors=(sensor,), warnings=tuple(warnings))
 
 
 def _temperature(run: SensorRun, wanted: str | None) -> SensorVariable:
@@ -307,7 +308,7 @@ def _row(k: int, signal: str, unit: str, fit: DriftFit) -> ThermalDriftRow:
     )
 
 
-def _doubts(sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: LoadStep | None) -> Iterator[str]:
+def _warnings(sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: LoadStep | None) -> Iterator[str]:
     if cycles.range_degC < LEAST_RANGE_DEGC:
         yield (
             f"{sensor.sensor}: its temperature went through {cycles.range_degC:.2g} degC only: coefficients are worth "
@@ -319,11 +320,14 @@ def _doubts(sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: LoadStep
             "are one: what is given per degC is both; record heating and cooling"
         )
     if fit.hysteresis is None:
-        yield f"{sensor.sensor}: heating and cooling were not both recorded over the same range: no hysteresis is told"
+        yield (
+            f"{sensor.sensor}: heating and cooling were not both recorded over the same range: no hysteresis is "
+            "determined"
+        )
     elif fit.hysteresis_share > MIXED_WITH_TIME:
         yield (
-            f"{sensor.sensor}: heating against cooling is hardly told from a drift in time by what was recorded, which "
-            "makes their intervals wide; record at least two cycles without switching off"
+            f"{sensor.sensor}: heating against cooling is hardly separable from a drift in time by what was recorded, "
+            "which makes their intervals wide; record at least two cycles without switching off"
         )
     if fit.lag_error_s > LAG_UNTOLD_S:
         yield (

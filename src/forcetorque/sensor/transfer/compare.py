@@ -88,7 +88,7 @@ def compare(
     """Fit every kind of function and compare them on points that were held out.
 
     Errors of all folds are pooled before the RMSE is taken. Held-out points beyond the range of a fit
-    are foretold too, by extending the function, and counted: they tell how a kind behaves there.
+    are foretold too, by extending the function, and counted: they show how a kind behaves there.
 
     Args:
         stimulus: Known stimuli, in the order in which they were recorded; shape (n,).

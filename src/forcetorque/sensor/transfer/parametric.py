@@ -65,7 +65,7 @@ def fit_polynomial(stimulus: Any, output: Any, *, degree: int = 3) -> Polynomial
         raise FitError(f"polynomial: expected a degree of at least 1, got {degree}")
     stimuli, outputs = calibration_points(stimulus, output, parameters=degree + 1)
     lowest, highest = float(stimuli.min()), float(stimuli.max())
-    # solved with the stimuli brought to -1 to 1, where powers differ enough to be told apart
+    # solved with the stimuli brought to -1 to 1, where powers differ enough to be separated
     scaled = (2.0 * stimuli - (lowest + highest)) / (highest - lowest)
     solution = least_squares(np.vander(scaled, degree + 1, increasing=True), outputs)
     series = PowerSeries(solution, domain=[lowest, highest]).convert(domain=[-1.0, 1.0])
@@ -231,7 +231,7 @@ def fit_exponent(
 
 _POSITIVE = np.geomspace(0.02, 20.0, 40)
 _EXPONENTS = np.concatenate([-_POSITIVE[::-1], _POSITIVE])
-"""Exponents to start from; smaller ones cannot be told from a logarithm."""
+"""Exponents to start from; smaller ones are not separable from a logarithm."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -290,7 +290,7 @@ def fit_power(stimulus: Any, output: Any) -> Power:
     )
     if abs(exponent) < _POSITIVE[0]:
         raise FitError(
-            f"power: the best exponent, {exponent:.2g}, cannot be told from a logarithm; fit a logarithmic function"
+            f"power: the best exponent, {exponent:.2g}, is not separable from a logarithm; fit a logarithmic function"
         )
     return Power(
         lowest=float(stimuli.min()),

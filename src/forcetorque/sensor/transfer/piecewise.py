@@ -84,7 +84,7 @@ class PiecewiseLinear(TransferFunction):
     def _turning_points(self) -> FloatArray:
         inside = self.knots[(self.knots > self.lowest) & (self.knots < self.highest)]
         directions = np.sign(np.diff(self._output(np.concatenate([[self.lowest], inside, [self.highest]]))))
-        # a level line is as bad as a turn: its output tells no single stimulus
+        # a level line is as bad as a turn: its output shows no single stimulus
         is_turn = (directions[:-1] != directions[1:]) | (directions[1:] == 0.0)
         return inside[is_turn]
 

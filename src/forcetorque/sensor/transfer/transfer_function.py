@@ -64,7 +64,7 @@ class TransferFunction(ABC):
         return self._output(values)
 
     def inverse(self, output: Any) -> FloatArray:
-        """Give the stimulus that an output tells.
+        """Give the stimulus of an output.
 
         Args:
             output: Outputs between those at the ends of the range; any shape.
@@ -73,7 +73,7 @@ class TransferFunction(ABC):
             Stimuli within the range; same shape.
 
         Raises:
-            SensorError: If the function does not rise, or fall, all over its range, so that an output tells several
+            SensorError: If the function does not rise, or fall, all over its range, so that an output shows several
                 stimuli, or if an output is outside.
         """
         self._require_monotone()

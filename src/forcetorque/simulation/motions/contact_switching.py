@@ -51,7 +51,7 @@ class Share:
 
 @dataclass(slots=True, kw_only=True)
 class Course:
-    """What happens one after the other, written down as it is told."""
+    """What happens one after the other, written down in the order of calls."""
 
     stand: Stand
     """The robot at rest."""

@@ -346,7 +346,7 @@ class Legs:
 
 
 def legs_of(stand: Stand, swing: str, *, trunk: str | None = None) -> Legs:
-    """Tell the legs apart.
+    """Find the legs.
 
     Args:
         stand: The robot on one foot.

@@ -83,7 +83,7 @@ class Footing:
 
         Args:
             seconds: Instants; shape (n,); s.
-            world_H_rest: Pose of the link at rest, which footholds tell already; shape (4, 4); m.
+            world_H_rest: Pose of the link at rest, which footholds give already; shape (4, 4); m.
 
         Returns:
             `world_H_link`; shape (n, 4, 4); m.
@@ -98,7 +98,7 @@ class Footing:
 
         Args:
             seconds: Instants; shape (n,); s.
-            world_H_rest: Pose of the link at rest, which footholds tell already; shape (4, 4); m.
+            world_H_rest: Pose of the link at rest, which footholds give already; shape (4, 4); m.
             gravity: Magnitude of gravity; m/s2.
 
         Returns:

@@ -59,7 +59,7 @@ class Steps:
         return cls(cycle_s=cycle_s, swing=(first, second))
 
     def shares(self, seconds: FloatArray) -> FloatArray:
-        """Tell how far each foot has taken its load.
+        """Compute the share of its load that each foot has taken.
 
         Args:
             seconds: Instants; shape (n,); s.
@@ -71,7 +71,7 @@ class Steps:
         return 1.0 - minimum_jerk(_progress(phase, _UNLOADED)) + minimum_jerk(_progress(phase, _LOADED))
 
     def lifts(self, seconds: FloatArray) -> FloatArray:
-        """Tell how far each foot is up.
+        """Compute the height of each foot.
 
         Args:
             seconds: Instants; shape (n,); s.
@@ -84,7 +84,7 @@ class Steps:
         return 64.0 * (x * (1.0 - x)) ** 3
 
     def displacements(self, seconds: FloatArray) -> FloatArray:
-        """Tell how far each foot is away from where it stands.
+        """Compute the displacement of each foot from where it stands.
 
         Args:
             seconds: Instants; shape (n,); s.
@@ -97,7 +97,7 @@ class Steps:
         return np.stack([lifts[:, [k]] * (middle + swing(seconds)) for k, swing in enumerate(self.swing)])
 
     def lean(self, seconds: FloatArray) -> FloatArray:
-        """Tell over which foot the trunk leans.
+        """Compute over which foot the trunk leans.
 
         Args:
             seconds: Instants; shape (n,); s.

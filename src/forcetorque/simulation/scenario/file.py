@@ -63,7 +63,7 @@ class Sensors(Table):
     names: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
     """Sensors of the robot; all if left out."""
     family: Text = "standard"
-    """Family that specimens are drawn from."""
+    """Family that sensors are drawn from."""
     noise_counts: NotNegative = 3.0
     """White noise; counts."""
     noise_corner_hz: NotNegative = 0.0
@@ -123,14 +123,15 @@ LINEAR_ONLY: Mapping[str, Any] = MappingProxyType(
         "crosstalk_counts": 0.0,
     }
 )
-"""Changes of `Sensors` after which a matrix, an offset per power-up and a coefficient of the temperature tell all but
+"""Changes of `Sensors` after which a matrix, an offset per power-up and a coefficient of the temperature describe all
+but
 noise: nothing saturates, lags, creeps or is quadratic. Matrices, offsets and linear drift are drawn as without them."""
 
 
 UNDISTURBED: Mapping[str, Any] = MappingProxyType(
     {**LINEAR_ONLY, "noise_counts": 0.0, "step_counts": 0.0, "drift_counts_per_degC": 0.0}
 )
-"""Changes of `Sensors` after which a matrix and an offset per power-up tell all."""
+"""Changes of `Sensors` after which a matrix and an offset per power-up describe all."""
 
 
 _Count = Annotated[int, Field(ge=0, strict=True)]
@@ -197,7 +198,7 @@ class Imu(Table):
 
 
 _NEEDS_IMU = (MovementKind.STEPPING, MovementKind.CONTACT_SWITCHING)
-"""Motions in which at times nobody knows what which foot bears."""
+"""Motions in which the load of each foot is unknown at times."""
 
 
 class Motion(Table):

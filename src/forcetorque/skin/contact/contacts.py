@@ -77,13 +77,13 @@ def _add_ring(surface: SkinSurface, inside: BoolArray, contact: IntArray) -> Non
 RESIDUAL_SHARE: Final = 0.303
 """Error of the pressure between taxels that one taxel stands for, over what its neighbours did not predict of it."""
 SHAPE_SHARE: Final = 0.031
-"""Error of a wrench over its size that no taxel tells: edges that are sharper than a pad, the shape of the surface.
+"""Error of a wrench over its size that no taxel shows: edges that are sharper than a pad, the shape of the surface.
 
 Both are the likeliest for 1104 simulated contacts on a lower leg, in range and off its edge, by ideal pads and by a
-chain of 8 bits; they were judged on others.
+chain of 8 bits; they were evaluated on others.
 """
 _INTERPOLATING: Final = (WrenchMethod.LINEAR, WrenchMethod.KRIGING)
-"""Methods whose error between taxels is of that size; the others have one that no contact tells."""
+"""Methods whose error between taxels is of that size; the others have one that no contact shows."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -152,7 +152,7 @@ def find_contacts(patch: SkinPatch, frame: PressureFrame) -> SkinContacts:
     """Group the taxels that feel something, and give the wrench of each group and of one ring about it.
 
     Summing the whole patch instead would sum the rounding of hundreds of taxels that feel nothing. Two contacts that
-    touch each other are one here; `lobes` tells those that may be two.
+    touch each other are one here; `lobes` shows those that may be two.
 
     Args:
         patch: The patch.
@@ -254,7 +254,7 @@ def _covariance(
         return np.full((len(wrench), 6, 6), np.nan)
     taxels = groups.taxels
     residual = patch.predicted_pressures(frame.live).residual(frame.pressures, taxels)
-    # where neighbours are dead a taxel stands for more skin, and tells each bit of it less well
+    # where neighbours are dead a taxel stands for more skin, and shows each bit of it less well
     between = RESIDUAL_SHARE * residual * groups.areas / patch.operator().areas[taxels]
     scaled = groups.weights * np.sqrt(frame.sd_Pa[taxels] ** 2 + between**2)[:, None]
     squares = np.stack([own.T @ own for own in np.split(scaled, groups.starts[1:])])

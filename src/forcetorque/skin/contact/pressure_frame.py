@@ -20,7 +20,7 @@ from forcetorque.base.arrays import (
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.taxels.patch_calibration import PressureTable
-from forcetorque.skin.temperature.heat_compensation import TaxelDrift
+from forcetorque.skin.temperature.taxel_temperature_drift import TaxelDrift
 
 
 def _nothing() -> FloatArray:
@@ -78,7 +78,7 @@ WAKING: Final = 3.8
 _ROUNDING: Final = 1.0 / np.sqrt(12.0)
 """Standard deviation of what rounding to whole counts leaves; counts."""
 _FEWEST_AT_REST: Final = 10
-"""Messages that tell rest and noise."""
+"""Messages that show rest and noise."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -115,7 +115,7 @@ class PatchReader(ArrayRecord):
             The reader.
 
         Raises:
-            SkinError: If there are too few messages to tell.
+            SkinError: If there are too few messages.
         """
         require_last_axis(counts, name=f"patch {table.patch!r}: counts", length=table.columns)
         if counts.ndim != 2 or len(counts) < _FEWEST_AT_REST:

@@ -15,8 +15,8 @@ from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import Row, Shown
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import WAKING, PatchReader, PressureFrame
-from forcetorque.skin.temperature.heat_compensation import HeatGains, TaxelDrift
 from forcetorque.skin.temperature.pad_lags import PadFilter
+from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, TaxelDrift
 from forcetorque.skin.wrench.patch import SkinPatch
 
 RELEASED_SHARE: Final = 0.5
@@ -30,7 +30,7 @@ SETTLED_SHARE: Final = 0.1
 
 
 _FEWEST: Final = 5
-"""Frames that tell a release, where they are longer than a second."""
+"""Frames that show a release, where they are longer than a second."""
 _JUST: Final = 1e-9
 """Less than the time between frames; s."""
 
@@ -73,7 +73,7 @@ class _HeldContact:
             self.course.popleft()
 
     def release(self) -> ReleaseRow | None:
-        """Tell whether it was let go and has settled."""
+        """Check whether the contact was released and has settled."""
         times, forces, limits = np.array(self.course).T
         settled = times > min(times[-1] - SETTLED_S, times[-2:][0] - _JUST)
         before = float(np.median(forces[: max(1, len(forces) // 4)]))
@@ -136,7 +136,7 @@ _RATE_STEP_S: Final = 10.0
 class PatchFollower:
     """Reads frames of one patch one after the other, and keeps what heat has done to it.
 
-    Pads tell heat from inside, by their gains and lags. What these leave is a baseline of every taxel, which follows it
+    Pads show heat from inside, by their gains and lags. What these leave is a baseline of every taxel, which follows it
     while it is idle, and is frozen in a contact and one ring around it, so that no contact is eaten. Heat that comes
     through a contact is measured by neither: it is bounded by the time for which each taxel has been touched, times the
     steepest rate of the warm-up, and what pads left unexplained there. A taxel that is let go cools as slowly as it was
@@ -195,7 +195,7 @@ class PatchFollower:
         return frame, contacts
 
     def _heat(self, passed: float, message: FloatArray, number: int) -> tuple[FloatArray, FloatArray]:
-        """Fall of the taxels by heat, as the pads tell it, and its standard deviation; shape (n,) each; counts."""
+        """Fall of the taxels by heat, as the pads measure it, and its standard deviation; shape (n,) each; counts."""
         pads = self.heat.pads
         fall, sd = self.heat.fall(self._pads.follow(passed, self.reader.rest[pads] - message[pads]))
         noise = self.heat.noise(self._pads.noise(passed, self.reader.noise[pads] / np.sqrt(number)))

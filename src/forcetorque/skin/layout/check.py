@@ -37,7 +37,7 @@ _CHECKS: tuple[Callable[[PatchShape], Iterator[LayoutFindingRow]], ...] = (
 
 
 def layout_findings(patch: PatchDescription) -> tuple[LayoutFindingRow, ...]:
-    """Look for everything that may be wrong with a layout.
+    """Check a layout.
 
     Args:
         patch: Patch.
@@ -49,7 +49,7 @@ def layout_findings(patch: PatchDescription) -> tuple[LayoutFindingRow, ...]:
 
 
 def shape_findings(shape: PatchShape) -> tuple[LayoutFindingRow, ...]:
-    """Look for everything that may be wrong with a layout whose shape is known.
+    """Check a layout whose shape is known.
 
     Args:
         shape: Patch.

@@ -72,7 +72,7 @@ class LayoutFindingRow(Row):
 
 
 def counted(count: int, noun: str) -> str:
-    """Say how many.
+    """Count items, with a noun.
 
     Args:
         count: How many.
@@ -112,7 +112,7 @@ def finding_of(
 
 
 class Side(Enum):
-    """What tells the outer side of a surface."""
+    """What determines the outer side of a surface."""
 
     SHAPE = auto()
     """Skin bulges outwards."""
@@ -137,7 +137,7 @@ class PatchShape:
     normals: FloatArray | None
     """Normals of that surface at the taxels; shape (n, 3)."""
     side: Side
-    """What tells its outer side."""
+    """What determines its outer side."""
 
 
 def shape_of(patch: PatchDescription) -> PatchShape:
@@ -163,7 +163,7 @@ def shape_of(patch: PatchDescription) -> PatchShape:
 
 
 def _surface(positions: FloatArray, hints: dict[Side, FloatArray | None]) -> tuple[SkinSurface | None, Side]:
-    """The surface, and the first that tells its outer side."""
+    """The surface, and the first that determines its outer side."""
     across = np.linalg.svd(positions - positions.mean(axis=0))[2][2]
     for side, outward in {**hints, Side.NOTHING: np.broadcast_to(across, positions.shape)}.items():
         try:

@@ -120,7 +120,7 @@ class PatchDescription(ArrayRecord):
     representatives: IntArray | None = field(default=None, metadata=array(None, dtype="int"))
     """Entry of `taxel2Repr` for each column, as many as are written; shape (k,); None if the form has none."""
     placed: IntArray | None = field(default=None, metadata=array(None, dtype="int"))
-    """Columns whose row in the file is a place, whatever they are; shape (k,); None for the taxels."""
+    """Columns whose row in the file is a position, of whatever kind; shape (k,); None for the taxels."""
 
     def __post_init__(self) -> None:
         check_arrays(self)

@@ -5,7 +5,7 @@ A plan says where modules are beside each other and how each is turned, on paper
 About every module the way from paper to link is taken as a quadratic, fitted to the centres of its neighbours: its
 derivative gives the plane of the module and the directions of the plan's axes in it. Where a piece of the plan is drawn
 as seen from behind, its modules are marked as mirrored. On the link every board is the same, so that its handedness
-tells which side is out.
+determines which side is out.
 """
 
 from __future__ import annotations
@@ -144,7 +144,7 @@ TEMPLATE_M = 5e-4
 
 
 def are_boards(taxels: IntArray, modules: IntArray) -> bool:
-    """Tell whether a patch is of triangular modules, which have twelve columns each.
+    """Check whether a patch consists of triangular modules, which have twelve columns each.
 
     Args:
         taxels: Column of each taxel; shape (n,).
@@ -157,7 +157,7 @@ def are_boards(taxels: IntArray, modules: IntArray) -> bool:
 
 
 def has_ten(taxels: IntArray) -> bool:
-    """Tell whether a module has the ten taxels of the triangle.
+    """Check whether a module has the ten taxels of the triangle.
 
     Args:
         taxels: Columns of its taxels, increasing; shape (k,).
@@ -219,7 +219,7 @@ _STRETCH: Final = 1.3
 _ROUNDING_M: Final = 0.002
 """What the whole millimetres of plans add to it; m."""
 _STIFFNESS_M: Final = 0.003
-"""Weight of no curvature; m: few neighbours do not tell how the surface bends."""
+"""Weight of no curvature; m: few neighbours do not show how the surface bends."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -251,7 +251,7 @@ def module_poses(plan: Sequence[PlannedModule], centres: FloatArray) -> FloatArr
         Pose of each module in the link, z outwards; shape (k, 4, 4); m.
 
     Raises:
-        SkinError: If a module has no two neighbours that tell how it lies.
+        SkinError: If a module has no two neighbours that show how it lies.
     """
     paper = np.array([(module.u_m, module.v_m) for module in plan])
     mirrored = np.array([module.mirrored for module in plan])

@@ -68,7 +68,7 @@ class TangentPlanes(ArrayRecord):
         root = np.sqrt(self.weights[near] * np.exp(-0.5 * farther))[:, None]
         along = offsets[near] - np.outer(offsets[near] @ rough, rough)
         terms = np.column_stack([np.ones(len(along)), along / _REACH_M])
-        # few planes do not tell how the normal turns: then it turns least
+        # few planes do not show how the normal turns: then it turns least
         constant = np.linalg.lstsq(root * terms, root * self.normals[near], rcond=1e-6)[0][0]
         return constant / np.linalg.norm(constant)
 
@@ -121,7 +121,7 @@ def rebuilt_normals(positions: FloatArray, modules: IntArray, *, outward: FloatA
     Args:
         positions: Taxels, no two at one place; shape (n, 3); m.
         modules: Module of each taxel; shape (n,).
-        outward: Rough outward direction at each taxel, where the patch does not tell by its shape which side is out,
+        outward: Rough outward direction at each taxel, where the patch does not show by its shape which side is out,
             as a flat one; shape (n, 3).
 
     Returns:
@@ -135,8 +135,8 @@ def patch_normals(patch: PatchDescription, outward: FloatArray | None = None) ->
 
     Args:
         patch: Patch with no two taxels at one place.
-        outward: Rough outward direction; shape (3,). By default the shape of the patch tells which side is out, and
-            where it is flat its boards do.
+        outward: Rough outward direction; shape (3,). By default the shape of the patch determines which side is out,
+            and where it is flat its boards do.
 
     Returns:
         Outward unit normals; shape (n, 3).

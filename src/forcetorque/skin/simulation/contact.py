@@ -361,7 +361,7 @@ HEAVIEST_KG: Final = 3.0
 LIGHTEST_CLOTH_KG: Final = 1.0
 """A lighter weight spreads over a strip so thinly that 8 bits hardly feel it."""
 ON_SKIN: Final = 0.96
-"""Share of the force that skin must feel where contacts off its edge are asked for."""
+"""Share of the force that skin must feel where contacts off its edge are requested."""
 _BESIDE_TAXEL_M: Final = 0.005
 """How far from a taxel a contact may be placed."""
 _MOST_TRIES: Final = 1000

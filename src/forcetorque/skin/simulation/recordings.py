@@ -16,7 +16,7 @@ from forcetorque.recording.stream import Signal, Stream
 from forcetorque.simulation.trace import EPOCH_NS
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.contact import ContactTruth
-from forcetorque.skin.taxels.health import Ailment
+from forcetorque.skin.taxels.faults import TaxelFault
 
 REFERENCE_PA: Final = 50e3
 """Pressure up to which the patch of the thesis was calibrated."""
@@ -52,7 +52,7 @@ class PatchHeat(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class TaxelResponses(ArrayRecord):
-    """Answers of n taxels, no two alike."""
+    """Responses of n taxels, which differ from each other."""
 
     rest: FloatArray = field(metadata=array("n"))
     """Reading without load; shape (n,); counts."""
@@ -151,12 +151,12 @@ def chamber_recording(
     ramp_s: float,
     rng: np.random.Generator,
     rest_s: float = REST_S,
-    broken: Mapping[int, Ailment] | None = None,
+    broken: Mapping[int, TaxelFault] | None = None,
 ) -> Recording:
     """Record a patch while the pressure rises evenly to a peak and falls again.
 
     Args:
-        responses: How each taxel answers.
+        responses: How each taxel responds.
         highest_pa: Peak of the pressure; Pa.
         ramp_s: Time up to it, and down again; s.
         rng: Source of noise.
@@ -167,7 +167,7 @@ def chamber_recording(
         The streams `counts`, a column per taxel, and `chamber`, on one clock.
 
     Raises:
-        SkinError: If an ailment is of a taxel that there is not.
+        SkinError: If an fault is of a taxel that there is not.
     """
     taxels = len(responses.rest)
     seconds = np.arange(round((2.0 * (rest_s + ramp_s)) * CHAMBER_RATE_HZ)) / CHAMBER_RATE_HZ
@@ -177,32 +177,32 @@ def chamber_recording(
     fall = responses.fall(pressure[:, None], np.broadcast_to(peak[:, None], (len(seconds), taxels)))
     level = responses.rest - fall + responses.noise * rng.standard_normal(fall.shape)
     counts = np.clip(np.rint(level), 1.0, 254.0)
-    for taxel, ailment in (broken or {}).items():
+    for taxel, fault in (broken or {}).items():
         if not 0 <= taxel < taxels:
             raise SkinError(f"broken: expected taxels of 0 to {taxels - 1}, got {taxel}")
         share = pressure / highest_pa
-        counts[:, taxel] = _broken(ailment, level[:, taxel], float(responses.rest[taxel]), share, rng)
+        counts[:, taxel] = _broken(fault, level[:, taxel], float(responses.rest[taxel]), share, rng)
     stamps = EPOCH_NS + np.rint(seconds * 1e9).astype(np.int64)
     gauge = pressure + _GAUGE_PA * rng.standard_normal(len(pressure))
     return Recording(streams={stream.name: stream for stream in (_counts(stamps, counts), _chamber(stamps, gauge))})
 
 
 def _broken(
-    ailment: Ailment, level: FloatArray, rest: float, share: FloatArray, rng: np.random.Generator
+    fault: TaxelFault, level: FloatArray, rest: float, share: FloatArray, rng: np.random.Generator
 ) -> FloatArray:
     """What a broken taxel sends in place of its level; shape (n,); counts."""
     quiet = rest + rng.normal(0.0, 0.3, len(level))
     sent = level.copy()
-    if ailment is Ailment.WRAPS:
+    if fault is TaxelFault.WRAPS:
         return np.asarray(np.rint(quiet - _WRAPPED_COUNTS * share) % 256.0, dtype=np.float64)
-    if ailment is Ailment.RAILS:
+    if fault is TaxelFault.RAILS:
         return np.asarray(np.where(share > 0.5, 255.0, np.rint(quiet)), dtype=np.float64)
-    if ailment is Ailment.JUMPS:
+    if fault is TaxelFault.JUMPS:
         sent[rng.choice(np.arange(1, len(sent), 2), _JUMPS, replace=False)] -= _JUMP_COUNTS
-    elif ailment is Ailment.NOISE:
+    elif fault is TaxelFault.NOISE:
         sent += rng.normal(0.0, _NOISY_COUNTS, len(level))
     else:
-        sent = quiet + (_RISE_COUNTS * share if ailment is Ailment.RISES else 0.0)
+        sent = quiet + (_RISE_COUNTS * share if fault is TaxelFault.RISES else 0.0)
     return np.asarray(np.clip(np.rint(sent), 1.0, 254.0), dtype=np.float64)
 
 
@@ -266,7 +266,7 @@ def contact_recording(
 
     Args:
         layout: The patch.
-        responses: How its taxels answer.
+        responses: How its taxels respond.
         truths: What each object does when it rests.
         rng: Source of noise.
         loading: How they are put on; as by default if None.

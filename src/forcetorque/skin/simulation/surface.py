@@ -66,7 +66,7 @@ class TrueSurface:
         """Lay a smooth surface through the taxels of a patch.
 
         Args:
-            layout: Patch with sound normals; they tell the axis.
+            layout: Patch with valid normals; they determine the axis.
 
         Returns:
             The surface; it passes the taxels by some tenths of a millimetre.

@@ -66,9 +66,9 @@ class SkinCalibration(Result):
     candidates: tuple[CandidateRow, ...]
     """Forms of curves on each recording that was not fitted, and on all."""
     recordings: tuple[SkinRecordingRow, ...]
-    """Recordings, and how many taxels are sound in each."""
+    """Recordings, and how many taxels are valid in each."""
     warm_up: WarmUpRow | None = None
-    """What was learned of heat; None without a warm-up."""
+    """What was estimated of heat; None without a warm-up."""
     calibration: PatchCalibration = Field(exclude=True, repr=False)
     """The curves."""
     picture: TaxelPicture = Field(exclude=True, repr=False)
@@ -111,9 +111,9 @@ def calibrate_skin(
     highest_pa: float | None = None,
     warm_up: Path | str | PatchExperiment | None = None,
 ) -> SkinCalibration:
-    """Fit a curve to every sound taxel of a patch.
+    """Fit a curve to every valid taxel of a patch.
 
-    All forms of curves are fitted to the calibration intervals and judged on the validation intervals; one is kept.
+    All forms of curves are fitted to the calibration intervals and evaluated on the validation intervals; one is kept.
 
     Args:
         experiments: Experiment files with the patch, or what was read of them.
@@ -123,13 +123,13 @@ def calibrate_skin(
         curve: Form to keep: one of `CurveKind`.
         highest_pa: Highest pressure above rest to fit; Pa; None for all.
         warm_up: Experiment file of a recording without contact while the robot warms up, or what was read of it; heat
-            is not told from pressure without one.
+            is not separable from pressure without one.
 
     Returns:
         The curves, and what they are worth.
 
     Raises:
-        FitError: If there is no such form, or no taxel is sound.
+        FitError: If there is no such form, or no taxel is valid.
         ExperimentError: If no interval is for calibration.
     """
     if curve not in list(CurveKind):
@@ -151,7 +151,7 @@ def calibrate_skin(
 def _with_warm_up(
     result: SkinCalibration, warm_up: Path | str | PatchExperiment, patch: ExperimentPatch
 ) -> SkinCalibration:
-    """Add what a warm-up tells of the same patch."""
+    """Add what a warm-up shows of the same patch."""
     learned, warnings, inputs = learn_warm_up(warm_up, patch)
     provenance = result.calibration.provenance
     both = {**provenance.inputs_sha256, **inputs}
@@ -218,7 +218,7 @@ def _artefact(
 
 def _taxel(column: int, k: int, curve: TaxelCurve | None, samples: FittedSamples) -> CalibratedTaxel:
     if curve is None:
-        return CalibratedTaxel(taxel=column, left_out=tuple(reason.value for reason in samples.ailments[k]))
+        return CalibratedTaxel(taxel=column, left_out=tuple(reason.value for reason in samples.faults[k]))
     return calibrated_taxel(column, curve, samples.fall[:, k], samples.pressure, samples.unloading)
 
 

@@ -95,7 +95,7 @@ _ORDER = 5
 
 
 def _fit_fifth_order(share: FloatArray, pressure: FloatArray, weight: FloatArray) -> FloatArray:
-    """Fit thesis (7.1), in the fall below rest: in raw counts the powers would not be told apart.
+    """Fit thesis (7.1), in the fall below rest: in raw counts the powers would not be separable.
 
     Args:
         share: Fall below rest as a share of the range; shape (n,).

@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve, fit_curve
-from forcetorque.skin.taxels.health import Ailment
+from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.patch_calibration import ROWS, CalibratedTaxel
 from forcetorque.skin.taxels.recording import REST_SHARE, TOP_SHARE, PatchRecording
 from forcetorque.skin.taxels.result import CandidateRow, in_kPa, recording_name
@@ -29,19 +29,19 @@ class FittedSamples:
     """Pressure above that at rest; shape (n,); Pa."""
     unloading: BoolArray
     """Whether each was reached from above; shape (n,)."""
-    ailments: tuple[tuple[Ailment, ...], ...]
+    faults: tuple[tuple[TaxelFault, ...], ...]
     """What is wrong with each taxel in any of the recordings."""
     highest: float
     """Highest fitted pressure; Pa."""
 
     def fit(self, kind: CurveKind) -> list[TaxelCurve | None]:
-        """Fit a curve to every taxel that is sound.
+        """Fit a curve to every taxel that is valid.
 
         Args:
             kind: Form of the curves.
 
         Returns:
-            A curve per taxel; None for one that is not sound.
+            A curve per taxel; None for one that is not valid.
         """
         reach = self.fall[self.pressure >= TOP_SHARE * self.highest].mean(axis=0)
         # long rest would outweigh the first counts of the rise, and make noise of them; what a load leaves as it goes
@@ -51,7 +51,7 @@ class FittedSamples:
             None
             if reasons
             else fit_curve(kind, self.fall[loaded, k], self.pressure[loaded], range_counts=float(reach[k]))
-            for k, reasons in enumerate(self.ailments)
+            for k, reasons in enumerate(self.faults)
         ]
 
 
@@ -66,22 +66,22 @@ def fitted_samples(recordings: Sequence[PatchRecording], highest: float | None) 
         Their samples.
 
     Raises:
-        FitError: If no pressure is that low, or no taxel is sound.
+        FitError: If no pressure is that low, or no taxel is valid.
     """
     pressure = np.concatenate([recording.cycle.pressure for recording in recordings])
     used = np.ones(len(pressure), dtype=bool) if highest is None else pressure <= highest
     if not used.any() or pressure[used].max() <= 0.0:
         raise FitError(f"highest pressure to fit: expected one of up to {pressure.max():.0f} Pa, got {highest} Pa")
-    by_taxel = zip(*(recording.ailments for recording in recordings), strict=True)
-    ailments = tuple(tuple(name for name in Ailment if any(name in log for log in logs)) for logs in by_taxel)
-    if all(ailments):
-        reasons = ", ".join(name for name in Ailment if any(name in taxel for taxel in ailments))
-        raise FitError(f"expected a sound taxel to fit, got none of {len(ailments)}: they are {reasons}")
+    by_taxel = zip(*(recording.faults for recording in recordings), strict=True)
+    faults = tuple(tuple(name for name in TaxelFault if any(name in log for log in logs)) for logs in by_taxel)
+    if all(faults):
+        reasons = ", ".join(name for name in TaxelFault if any(name in taxel for taxel in faults))
+        raise FitError(f"expected a valid taxel to fit, got none of {len(faults)}: they are {reasons}")
     return FittedSamples(
         fall=np.concatenate([recording.cycle.fall for recording in recordings])[used],
         pressure=pressure[used],
         unloading=np.concatenate([recording.cycle.unloading for recording in recordings])[used],
-        ailments=ailments,
+        faults=faults,
         highest=float(pressure[used].max()),
     )
 
@@ -129,7 +129,7 @@ class HeldOutErrors:
 
 
 def held_out_errors(curves: Sequence[TaxelCurve | None], recording: PatchRecording, highest: float) -> HeldOutErrors:
-    """Judge curves on a recording that was not fitted.
+    """Evaluate curves on a recording that was not fitted.
 
     Args:
         curves: A curve per taxel; None for one that was left out.
@@ -161,7 +161,7 @@ class CurveComparison:
     rows: tuple[CandidateRow, ...]
     """A row for each form and recording, and for each form and all recordings."""
     pooled: Mapping[CurveKind, HeldOutErrors]
-    """Errors of each form over the recordings in which a taxel is sound; empty without recordings."""
+    """Errors of each form over the recordings in which a taxel is valid; empty without recordings."""
     taxels: int
     """Number of taxels."""
 
@@ -192,7 +192,7 @@ class CurveComparison:
 def compare_curves(
     curves: Mapping[CurveKind, Sequence[TaxelCurve | None]], held_out: Sequence[PatchRecording], highest: float
 ) -> CurveComparison:
-    """Judge forms of curves on recordings that were not fitted.
+    """Evaluate forms of curves on recordings that were not fitted.
 
     Args:
         curves: Curves of every taxel by their forms.
@@ -207,11 +207,11 @@ def compare_curves(
     for kind, own in curves.items():
         falling = _falling(own)
         errors = [held_out_errors(own, log, highest) for log in held_out]
-        sound = [error.of(log.sound) for error, log in zip(errors, held_out, strict=True)]
-        for log, error, kept in zip(held_out, errors, sound, strict=True):
+        valid = [error.of(log.valid) for error, log in zip(errors, held_out, strict=True)]
+        for log, error, kept in zip(held_out, errors, valid, strict=True):
             rows.append(_row(kind, recording_name(log), kept, error, falling))
         if held_out:
-            pooled[kind] = reduce(add, sound)
+            pooled[kind] = reduce(add, valid)
             rows.append(_row(kind, ALL, pooled[kind], reduce(add, errors), falling))
     return CurveComparison(rows=tuple(rows), pooled=pooled, taxels=len(next(iter(curves.values()))))
 

@@ -27,8 +27,8 @@ from forcetorque.base.errors import FormatError, ShapeError, SkinError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.stored_model import StoredTable, read_json, validated_table
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
-from forcetorque.skin.taxels.health import require_counts
-from forcetorque.skin.temperature.heat_compensation import WarmUp
+from forcetorque.skin.taxels.faults import require_counts
+from forcetorque.skin.temperature.taxel_temperature_drift import WarmUp
 
 ROWS = 256
 """Counts below rest that a table has, from 0 on."""
@@ -123,7 +123,7 @@ class PressureTable(ArrayRecord):
         return pressure, slope
 
     def beyond_range(self, counts: Any, rest: Any) -> BoolArray:
-        """Tell which taxels read more than was fitted, so that their pressure is extrapolated.
+        """Find the taxels beyond the fitted range, whose pressure is extrapolated.
 
         Args:
             counts: As of `fall`.
@@ -135,7 +135,7 @@ class PressureTable(ArrayRecord):
         return self.live & (self.fall(counts, rest) > self.range_counts)
 
     def falls(self) -> BoolArray:
-        """Tell which tables fall anywhere: there a higher pressure reads as a lower one.
+        """Find the tables that fall anywhere: there a higher pressure reads as a lower one.
 
         Returns:
             Whether each does; shape (n,).
@@ -196,7 +196,7 @@ class CalibratedTaxel(StoredTable):
     taxel: int = Field(ge=0)
     """Column of the taxel."""
     left_out: tuple[str, ...] = ()
-    """What was wrong with it in the recordings that were fitted; nothing for a sound one."""
+    """What was wrong with it in the recordings that were fitted; nothing for a valid one."""
     coefficients: Annotated[FloatArray, ArrayField((None,))] | None = None
     """Coefficients of its curve; None for one that was left out."""
     range_counts: float | None = Field(default=None, gt=0.0)

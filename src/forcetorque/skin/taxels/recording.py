@@ -15,14 +15,14 @@ from forcetorque.experiment.intervals import RecordedSpan
 from forcetorque.recording.alignment import interpolate, seconds_since, usable_samples
 from forcetorque.recording.recording import Use
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
-from forcetorque.skin.taxels.health import Ailment, require_counts, taxel_ailments
+from forcetorque.skin.taxels.faults import TaxelFault, require_counts, taxel_faults
 
 REST_SHARE = 0.03
 """Share of the highest pressure below which a patch rests."""
 TURN_SHARE = 0.05
 """Share of the highest pressure by which it must turn back to have turned; less is the valve."""
 TOP_SHARE = 0.9
-"""Share of the highest pressure from which on samples tell how a taxel reads there."""
+"""Share of the highest pressure from which on samples show how a taxel reads there."""
 LEAST_RISE_PA = 1e3
 """A pressure that changes by less does not rise: one count of a taxel is about 8 kPa; Pa."""
 
@@ -165,18 +165,18 @@ class PatchRecording:
     label: str
     """Label of the interval."""
     use: Use
-    """Whether it is fitted or judges."""
+    """Whether it is for calibration or validation."""
     seconds: FloatArray
     """Instants since the start of the recording; shape (n,); s."""
     cycle: PressureCycle
     """Counts and pressure from rest, a column per taxel."""
-    ailments: tuple[tuple[Ailment, ...], ...]
+    faults: tuple[tuple[TaxelFault, ...], ...]
     """What is wrong with each taxel here."""
 
     @property
-    def sound(self) -> BoolArray:
+    def valid(self) -> BoolArray:
         """Taxels with which nothing is wrong; shape (c,)."""
-        return np.array([not reasons for reasons in self.ailments])
+        return np.array([not reasons for reasons in self.faults])
 
 
 def patch_recordings(experiment: PatchExperiment, patch: ExperimentPatch) -> list[PatchRecording]:
@@ -228,7 +228,7 @@ def _recording(
         use=interval.use,
         seconds=seconds_since(stream.stamp_ns[rows], experiment.recording.start_ns),
         cycle=cycle,
-        ailments=taxel_ailments(counts, cycle.top_fall),
+        faults=taxel_faults(counts, cycle.top_fall),
     )
 
 

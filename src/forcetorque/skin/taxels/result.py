@@ -13,18 +13,18 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names
 from forcetorque.results.table import Row, Shown
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
-from forcetorque.skin.taxels.health import Ailment
+from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.patch_calibration import CalibratedTaxel
 from forcetorque.skin.taxels.recording import PatchRecording
 
 
 class SkinRecordingRow(Row):
-    """A recording, and how many of the taxels are sound in it."""
+    """A recording, and how many of the taxels are valid in it."""
 
     recording: Annotated[str, Shown("recording")]
     """Experiment and label of the interval."""
     use: Annotated[str, Shown("use")]
-    """Whether it was fitted or judges."""
+    """Whether it is for calibration or validation."""
     messages: Annotated[int, Shown("messages")]
     """Messages of counts with a pressure."""
     highest_kPa: Annotated[float, Shown("highest", "kPa", digits=0)]
@@ -34,7 +34,7 @@ class SkinRecordingRow(Row):
     sound: Annotated[int, Shown("sound")]
     """Taxels with which nothing is wrong in it."""
     wraps: Annotated[int, Shown("wrap")]
-    """Taxels that run below 0 and go on at 255; a taxel may have several ailments."""
+    """Taxels that run below 0 and go on at 255; a taxel may have several faults."""
     rails: Annotated[int, Shown("at rails")]
     """Taxels that read 0 or 255."""
     jumps: Annotated[int, Shown("jump")]
@@ -53,9 +53,9 @@ class CandidateRow(Row):
     curve: Annotated[str, Shown("curve")]
     """Form of the curve."""
     recording: Annotated[str, Shown("recording")]
-    """Recording, or `all`: then the squares of a taxel are pooled over those in which it is sound."""
+    """Recording, or `all`: then the squares of a taxel are pooled over those in which it is valid."""
     taxels: Annotated[int, Shown("taxels")]
-    """Taxels that are sound where it was fitted and in this recording."""
+    """Taxels that are valid where it was fitted and in this recording."""
     left_out: Annotated[int, Shown("left out")]
     """Taxels that are not."""
     inside_kPa: Annotated[float | None, Shown("inside", "kPa", digits=1)]
@@ -63,7 +63,7 @@ class CandidateRow(Row):
     above_kPa: Annotated[float | None, Shown("above", "kPa", digits=1)]
     """At higher ones."""
     inside_any_kPa: Annotated[float | None, Shown("inside, any", "kPa", digits=1)]
-    """Inside, over all taxels that were fitted, whether or not they are sound in this recording."""
+    """Inside, over all taxels that were fitted, whether or not they are valid in this recording."""
     above_any_kPa: Annotated[float | None, Shown("above, any", "kPa", digits=1)]
     """Above, over all taxels that were fitted."""
     falling: Annotated[int, Shown("falling")]
@@ -76,7 +76,7 @@ class TaxelRow(Row):
     taxel: Annotated[int, Shown("taxel")]
     """Column of the taxel."""
     left_out: Annotated[str | None, Shown("left out")]
-    """What was wrong with it where it was to be fitted; none for a sound one."""
+    """What was wrong with it where it was to be fitted; none for a valid one."""
     range_counts: Annotated[float | None, Shown("range", "counts", digits=1)]
     """Fall below rest at the highest fitted pressure."""
     rmse_kPa: Annotated[float | None, Shown("rmse", "kPa", digits=1)]
@@ -88,7 +88,7 @@ class TaxelRow(Row):
     hysteresis_percent: Annotated[float | None, Shown("of range", "%", digits=1)]
     """The same as a share of the range."""
     inside_kPa: Annotated[float | None, Shown("held out, inside", "kPa", digits=1)]
-    """Error on recordings that were not fitted, where it is sound, at pressures that were fitted."""
+    """Error on recordings that were not fitted, where it is valid, at pressures that were fitted."""
     above_kPa: Annotated[float | None, Shown("above", "kPa", digits=1)]
     """The same at higher ones."""
 
@@ -102,15 +102,15 @@ def recording_row(recording: PatchRecording) -> SkinRecordingRow:
     Returns:
         Its row.
     """
-    number = Counter(reason for reasons in recording.ailments for reason in reasons)
+    number = Counter(reason for reasons in recording.faults for reason in reasons)
     return SkinRecordingRow(
         recording=recording_name(recording),
         use=recording.use.value,
         messages=len(recording.seconds),
         highest_kPa=1e-3 * recording.cycle.highest,
         rest_kPa=1e-3 * recording.cycle.rest_pressure,
-        sound=int(np.count_nonzero(recording.sound)),
-        **{name.name.lower(): number[name] for name in Ailment},
+        sound=int(np.count_nonzero(recording.valid)),
+        **{name.name.lower(): number[name] for name in TaxelFault},
     )
 
 
@@ -178,9 +178,9 @@ class TaxelPicture(ArrayRecord):
     pressure: FloatArray = field(metadata=array("n"))
     """Pressure above that at rest; shape (n,); Pa."""
     fall: FloatArray = field(metadata=array("n", "k"))
-    """Counts below rest of sound taxels, spread over all; shape (n, k)."""
+    """Counts below rest of valid taxels, spread over all; shape (n, k)."""
     mean_fall: FloatArray = field(metadata=array("n"))
-    """Mean over all sound taxels; shape (n,); counts."""
+    """Mean over all valid taxels; shape (n,); counts."""
     names: tuple[str, ...] = field(metadata=names("k"))
     """Names of the k taxels."""
     curves: Mapping[str, FloatArray]

@@ -53,12 +53,12 @@ def pad_lags(
         instants: Times of means of messages; shape (k,); s.
         taxels: Means of taxels; shape (k, n); counts.
         pads: Means of pads; shape (k, t); counts.
-        follows: Whether each taxel is sound and follows each pad; shape (n, t).
+        follows: Whether each taxel is valid and follows each pad; shape (n, t).
         averaged: Means that are averaged once more before they are compared.
 
     Returns:
         Time constant of a first-order lag of each pad behind its taxels, negative where the pad leads; 0 where none is
-        told from noise; shape (t,); s.
+        separable from noise; shape (t,); s.
     """
     squares = np.array([_squares(instants, taxels, pads, follows, lag, averaged) for lag in LAGS_S])  # (g, t, 2)
     number = len(instants) // averaged
@@ -123,7 +123,7 @@ PADS_S: Final = 2.0
 LATE_PADS: Final = 1.25
 """Time constant over which a pad that lags is averaged, over the square root of its lag; sqrt(s).
 
-The trend that makes up for the lag then has the same noise whatever the lag."""
+The trend that makes up for the lag then has the same noise at every lag."""
 
 
 class PadFilter:

@@ -19,7 +19,8 @@ from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_p
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.layout.normals import rebuilt_normals
-from forcetorque.skin.temperature.heat_compensation import (
+from forcetorque.skin.temperature.pad_lags import PadFilter, lagged, means_of, pad_lags
+from forcetorque.skin.temperature.taxel_temperature_drift import (
     LEAST_CHANGE_COUNTS,
     LEAST_SHARE,
     HeatGains,
@@ -30,7 +31,6 @@ from forcetorque.skin.temperature.heat_compensation import (
     require_pads,
     valid_columns,
 )
-from forcetorque.skin.temperature.pad_lags import PadFilter, lagged, means_of, pad_lags
 from forcetorque.skin.wrench.frames import patch_messages
 
 BLOCK_S: Final = 1.0
@@ -63,7 +63,7 @@ def fit_warm_up(experiment: str, seconds: FloatArray, counts: FloatArray, layout
         layout: The patch.
 
     Returns:
-        What was learned, taxel by taxel.
+        What was estimated, taxel by taxel.
 
     Raises:
         SkinError: If the patch has no thermal pads, none is alive or warms, or something touched it.
@@ -201,7 +201,7 @@ def _with_unexplained(
         taxel = int(worst.argmax())
         when = instants[_SMOOTH_BLOCKS * int(np.abs(left[:, taxel]).argmax())]
         raise SkinError(
-            f"expected thermal pads that tell heat when taxels feel it, got pads that leave over "
+            f"expected thermal pads that measure the heat of the taxels, got pads that leave over "
             f"{UNEXPLAINED_COUNTS:g} counts of {np.count_nonzero(worst > UNEXPLAINED_COUNTS)} taxels, of taxel "
             f"{columns[taxel]} {worst[taxel]:.1f} at {when:.0f} s, with a lag of {np.median(gains.lags):.0f} s in the "
             "median: that would read as contacts; let the motors heat the patch more slowly, or use skin wrench "
@@ -263,7 +263,7 @@ class WarmUpRow(Row):
     pads: Annotated[int, Shown("pads")]
     """Thermal pads that taxels follow."""
     dead_pads: Annotated[int, Shown("dead")]
-    """Thermal pads that tell nothing."""
+    """Thermal pads that show nothing."""
     pad_change_counts: Annotated[float, Shown("pads change", "counts", digits=1)]
     """Median change of the living ones."""
     taxels: Annotated[int, Shown("taxels")]
@@ -279,7 +279,7 @@ class WarmUpRow(Row):
     unexplained_counts: Annotated[float, Shown("unexplained", "counts", digits=1)]
     """Most that pads, followed as they come, leave of a taxel."""
     rate_counts_per_min: Annotated[float, Shown("rate", "counts/min", digits=1)]
-    """Median of their steepest changes, from which limits of drift are told."""
+    """Median of their steepest changes, from which limits of drift are determined."""
 
 
 def learn_warm_up(
@@ -293,10 +293,10 @@ def learn_warm_up(
         patch: The patch that is calibrated.
 
     Returns:
-        What was learned, what makes it doubtful and what the file adds to its log, and the SHA-256 of its input files.
+        What was estimated, warnings and what the file adds to its log, and the SHA-256 of its input files.
 
     Raises:
-        ExperimentError: If it is another patch, its layout is not stated, or its interval is not.
+        ExperimentError: If it is another patch, its layout is not specified, or its interval is not.
     """
     content = load_patches(experiment) if isinstance(experiment, (Path, str)) else experiment
     own = content.patch(patch.name)
@@ -376,7 +376,7 @@ def warm_up_row(learned: WarmUp) -> WarmUpRow:
     """Sum a warm-up up.
 
     Args:
-        learned: What was learned.
+        learned: What was estimated.
 
     Returns:
         Its row.

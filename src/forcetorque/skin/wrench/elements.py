@@ -3,7 +3,7 @@
 
 Facets of a module are plane and meet those of the next at an angle, but skin is smooth: every side is bent so that it
 leaves both of its ends at a right angle to their normals, which makes each piece a quadratic triangle. Pieces share
-their sides and the outer sides of the rim are straight, so whatever the bend, a uniform pressure gives exactly what the
+their sides and the outer sides of the rim are straight, so for any bend a uniform pressure gives exactly what the
 outline alone says [1].
 
 References:

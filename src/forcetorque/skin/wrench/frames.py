@@ -16,12 +16,12 @@ from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import PatchReader, PressureFrame
 from forcetorque.skin.contact.tracking import ContactLife, ContactLives, PatchFollower, ReleaseRow
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
-from forcetorque.skin.taxels.health import FULL_COUNTS, Ailment, require_counts, taxel_ailments
+from forcetorque.skin.taxels.faults import FULL_COUNTS, TaxelFault, require_counts, taxel_faults
 from forcetorque.skin.taxels.patch_calibration import PatchCalibration, PressureTable
-from forcetorque.skin.temperature.heat_compensation import HeatGains, HeatRule, TaxelDrift, stuck_pads
+from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, HeatRule, TaxelDrift, stuck_pads
 from forcetorque.skin.wrench.patch import SkinPatch
 
-_EXCLUDING: Final = (Ailment.WRAPS, Ailment.RAILS, Ailment.NOISE)
+_EXCLUDING: Final = (TaxelFault.WRAPS, TaxelFault.RAILS, TaxelFault.NOISE)
 """What makes a taxel useless in a recording of contacts; jumps may be blows, and many are never touched."""
 MOST_LEFT_OUT: Final = 0.5
 """Share of taxels left out above which contacts between the others are missed, and a recording says nothing."""
@@ -102,8 +102,8 @@ def resting_reader(
     resting = seconds < seconds[0] + rest_s
     own = counts[:, table.taxels]
     never_judged = np.full(len(table), np.inf)
-    # noise is judged at rest: under a hand that moves every taxel is noisy
-    reasons = zip(taxel_ailments(own, never_judged), taxel_ailments(own[resting], never_judged), strict=True)
+    # noise is evaluated at rest: under a hand that moves every taxel is noisy
+    reasons = zip(taxel_faults(own, never_judged), taxel_faults(own[resting], never_judged), strict=True)
     excluded = np.array([_is_excluded(whole, rest) for whole, rest in reasons])
     live = table.live & ~excluded & has_pad
     if np.count_nonzero(~live) > MOST_LEFT_OUT * len(live):
@@ -168,9 +168,9 @@ def _short_noise(counts: FloatArray) -> FloatArray:
     return np.sqrt(np.mean(np.minimum(np.abs(np.diff(counts, axis=0)), 5.0) ** 2, axis=0) / 2.0)
 
 
-def _is_excluded(whole: Sequence[Ailment], resting: Sequence[Ailment]) -> bool:
+def _is_excluded(whole: Sequence[TaxelFault], resting: Sequence[TaxelFault]) -> bool:
     return any(one in _EXCLUDING for one in resting) or any(
-        one in _EXCLUDING for one in whole if one is not Ailment.NOISE
+        one in _EXCLUDING for one in whole if one is not TaxelFault.NOISE
     )
 
 
@@ -280,7 +280,7 @@ def _followed(lives: ContactLives, seconds: float, frame: PressureFrame, contact
 
 
 def _rule(calibration: PatchCalibration, chosen: FrameChoice) -> HeatRule:
-    """The rule that is asked for, or the best that there is."""
+    """The rule that is requested, or the best that there is."""
     if chosen.temperature is None:
         rule = HeatRule.NONE if calibration.warm_up is None else HeatRule.LEARNED
     elif chosen.temperature in list(HeatRule):
@@ -322,7 +322,7 @@ def _heat(
 
 
 def _plain(skin: SkinPatch, reader: PatchReader, heat: HeatGains | None) -> Callable[[float, FloatArray], ReadFrame]:
-    """Every frame by itself, less what the pads tell at that time."""
+    """Every frame by itself, less what the pads measure at that time."""
 
     def read(seconds: float, counts: FloatArray) -> ReadFrame:
         drift = None

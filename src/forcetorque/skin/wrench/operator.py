@@ -33,7 +33,7 @@ class WrenchMethod(StrEnum):
     """How pressures are interpolated between taxels."""
 
     SIMPLE = "simple"
-    """Every taxel stands for the same stated area, (7.13)."""
+    """Every taxel stands for the same given area, (7.13)."""
     THESIS = "thesis"
     """Linear between discs in the plane of a drawing, whose distortion is neglected, (7.2) to (7.5)."""
     LINEAR = "linear"
@@ -151,7 +151,7 @@ def _filled(surface: SkinSurface, live: BoolArray) -> FloatArray:
 
 
 def simple_operator(layout: SkinLayout, live: BoolArray, *, taxel_area_m2: float) -> WrenchOperator:
-    """Let every live taxel press with its pressure on a stated area, along its normal.
+    """Let every live taxel press with its pressure on a given area, along its normal.
 
     Args:
         layout: The patch.

@@ -60,7 +60,7 @@ class SkinPatch:
         """Prepare a patch.
 
         Args:
-            layout: Where the taxels are, with sound normals.
+            layout: Where the taxels are, with valid normals.
             method: How pressures are interpolated between taxels.
             taxel_area_m2: Area of a taxel; the simple method needs it, no other takes it.
             plane: Places of the taxels in a drawing; the method of the thesis needs them, no other takes them; shape

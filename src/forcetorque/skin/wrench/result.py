@@ -18,7 +18,7 @@ from forcetorque.results.table import AxisValues, FloatOrNull, Row, Shown, Wrenc
 from forcetorque.skin.contact.contacts import SkinContacts, lobes
 from forcetorque.skin.contact.pressure_frame import PressureFrame
 from forcetorque.skin.contact.tracking import ContactLife, followed_places
-from forcetorque.skin.temperature.heat_compensation import HeatRule
+from forcetorque.skin.temperature.taxel_temperature_drift import HeatRule
 from forcetorque.skin.wrench.frames import SkinFrames
 from forcetorque.skin.wrench.patch import SkinPatch
 
@@ -192,7 +192,7 @@ def _course(life: ContactLife) -> str:
 
 
 class SkinEventRow(Row):
-    """Contacts of one patch, as a skinManager tells them."""
+    """Contacts of one patch, as a skinManager shows them."""
 
     stream: Annotated[str, Shown("stream")]
     """Stream."""
@@ -265,11 +265,12 @@ def _summary(stream: Stream, start_ns: int) -> tuple[SkinEventRow, SkinEventPict
 
 
 HEATING: Final = 1.25
-"""Heat that comes faster than in the warm-up by more is said: the limits of drift are told from its steepest minute."""
+"""Heat that comes faster than in the warm-up by more is said: the limits of drift are determined from its steepest
+minute."""
 
 
 def heat_warnings(frames: SkinFrames, rows: Sequence[SkinContactRow], *, has_pads: bool) -> tuple[str, ...]:
-    """Say what heat makes doubtful.
+    """Give warnings about heat on the skin.
 
     Args:
         frames: Frames of a recording.

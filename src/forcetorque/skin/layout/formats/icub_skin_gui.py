@@ -31,7 +31,7 @@ class IcubPositions:
     """Lines `name`, `spatial_sampling` and `taxel2Repr`, then a row x y z nx ny nz (m, link frame) per column.
 
     A row of zeros is no taxel: a thermal pad where its module has taxels, else a dummy. A column that `taxel2Repr`
-    calls a thermal pad is one, whatever its row says: its counts are no pressure. Where else the two disagree, rows
+    calls a thermal pad is one, independently of its row: its counts are no pressure. Where else the two disagree, rows
     are believed.
     """
 
@@ -39,7 +39,7 @@ class IcubPositions:
     """What it is recognised by."""
 
     def recognises(self, text: str) -> bool:
-        """Look for its line."""
+        """Whether the file has its line."""
         return _SIGN in text
 
     def read(self, path: Path, text: str) -> PatchDescription:
@@ -135,7 +135,7 @@ class SkinGuiPlan:
     """What it is recognised by."""
 
     def recognises(self, text: str) -> bool:
-        """Look for a line of a module."""
+        """Whether the file has a line of a module."""
         return re.search(rf"^{_MODULE}\s", text, re.MULTILINE) is not None
 
     def read(self, path: Path, text: str) -> PatchDescription:

@@ -34,7 +34,7 @@ class LayoutTable:
     """What it is recognised by."""
 
     def recognises(self, text: str) -> bool:
-        """Look for the header."""
+        """Whether the file has the header."""
         return re.search(r"^column,\s*module\b", text, re.MULTILINE) is not None
 
     def read(self, path: Path, text: str) -> PatchDescription:

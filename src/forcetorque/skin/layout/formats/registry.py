@@ -30,7 +30,7 @@ class LayoutFormat(Protocol):
         """What it is recognised by, for the message where nothing is."""
 
     def recognises(self, text: str) -> bool:
-        """Tell whether a file is one.
+        """Check whether a file has this format.
 
         Args:
             text: Its content.

@@ -28,7 +28,7 @@ class TaxelArrayMessage:
     """What it is recognised by."""
 
     def recognises(self, text: str) -> bool:
-        """Look for a field of the message."""
+        """Whether the file has a field of the message."""
         return re.search(rf'^\s*\{{?\s*"?{_SIGN}"?\s*:', text, re.MULTILINE) is not None or f'"{_SIGN}"' in text
 
     def read(self, path: Path, text: str) -> PatchDescription:

@@ -57,7 +57,7 @@ class UrdfFrames:
     """What it is recognised by."""
 
     def recognises(self, text: str) -> bool:
-        """Look for the schema."""
+        """Whether the file has the schema."""
         return re.search(rf'^schema\s*=\s*"{_SCHEMA}"', text, re.MULTILINE) is not None
 
     def read(self, path: Path, text: str) -> PatchDescription:
@@ -72,7 +72,7 @@ class UrdfFrames:
 
         Raises:
             FormatError: If the frames are not those of the plan, or not fixed to the link.
-            SkinError: If a module has no neighbours that tell how it is turned.
+            SkinError: If a module has no neighbours that show how it is turned.
         """
         stated = read_toml(path, ModuleFrames, what="module frames")
         frames = _frames(path, stated, read_urdf(path.parent / stated.urdf))

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.skin.taxels.health import Ailment, taxel_ailments
+from forcetorque.skin.taxels.faults import TaxelFault, taxel_faults
 
 RNG = np.random.default_rng(2)
 COUNTS = np.rint(240.0 - 40.0 * np.sin(np.linspace(0.0, np.pi, 2000)) + RNG.normal(0.0, 0.65, 2000))
@@ -23,29 +23,29 @@ def _changed(place: int, value: float) -> np.ndarray:
 ONCE = COUNTS.copy()
 ONCE[700] -= 21.0
 CASES = {
-    Ailment.WRAPS: (np.rint(240.0 - 300.0 * np.sin(np.linspace(0.0, np.pi, 2000))) % 256.0, 300.0),
-    Ailment.RAILS: (_changed(900, 255.0), FALL),
-    Ailment.JUMPS: (ONCE, FALL),
-    Ailment.NOISE: (np.clip(COUNTS + np.random.default_rng(3).normal(0.0, 3.5, 2000), 1.0, 254.0), FALL),
-    Ailment.NEVER_MOVES: (np.full(2000, 240.0), 0.0),
-    Ailment.RISES: (480.0 - COUNTS - 30.0, -FALL),
+    TaxelFault.WRAPS: (np.rint(240.0 - 300.0 * np.sin(np.linspace(0.0, np.pi, 2000))) % 256.0, 300.0),
+    TaxelFault.RAILS: (_changed(900, 255.0), FALL),
+    TaxelFault.JUMPS: (ONCE, FALL),
+    TaxelFault.NOISE: (np.clip(COUNTS + np.random.default_rng(3).normal(0.0, 3.5, 2000), 1.0, 254.0), FALL),
+    TaxelFault.NEVER_MOVES: (np.full(2000, 240.0), 0.0),
+    TaxelFault.RISES: (480.0 - COUNTS - 30.0, -FALL),
 }
 
 
-@pytest.mark.parametrize("ailment", list(Ailment))
-def test_each_is_named(ailment: Ailment) -> None:
+@pytest.mark.parametrize("fault", list(TaxelFault))
+def test_each_is_named(fault: TaxelFault) -> None:
     """The first reason is what was planted."""
-    counts, fall = CASES[ailment]
-    ((first, *_), sound) = taxel_ailments(np.column_stack([counts, COUNTS]), np.array([fall, FALL]))
-    assert first is ailment
+    counts, fall = CASES[fault]
+    ((first, *_), sound) = taxel_faults(np.column_stack([counts, COUNTS]), np.array([fall, FALL]))
+    assert first is fault
     assert sound == ()
 
 
 def test_limits_are_as_stated() -> None:
     """A step of exactly the limit is no jump, one count more is; the same of a fall that is too small."""
     counts = np.column_stack([np.where(np.arange(100) < 50, 200.0, 200.0 - step) for step in (20.0, 21.0)])
-    still, jumps = taxel_ailments(counts, np.array([20.0, 21.0]))
+    still, jumps = taxel_faults(counts, np.array([20.0, 21.0]))
     assert still == ()
-    assert jumps == (Ailment.JUMPS,)
+    assert jumps == (TaxelFault.JUMPS,)
     quiet = np.full((100, 2), 200.0)
-    assert taxel_ailments(quiet, np.array([4.9, 5.0])) == ((Ailment.NEVER_MOVES,), ())
+    assert taxel_faults(quiet, np.array([4.9, 5.0])) == ((TaxelFault.NEVER_MOVES,), ())

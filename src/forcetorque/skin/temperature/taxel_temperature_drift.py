@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Heat taken off the counts of taxels: thermal pads that work, and the gains from their change to the drift."""
+"""What temperature does to a taxel: its drift with heat, and the compensation by gains from thermal pads."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import SkinError
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.taxels.health import taxel_ailments
+from forcetorque.skin.taxels.faults import taxel_faults
 
 LEAST_CHANGE_COUNTS: Final = 4.0
-"""Change of pads below which they tell nothing of gains: noise of means over a second then is 5 % of it; counts."""
+"""Change of pads below which they show nothing of gains: noise of means over a second then is 5 % of it; counts."""
 LEAST_SHARE: Final = 0.3
 """Change of a pad, over the median of all, below which it is dead: gains of pads differ by a quarter, not by that."""
 
 
 def valid_columns(counts: FloatArray) -> BoolArray:
-    """Tell which columns are at no rail, nowhere jump or wrap, and are not noisy.
+    """Find the columns that are at no rail, do not jump or wrap, and are not noisy.
 
     Args:
         counts: Messages of taxels or pads; shape (n, c); counts.
@@ -33,11 +33,11 @@ def valid_columns(counts: FloatArray) -> BoolArray:
         Whether each is; shape (c,).
     """
     never_judged = np.full(counts.shape[1], np.inf)
-    return np.array([not reasons for reasons in taxel_ailments(counts, never_judged)], dtype=np.bool_)
+    return np.array([not reasons for reasons in taxel_faults(counts, never_judged)], dtype=np.bool_)
 
 
 def stuck_pads(counts: FloatArray) -> BoolArray:
-    """Tell which thermal pads are dead in a recording: not sound, or at one number while others change.
+    """Find the dead thermal pads of a recording: faulty ones, and constant ones while others change.
 
     Args:
         counts: Messages of the pads; shape (n, t); counts.
@@ -50,7 +50,7 @@ def stuck_pads(counts: FloatArray) -> BoolArray:
 
 
 def followed_pads(layout: SkinLayout, alive: BoolArray) -> BoolArray:
-    """Choose the pads that tell the heat of each taxel.
+    """Choose the pads that measure the heat of each taxel.
 
     They are the living ones of its module; where both are dead, those of the nearest module that has one.
 
@@ -84,10 +84,10 @@ class ThermalGain(StoredTable):
 
 
 class TaxelHeat(StoredTable):
-    """What heat does to a taxel; without gains it was not sound in the warm-up."""
+    """What heat does to a taxel; without gains it was not valid in the warm-up."""
 
     gains: tuple[ThermalGain, ...] = ()
-    """One for each pad that it follows; what they tell is averaged."""
+    """One for each pad that it follows; what they show is averaged."""
     misfit_counts: float | None = Field(default=None, ge=0.0)
     """What the pads leave of its change, their lags allowed for, root mean square of means of ten seconds."""
     unexplained_counts: float = Field(default=0.0, ge=0.0)
@@ -97,7 +97,7 @@ class TaxelHeat(StoredTable):
 
 
 class WarmUp(StoredTable):
-    """The recording without contact that gains were learned in."""
+    """The recording without contact that gains were estimated in."""
 
     experiment: str
     """Name of the experiment."""
@@ -106,7 +106,7 @@ class WarmUp(StoredTable):
     pad_change_counts: float = Field(gt=0.0)
     """Median change of the living thermal pads."""
     dead_pads: tuple[int, ...] = ()
-    """Columns of thermal pads that tell nothing."""
+    """Columns of thermal pads that show nothing."""
     taxels: tuple[TaxelHeat, ...]
     """Taxels in the order of their columns."""
 
@@ -171,7 +171,7 @@ class HeatGains(ArrayRecord):
         """Take the gains of a warm-up.
 
         Args:
-            taxels: What was learned of each taxel, in their order.
+            taxels: What was estimated of each taxel, in their order.
 
         Returns:
             The gains.
@@ -214,7 +214,7 @@ class HeatGains(ArrayRecord):
         return np.asarray(self.follows.any(axis=1))
 
     def fall(self, pad_fall: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give what taxels read of heat: the mean of what their pads tell.
+        """Give what taxels read of heat: the mean of what their pads measure.
 
         Args:
             pad_fall: Counts of the pads below their rest; shape (t,).
@@ -230,7 +230,7 @@ class HeatGains(ArrayRecord):
         return fall, sd
 
     def noise(self, pad_sd: FloatArray) -> FloatArray:
-        """Give what noise of the pads makes of what taxels are told.
+        """Give what noise of the pads makes of the drift of taxels.
 
         Args:
             pad_sd: Standard deviation of the fall of each pad, one independent of the other; shape (t,); counts.
@@ -267,4 +267,4 @@ class TaxelDrift(ArrayRecord):
     sd: FloatArray = field(metadata=array("n"))
     """Standard deviation of that; shape (n,); counts."""
     limit: FloatArray = field(metadata=array("n"))
-    """Further counts that heat through a contact may add, which no pad tells; NaN if not known; shape (n,)."""
+    """Further counts that heat through a contact may add, which no pad measures; NaN if not known; shape (n,)."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Heat on simulated skin: from motors inside, which pads feel, and from a hand outside, which they hardly do."""
+"""Temperature of simulated skin: heat from motors inside, which pads measure, and from a hand, which they hardly do."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _BESIDE_M: Final = 0.005
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class HeatResponses(ArrayRecord):
-    """How the taxels and thermal pads of a patch answer to heat."""
+    """How the taxels and thermal pads of a patch respond to heat."""
 
     taxels: FloatArray = field(metadata=array("n"))
     """Fall of each taxel by temperature; shape (n,); counts/K."""
@@ -42,7 +42,7 @@ class HeatResponses(ArrayRecord):
             rng: Source of differences.
 
         Returns:
-            Its answers.
+            Its responses.
         """
         taxels, pads = len(layout), len(layout.thermal_pads)
         return cls(
@@ -57,7 +57,7 @@ class MotorHeat(ArrayRecord):
     """Heat from inside, evenly on all of a patch, which its pads feel as its taxels do."""
 
     responses: HeatResponses
-    """How taxels and pads answer."""
+    """How taxels and pads respond."""
     rise_K: FloatArray = field(metadata=array(None))
     """Rise at each message; shape (k,)."""
 
@@ -112,8 +112,8 @@ def warm_recording(
 
     Args:
         layout: The patch.
-        responses: How its taxels answer to pressure.
-        heat: How its taxels and pads answer to heat.
+        responses: How its taxels respond to pressure.
+        heat: How its taxels and pads respond to heat.
         rng: Source of noise.
         warmth: How it is heated; as by default if None.
         truth: What touches it from the end of the rest on; nothing if None.

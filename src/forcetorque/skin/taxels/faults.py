@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Broken taxels and silent boards of a recording."""
+"""Faults of taxels, and messages without counts, in a recording."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from forcetorque.base.errors import SkinError
 FULL_COUNTS = 255.0
 """Largest count of the 8 bits that a taxel sends."""
 JUMP_COUNTS = 20.0
-"""A change from one message to the next that is larger is no pressure: a swing of 3.4 bar is 42 counts."""
+"""A change from one message to the next that is larger is no pressure: a change of 3.4 bar is 42 counts."""
 WRAP_COUNTS = 6.0
 """A change that modulo 256 is not larger, and else is, runs over an end of the 8 bits."""
 NOISE_COUNTS = 3.0
@@ -22,8 +22,8 @@ LEAST_FALL_COUNTS = 5.0
 """A taxel that falls by less, from rest to the highest pressure, does not move."""
 
 
-class Ailment(StrEnum):
-    """What is wrong with a taxel."""
+class TaxelFault(StrEnum):
+    """A fault of a taxel."""
 
     WRAPS = "wraps"
     """Its counts run below 0 and go on at 255."""
@@ -39,26 +39,26 @@ class Ailment(StrEnum):
     """It rises under pressure, by more than it may not move."""
 
 
-def taxel_ailments(counts: FloatArray, fall: FloatArray) -> tuple[tuple[Ailment, ...], ...]:
-    """Say what is wrong with every taxel of a recording.
+def taxel_faults(counts: FloatArray, fall: FloatArray) -> tuple[tuple[TaxelFault, ...], ...]:
+    """Find the faults of every taxel of a recording.
 
     Args:
         counts: Counts of all messages of the recording; shape (n, c).
         fall: How far each falls from rest to the highest pressure; shape (c,); counts.
 
     Returns:
-        For each taxel what is wrong, all that applies; nothing for a sound one.
+        The faults of each taxel, all that apply; none for a valid one.
     """
     step = np.abs(np.diff(counts, axis=0))
     wraps = FULL_COUNTS + 1.0 - step <= WRAP_COUNTS
     noise = np.sqrt(np.mean(np.minimum(step, JUMP_COUNTS) ** 2, axis=0) / 2.0)
-    signs: dict[Ailment, BoolArray] = {
-        Ailment.WRAPS: np.any(wraps, axis=0),
-        Ailment.RAILS: np.any((counts <= 0.0) | (counts >= FULL_COUNTS), axis=0),
-        Ailment.JUMPS: np.any((step > JUMP_COUNTS) & ~wraps, axis=0),
-        Ailment.NOISE: noise > NOISE_COUNTS,
-        Ailment.NEVER_MOVES: np.abs(fall) < LEAST_FALL_COUNTS,
-        Ailment.RISES: fall <= -LEAST_FALL_COUNTS,
+    signs: dict[TaxelFault, BoolArray] = {
+        TaxelFault.WRAPS: np.any(wraps, axis=0),
+        TaxelFault.RAILS: np.any((counts <= 0.0) | (counts >= FULL_COUNTS), axis=0),
+        TaxelFault.JUMPS: np.any((step > JUMP_COUNTS) & ~wraps, axis=0),
+        TaxelFault.NOISE: noise > NOISE_COUNTS,
+        TaxelFault.NEVER_MOVES: np.abs(fall) < LEAST_FALL_COUNTS,
+        TaxelFault.RISES: fall <= -LEAST_FALL_COUNTS,
     }
     return tuple(tuple(name for name, sign in signs.items() if sign[k]) for k in range(counts.shape[1]))
 

@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of a sensor: range of its channels by gain, drift over temperature, response to fast forces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.results.figures import (
+    COLOURS,
+    REFERENCE_COLOUR,
+    ROW_INCHES,
+    in_figure_style,
+    legend_below,
+    look,
+    new_figure,
+    shown_name,
+    thinned_cloud,
+    thinned_line,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from forcetorque.sensor.bandwidth.bandwidth import Response
+    from forcetorque.sensor.bandwidth.decays import DecayCurve
+    from forcetorque.sensor.bandwidth.frequency_response import ResponseCurve
+    from forcetorque.sensor.gains.gains import SensorGains
+    from forcetorque.sensor.temperature.temperature_drift import SensorThermal
+
+
+@in_figure_style
+def gain_figure(sensors: Sequence[SensorGains]) -> Figure:
+    """Draw the raw channels against their limits, with the present and with the recommended gains [1].
+
+    Args:
+        sensors: Samples and channels of each sensor; one row each.
+
+    Returns:
+        The figure, `ROW_INCHES` times the number of rows at `DOTS_PER_INCH`.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+
+    References:
+        [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figure 5.8.
+    """
+    figure = new_figure(ROW_INCHES[1] * len(sensors))
+    panels = figure.subplots(len(sensors), 2, squeeze=False, sharey="row")
+    for (before, after), gains in zip(panels, sensors, strict=True):
+        known = all(channel.recommended_gain is not None for channel in gains.channels)
+        _draw_range(before, gains, gains.counts, title=f"{gains.sensor} ({gains.serial}), as recorded")
+        _draw_range(
+            after, gains, gains.counts * gains.factors, title=f"with the recommended {'gains' if known else 'factors'}"
+        )
+        before.set_ylabel("raw, counts")
+        after.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    return figure
+
+
+def _draw_range(panel: Axes, gains: SensorGains, counts: FloatArray, *, title: str) -> None:
+    limit = gains.limit_counts
+    for sign in (-1.0, 1.0):
+        panel.axhline(sign * limit, color="black", linestyle="--", linewidth=1.0)
+        panel.axhspan(sign * (1.0 - gains.margin) * limit, sign * limit, color="black", alpha=0.08, linewidth=0.0)
+    time, drawn = thinned_line(gains.time_s, counts)
+    for k, channel in enumerate(gains.channels):
+        # channels beyond the palette share a colour and differ in style
+        style = ("-", ":", "-.")[k // len(COLOURS) % 3]
+        colour = COLOURS[k % len(COLOURS)]
+        panel.plot(time, drawn[:, k], style, color=colour, linewidth=0.9, label=channel.channel)
+    reach = max(1.1 * limit, float(np.abs(counts).max()))
+    panel.set_ylim(-reach, reach)
+    panel.set_title(title)
+    panel.set_xlabel("time, s")
+
+
+_POINTS = 400
+"""Points of a branch that are drawn."""
+_BRANCHES = ((1.0, "heating", look(1)), (-1.0, "cooling", look(0)))
+
+
+@in_figure_style
+def thermal_figure(sensors: Sequence[SensorThermal]) -> Figure:
+    """Draw readings without offset and drift in time over temperature, with the fitted line of either branch.
+
+    Args:
+        sensors: Sensors; two rows each, of forces and of moments.
+
+    Returns:
+        The figure, twice `ROW_INCHES` high for each sensor.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    figure = new_figure(1.6 * ROW_INCHES[1] * len(sensors))
+    panels = figure.subplots(2 * len(sensors), 3, squeeze=False, sharex="row")
+    for k, sensor in enumerate(sensors):
+        for j, panel in enumerate(panels[2 * k : 2 * k + 2].ravel()):
+            _draw_drift(panel, sensor, j)
+        panels[2 * k, 0].set_title(shown_name(f"{sensor.sensor} ({sensor.serial})"), loc="left")
+        for panel in panels[2 * k + 1]:
+            panel.set_xlabel("temperature, degC")
+    dots = [(name, _dots(style) | {"linestyle": "none"}) for _, name, style in _BRANCHES]
+    lines = [(f"{name}, fitted", {"color": style.colour, "linestyle": style.dashes}) for _, name, style in _BRANCHES]
+    legend_below(figure, [*dots, *lines])
+    return figure
+
+
+def _draw_drift(panel: Axes, sensor: SensorThermal, j: int) -> None:
+    curve, row = sensor.curve, sensor.components[j]
+    for sign, _, style in _BRANCHES:
+        branch = curve.heating == sign
+        if not branch.any():
+            continue
+        degrees, values = curve.temperature_degC[branch], curve.reading[branch, j]
+        cloud = thinned_cloud(np.column_stack([degrees, values]), _POINTS)
+        panel.plot(cloud[:, 0], cloud[:, 1], linestyle="none", **_dots(style))
+        ends = np.array([degrees.min(), degrees.max()])
+        line = row.drift_per_degC * (ends - curve.reference_degC) + 0.5 * sign * (row.hysteresis or 0.0)
+        panel.plot(ends, line, color=style.colour, linestyle=style.dashes, linewidth=1.4)
+    panel.set_ylabel(curve.signals[j])
+
+
+def _dots(style: Any) -> dict[str, Any]:
+    return {"color": style.colour, "marker": style.marker, "markersize": 2.5, "markerfacecolor": "none"}
+
+
+MOST_DECAYS = 8
+"""Decays that are drawn."""
+_COLUMNS = 4
+_MEASURED, _FITTED = look(0), look(1)
+
+
+@in_figure_style
+def response_figure(response: Response) -> Figure:
+    """Draw gain, phase and coherence over frequency, and the first decays.
+
+    Args:
+        response: The response; panels that it has nothing for are left out.
+
+    Returns:
+        The figure.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    decays = response.decays[:MOST_DECAYS]
+    curved = response.curve is not None
+    decay_rows = -(-len(decays) // _COLUMNS)
+    rows = max(curved + decay_rows, 1)
+    figure = new_figure(ROW_INCHES[1] * 0.9 * rows)
+    # a grid inside for each kind of panel: of columns that both divide, Matplotlib 3.8 leaves the panels nothing
+    grid = figure.add_gridspec(rows, 1)
+    if response.curve is not None:
+        third = grid[0].subgridspec(1, 3)
+        _bode([figure.add_subplot(third[k]) for k in range(3)], response.curve, response)
+    if decays:
+        quarter = grid[int(curved) :].subgridspec(decay_rows, _COLUMNS)
+        for k, decay in enumerate(decays):
+            _decay(figure.add_subplot(quarter[k]), decay, first=k % _COLUMNS == 0, signal=response.signal)
+    keys: list[tuple[str, Any]] = [
+        ("measured", {"color": _MEASURED.colour, "linestyle": _MEASURED.dashes}),
+        ("fitted", {"color": _FITTED.colour, "linestyle": _FITTED.dashes}),
+    ]
+    if curved:
+        keys.append(("95 % interval", {"color": _MEASURED.colour, "linewidth": 6.0, "alpha": 0.25}))
+        keys.append(("coherence of chance, 95 %", {"color": REFERENCE_COLOUR, "linestyle": ":"}))
+    legend_below(figure, keys)
+    return figure
+
+
+def _bode(panels: list[Axes], curve: ResponseCurve, response: Response) -> None:
+    driven = np.asarray(curve.driven) > 0.0
+    frequency, value = curve.frequency_hz[driven], (curve.real + 1j * curve.imaginary)[driven]
+    size, radius = np.abs(value), curve.radius_95[driven]
+    floor = 1e-3 * float(size.max())
+    turn = np.degrees(np.arcsin(np.clip(radius / np.maximum(size, 1e-300), 0.0, 1.0)))
+    # a phase whose interval is the whole circle is none; from -270 to 90 deg no resonance crosses the edge
+    phase = np.where(radius < size, (np.degrees(np.angle(value)) - 90.0) % 360.0 - 270.0, np.nan)
+    lines: dict[str, Any] = {"color": _MEASURED.colour, "linestyle": _MEASURED.dashes, "linewidth": 1.0}
+    band: dict[str, Any] = {"color": _MEASURED.colour, "alpha": 0.25, "linewidth": 0.0}
+    panels[0].fill_between(frequency, np.maximum(size - radius, floor), np.maximum(size + radius, floor), **band)
+    panels[0].loglog(frequency, np.maximum(size, floor), **lines)
+    panels[1].fill_between(frequency, phase - turn, phase + turn, **band)
+    panels[1].semilogx(frequency, phase, **lines)
+    panels[2].semilogx(frequency, curve.coherence[driven], **lines)
+    panels[2].axhline(curve.chance, color=REFERENCE_COLOUR, linestyle=":", linewidth=1.0)
+    panels[2].set_ylim(0.0, 1.05)
+    if curve.fitted_real is not None and curve.fitted_imaginary is not None:
+        fitted = (curve.fitted_real + 1j * curve.fitted_imaginary)[driven]
+        style = {"color": _FITTED.colour, "linestyle": _FITTED.dashes, "linewidth": 1.4}
+        panels[0].loglog(frequency, np.maximum(np.abs(fitted), floor), **style)
+        panels[1].semilogx(frequency, (np.degrees(np.angle(fitted)) - 90.0) % 360.0 - 270.0, **style)
+    for panel, label in zip(panels, ("gain", "phase, deg", "coherence"), strict=True):
+        panel.set_ylabel(label)
+        panel.set_xlabel("frequency, Hz")
+    panels[0].set_title(shown_name(f"{response.sensor}, {response.signal}"), loc="left")
+
+
+def _decay(panel: Axes, decay: DecayCurve, *, first: bool, signal: str) -> None:
+    time = 1e3 * decay.time_s
+    panel.plot(time, decay.reading, color=_MEASURED.colour, linestyle=_MEASURED.dashes, linewidth=1.0)
+    panel.plot(time, decay.fitted, color=_FITTED.colour, linestyle=_FITTED.dashes, linewidth=1.2)
+    panel.set_title(_short(decay.title), loc="left")
+    panel.set_xlabel("behind the event, ms")
+    if first:
+        panel.set_ylabel(shown_name(signal))
+
+
+def _short(title: str) -> str:
+    """The end of a title, which shows the event."""
+    return shown_name(title if len(title) <= 28 else f"…{title[-27:]}")
