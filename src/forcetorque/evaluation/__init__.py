@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 CAPABILITY = Capability(
     needs=(
         "sensor",
-        "simulation",
         "payload",
         "calibration",
     ),

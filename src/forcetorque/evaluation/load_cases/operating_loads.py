@@ -25,8 +25,7 @@ from forcetorque.recording.recording import Use
 from forcetorque.robot.dynamics import body_pose, joints_between, link_pose
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
-from forcetorque.robot.tree import BodyTree, build_tree, outboard_bodies
-from forcetorque.simulation.motions.held_robot import joint_range
+from forcetorque.robot.tree import BodyTree, build_tree, joint_range, outboard_bodies
 
 DEFAULT_RADIUS_M: Final = 0.3
 """How far from a sensor a push acts by default."""
