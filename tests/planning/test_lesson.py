@@ -10,8 +10,9 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.evaluation.load_cases.load_case import LoadCase, LoadCaseOffset, pushes_around_sensor
+from forcetorque.evaluation.load_cases.load_case import LoadCase, pushes_around_sensor
 from forcetorque.evaluation.load_cases.predicted_error import load_second_moment, predict_from_posterior
+from forcetorque.evaluation.section import LoadCaseOffset
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.sensor_model import LinearVariable

@@ -13,8 +13,7 @@ from pydantic import Field
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.calibration.joint.calibrate import JointData
 from forcetorque.calibration.joint.outcome import JointOutcome
-from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
+from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import predict, predict_prior
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration

@@ -11,8 +11,8 @@ from typing import TypeVar
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.calibration.summary import LITTLE_LEARNT, learnt_directions, to_learn
 from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
-from forcetorque.evaluation.load_cases.section import LOAD_CASES
 from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts
+from forcetorque.evaluation.section import LOAD_CASES
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.sensor_run import SensorRun

@@ -10,13 +10,13 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.evaluation.candidate_errors import LEVER_M, PUSH_N, PushError, push_error
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.results.number_text import number, with_error
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues, table_of
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate import CONVENTION
+from forcetorque.study.candidate_errors import LEVER_M, PUSH_N, PushError, push_error
 from forcetorque.study.one_sensor import WORKBENCH, Study
 from forcetorque.study.selection import FAR_SD
 from forcetorque.study.study import SensorStudy
@@ -366,14 +366,14 @@ def studied_sensor(study: SensorStudy) -> StudiedSensor:
         The choice; no files are written.
     """
     core, identity = study.study, study.data.identity
-    judged = core.judgements[Offset.FIRST_SECOND]
+    judged = core.errors[Offset.FIRST_SECOND]
     return StudiedSensor(
         sensor=identity.name,
         serial=identity.serial,
         folder=None,
         candidates=len(core.fits.candidates),
         generative=len(core.generative),
-        validation_samples=int(judged.errors.count.sum()),
+        validation_samples=int(judged.count.sum()),
         combinations=tuple(
             FittedCombination(
                 name=combination.name,
@@ -413,7 +413,7 @@ def study_warnings(study: SensorStudy) -> tuple[str, ...]:
 
 
 def _mode(study: Study, offset: Offset) -> ModeChoice:
-    choice, pooled = study.choices[offset], study.judgements[offset].over()
+    choice, pooled = study.choices[offset], study.errors[offset].pooled()
     return ModeChoice(
         offset=offset,
         best=_chosen(study, offset, choice.by_magnitude),
@@ -443,7 +443,7 @@ def _mode(study: Study, offset: Offset) -> ModeChoice:
 
 
 def _chosen(study: Study, offset: Offset, index: int) -> ChosenCandidate:
-    pooled, spread = study.judgements[offset].over(), study.judgements[offset].part().standard_error()
+    pooled, spread = study.errors[offset].pooled(), study.errors[offset].standard_error()
     # a generative fit, and the workbench, have no lambda
     candidate = study.fits.candidates[index] if index < len(study.fits.candidates) else None
     return ChosenCandidate(

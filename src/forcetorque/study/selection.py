@@ -3,56 +3,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
-from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors, pushes
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.validation_offset import Offset, ValidationSet, mean_offset
 from forcetorque.robot.mechanics.estimate import Evaluator
 from forcetorque.study.candidate import Candidate, GenerativeCandidate
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Judgement:
-    """Errors of k models on every validation set, in one offset mode."""
-
-    errors: CandidateErrors
-    """Errors in blocks of time, set after set."""
-    sessions: tuple[str, ...]
-    """Session of every block."""
-
-    def over(self, sessions: Collection[str] | None = None) -> PooledErrors:
-        """Pool the errors of some sessions.
-
-        Args:
-            sessions: The sessions; all if None.
-
-        Returns:
-            Mean errors of every model over all their samples.
-        """
-        return self.part(sessions).pooled()
-
-    def part(self, sessions: Collection[str] | None = None) -> CandidateErrors:
-        """Give the blocks of some sessions.
-
-        Args:
-            sessions: The sessions; all if None.
-
-        Returns:
-            Errors of every model in these blocks.
-        """
-        mask = np.array([sessions is None or session in sessions for session in self.sessions])
-        return CandidateErrors(
-            count=self.errors.count[mask],
-            mean_absolute=self.errors.mean_absolute[:, mask],
-            force_mean=self.errors.force_mean[:, mask],
-            moment_mean=self.errors.moment_mean[:, mask],
-        )
+from forcetorque.study.candidate_errors import BlockErrors, PooledErrors, candidate_errors, pushes
 
 
 def judge(
@@ -63,7 +25,7 @@ def judge(
     session_offsets: Mapping[int, Mapping[str, FloatArray]] | None = None,
     evaluator: Evaluator | None = None,
     progress: Callable[[str], None] | None = None,
-) -> Judgement:
+) -> BlockErrors:
     """Judge models on validation sets; samples that can give an offset are judged in neither mode.
 
     Args:
@@ -101,13 +63,11 @@ def judge(
         )
         errors.append(part)
         sessions += [one.session] * len(part.count)
-    return Judgement(
-        errors=CandidateErrors(
-            count=np.concatenate([part.count for part in errors]),
-            mean_absolute=np.concatenate([part.mean_absolute for part in errors], axis=1),
-            force_mean=np.concatenate([part.force_mean for part in errors], axis=1),
-            moment_mean=np.concatenate([part.moment_mean for part in errors], axis=1),
-        ),
+    return BlockErrors(
+        count=np.concatenate([part.count for part in errors]),
+        mean_absolute=np.concatenate([part.mean_absolute for part in errors], axis=1),
+        force_mean=np.concatenate([part.force_mean for part in errors], axis=1),
+        moment_mean=np.concatenate([part.moment_mean for part in errors], axis=1),
         sessions=tuple(sessions),
     )
 
@@ -236,21 +196,21 @@ class SessionScore(ArrayRecord):
     """Mean norm of the force that the prior matrix gives on this session; N; None without prior."""
 
 
-def scored_across_sessions(judgement: Judgement, determined: BoolArray) -> list[SessionScore]:
+def scored_across_sessions(errors: BlockErrors, determined: BoolArray) -> list[SessionScore]:
     """Choose on all sessions but one and score on that one, for every session in turn.
 
     Args:
-        judgement: Errors of the models.
+        errors: Errors of the models.
         determined: Whether each candidate may be chosen; shape (k,). Models that follow, the prior, are not chosen.
 
     Returns:
         One score per session; none if there is only one session.
     """
-    sessions = list(dict.fromkeys(judgement.sessions))
+    sessions = list(dict.fromkeys(errors.sessions))
     scores = []
     for session in sessions if len(sessions) > 1 else ():
-        others = choosable(judgement.over([other for other in sessions if other != session]), determined)
-        part = judgement.part([session])
+        others = choosable(errors.pooled([other for other in sessions if other != session]), determined)
+        part = errors.of_sessions([session])
         here = part.pooled()
         chosen, rows = best_by_magnitude(others), best_by_axis(others)
         scores.append(

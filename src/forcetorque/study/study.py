@@ -53,7 +53,7 @@ class CalibrationMaker:
             The calibration.
         """
         best = self.study.choices[offset].by_magnitude
-        value = self.study.judgements[offset].over().force_mean[best]
+        value = self.study.errors[offset].pooled().force_mean[best]
         rule = f"smallest mean contact force, offset {offset}: {value:.4g} N by {self.study.name(best)}"
         return self._of(self.study.candidates[best], rule)
 

@@ -11,9 +11,9 @@ import pytest
 
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.evaluation.section import TRIAL as TRIAL_SECTION
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.trials.comparison import Comparison, compare
-from forcetorque.evaluation.trials.section import TRIAL as TRIAL_SECTION
 from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials, read_trials
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.file import parse_experiment

@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.base.toml_file import Positive, Table, Text, read_toml
-from forcetorque.evaluation.load_cases.section import LoadCaseTable
+from forcetorque.evaluation.section import LoadCaseTable
 from forcetorque.experiment.free_sub_model import OtherSensors
 
 Component = Literal["fx", "fy", "fz", "tx", "ty", "tz"]

@@ -19,9 +19,9 @@ from forcetorque.evaluation.acceptance import acceptance_file as limits
 from forcetorque.evaluation.acceptance.acceptance_file import Component
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
 from forcetorque.evaluation.evaluation import CandidateErrors, validation_errors
-from forcetorque.evaluation.load_cases.section import LoadCaseTable
 from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.evaluation.matrix_checks import most_unusual
+from forcetorque.evaluation.section import LoadCaseTable
 from forcetorque.evaluation.validation.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR

@@ -18,7 +18,8 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.evaluation.load_cases.load_case import LoadCase, LoadCaseOffset
+from forcetorque.evaluation.load_cases.load_case import LoadCase
+from forcetorque.evaluation.section import LoadCaseOffset
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 

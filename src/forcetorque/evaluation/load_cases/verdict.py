@@ -11,8 +11,7 @@ import numpy as np
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.paired_comparison import ALIKE
 from forcetorque.base.wrench import FORCE, MOMENT
-from forcetorque.evaluation.load_cases.load_case import LoadCase, LoadCaseOffset
-from forcetorque.evaluation.load_cases.operating_loads import Refuse, operating_load_cases, raise_rejection
+from forcetorque.evaluation.load_cases.load_case import LoadCase, Refuse, operating_load_cases, raise_rejection
 from forcetorque.evaluation.load_cases.predicted_error import (
     CONFIDENCE,
     ErrorMagnitude,
@@ -21,7 +20,6 @@ from forcetorque.evaluation.load_cases.predicted_error import (
     predict,
     predict_prior,
 )
-from forcetorque.evaluation.load_cases.section import LoadCaseTable
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
     MeasuredError,
@@ -31,6 +29,7 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     static_loads_text,
     validation_excitation,
 )
+from forcetorque.evaluation.section import LoadCaseOffset, LoadCaseTable
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
