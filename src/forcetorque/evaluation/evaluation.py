@@ -234,47 +234,28 @@ class Evaluation(Result):
 
 
 @with_recording_notes
-def evaluate(runs: Runs, calibrations: Calibrations) -> Evaluation:
-    """Judge calibrations, and the priors that they came from, on data that was not fitted.
+def evaluate(runs: Runs, calibrations: Calibrations, *, load_cases: bool = True) -> Evaluation:
+    """Compute the errors of calibrations, and of their prior calibrations, on data that were not fitted.
 
     Args:
         runs: The sensor in one recording, or in several.
-        calibrations: Its calibrations by name, or one; without any the prior of the experiment is judged.
+        calibrations: Its calibrations by name, or one; without any the prior of the experiment is evaluated.
+        load_cases: Whether to give verdicts on the load cases as well.
 
     Returns:
-        For every candidate the errors with the offset of the fitted data and with the mean of the judged samples of
-        each recording removed; a prior that several calibrations share comes once. Judged one by one, calibrations
-        that need the same variables have the same errors as together. Errors of several recordings are pooled before
-        anything is averaged. And whether each may be used for the loads to come.
+        For every calibration under test the errors with the offset of the fitted data and with the mean of the
+        validation samples of each recording removed; a prior that several calibrations share comes once. Evaluated one
+        by one, calibrations that need the same variables have the same errors as together. Errors of several
+        recordings are pooled before anything is averaged. And whether each may be used at the load cases.
 
     Raises:
         SerialNumberError: If a calibration is of another sensor.
-        ExperimentError: If a judged interval was fitted, the robot now reads the sensor in another frame or sign, or a
-            load case cannot be had at the sensor.
-        FitError: If a load case changes a variable that a calibration does not know.
+        ExperimentError: If a validation interval was fitted, the robot now reads the sensor in another frame or sign,
+            or a load case is impossible at the sensor.
+        FitError: If a load case changes a variable that a calibration does not have.
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
-    campaign, judged = Campaign.of(runs), named(calibrations)
-    errors = validation_errors(campaign, judged)
-    return errors.model_copy(update={"uses": use_verdicts(campaign, judged)})
-
-
-def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
-    """Compute the errors of calibrations on validation data, without verdicts on load cases.
-
-    Args:
-        runs: The sensor in one recording, or in several.
-        calibrations: Its calibrations by name; without any the prior of the experiment is judged.
-
-    Returns:
-        What `evaluate` gives, without verdicts on uses.
-
-    Raises:
-        SerialNumberError: If a calibration is of another sensor.
-        ExperimentError: If a judged interval was fitted, or the robot now reads the sensor in another frame or sign.
-        ShapeError: If a matrix does not have one column per channel of the sensor.
-    """
-    campaign = Campaign.of(runs)
+    campaign, calibrations = Campaign.of(runs), named(calibrations)
     wrenches: dict[str, JudgedWrenches] = {}
     warnings: list[str] = []
     for run in campaign.runs_with(Use.VALIDATION):
@@ -312,6 +293,7 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
         comparisons=prior_comparisons(campaign.sensor.name, list(wrenches.values())),
         smoothing=tuple(dict.fromkeys(map(smoothing_text, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
+        uses=use_verdicts(campaign, calibrations) if load_cases else (),
         warnings=(*at_rest(verdicts), *sentences(validity), *warnings),
     )
 

@@ -157,7 +157,7 @@ def pick(posterior: Posterior, aim: Aim, choices: Choices, *, haste: float) -> I
     """Pick postures greedily.
 
     The slow noise counts by what it moves on the way from one posture to the next; the exact worth of the whole is
-    another matter, see `Knowledge.taught`.
+    another matter, see `Knowledge.updated`.
 
     Args:
         posterior: What is known of the sensor.
