@@ -15,7 +15,7 @@ from tests.report.drawing import use_of
 from tests.scenes.calibrations import make_calibration
 
 KEY = ("leg_ft", "SN1")
-MOVE = Reason(against="data", text="the load hardly moved; judge data that move")
+MOVE = Reason(against="data", text="the load hardly moved; evaluate it on data that move")
 
 
 def _steps(*uses: UseVerdict, undecided: tuple[Undecided, ...] = (), stands: bool = True) -> tuple[str, ...]:
@@ -59,13 +59,13 @@ def test_no_plan_where_none_can_be_had() -> None:
 def test_a_prior_of_small_predicted_errors_is_to_be_judged_first() -> None:
     """A prediction alone does not make it fit for use."""
     (today, *_) = _steps(use_of(force=40.0, before=2.0))
-    assert "if the errors that it shows on judged intervals bear it out" in today
+    assert "if the errors that it shows on validation intervals confirm it" in today
 
 
 def test_no_plan_where_the_prediction_is_not_what_speaks_against_it() -> None:
     """Data that did not move need other data to be judged on, not a smaller predicted error."""
     steps = _steps(use_of(decision="not enough data", reasons=(MOVE,)))
-    assert "The load hardly moved; judge data that move." in steps
+    assert "The load hardly moved; evaluate it on data that move." in steps
     assert not any("forcetorque plan" in step or "prior" in step for step in steps)
 
 
@@ -74,7 +74,7 @@ def test_the_same_step_for_several_is_said_once() -> None:
     doubtful = {"decision": "not enough data", "reasons": (MOVE,)}
     steps = _steps(*(use_of(name, case, **doubtful) for name in ("a.json", "b.json") for case in ("push", "tool")))
     assert sum("judge data that move" in step for step in steps) == 1
-    assert "The load hardly moved; judge data that move." in steps
+    assert "The load hardly moved; evaluate it on data that move." in steps
     assert steps[0].startswith("Do not rely on a.json and b.json for “push” and “tool” yet.")
     only_one = _steps(use_of("a.json"), use_of("b.json", **doubtful))
     assert only_one[0].startswith("Put a.json on the robot")

@@ -305,7 +305,7 @@ def test_a_session_that_is_fitted_and_judged_is_a_warning(data: StudyData, made:
     session = data.validation[0].session
     both = replace(data, calibration=tuple(replace(interval, session=session) for interval in data.calibration))
     (sentence,) = [s for s in study_warnings(replace(made, data=both)) if "is fitted and judged" in s]
-    assert sentence == f"session {session!r} is fitted and judged: its score is not what another session gives"
+    assert sentence == f"session {session!r} is fitted and validated: its score is not that of another session"
 
 
 def test_a_sensor_without_variables_is_studied_without_the_types_that_need_them(intact: Path) -> None:

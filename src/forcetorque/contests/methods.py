@@ -107,8 +107,8 @@ def _suits(method: Method, experiment: Experiment) -> bool:
 _NEEDED = {
     Method.IN_SITU: "on a robot that a URDF describes",
     Method.IN_SITU_WITHOUT_PRIOR: "on a robot that a URDF describes",
-    Method.KNOWN_MASSES: "under a [load] of stated mass whose motion an accelerometer tells",
-    Method.REFERENCE_SENSOR: "under a [load] whose wrench another sensor says, applied",
+    Method.KNOWN_MASSES: "under a [load] of stated mass whose motion an accelerometer measures",
+    Method.REFERENCE_SENSOR: "under a [load] whose wrench another sensor measures, applied",
 }
 
 
@@ -192,7 +192,7 @@ def _motion(run: SensorRun, interval: Interval) -> tuple[IntArray, Sequence[str]
         joints, positions = list(_GRAVITY), up / np.linalg.norm(up, axis=1, keepdims=True)
     whole = np.isfinite(positions).all(axis=1)
     if not whole.any():
-        raise ExperimentError(f"interval {interval.label!r}: expected a motion to tell phases by, got gaps only")
+        raise ExperimentError(f"interval {interval.label!r}: expected a motion that defines phases, got gaps only")
     return at_ns[inside][whole], joints, positions[whole]
 
 

@@ -61,7 +61,7 @@ class MotionPath:
         if len(corners) <= _LEAST_STEPS:
             raise RecordingError(
                 f"motion: expected {', '.join(names)} to move by more than {_LEAST_STEPS * STEP_RAD:g} rad, got "
-                f"{behind[-1]:.2g}; a contest needs a motion to tell phases by"
+                f"{behind[-1]:.2g}; a contest needs a motion that defines phases"
             )
         last = np.searchsorted(corners, np.arange(len(values)), side="right") - 1
         beyond = np.linalg.norm(values - points[last], axis=1)
@@ -115,7 +115,7 @@ def require_same_motion(paths: Mapping[str, MotionPath], *, phases: int) -> None
         if path.names != wanted.names:
             raise RecordingError(
                 f"{name}: expected the motion of {', '.join(wanted.names)} as in {first}, got {', '.join(path.names)}; "
-                "judge runs of one motion"
+                "compare runs of one motion"
             )
         away = np.abs(path.at(middles) - expected)
         nearest = np.take_along_axis(away, away.max(axis=2).argmin(axis=0)[None, :, None], axis=0)[0]
@@ -212,7 +212,7 @@ def common_phases(contestants: Mapping[str, Sequence[Trial]]) -> BoolArray:
     if common.mean() < _LEAST_SHARE:
         raise RecordingError(
             f"phases: expected samples of all runs in at least {_LEAST_SHARE:.0%} of {common.size} phases, got "
-            f"{common.mean():.0%}; ask for fewer phases, or record more slowly"
+            f"{common.mean():.0%}; set fewer phases, or record more slowly"
         )
     return common
 

@@ -59,7 +59,7 @@ def unfitted_posterior(
         if None in own:
             raise FitError(
                 f"variable {variable.name!r}: expected prior_deviation, what one {variable.unit or 'unit'} of it may "
-                "do; before any recording nothing tells, and it is no temperature"
+                "do; it is unknown before any recording, and it is no temperature"
             )
         covariance[:, LOADS + k, LOADS + k] = (unit * np.array(own)) ** 2
     drift = np.maximum(ASSUMED_DRIFT, rows.accuracy)

@@ -154,7 +154,7 @@ def plan_jointly(
     cases = {name: operating_load_cases(campaign.runs) for name, campaign in data.campaigns.items()}
     if not any(cases.values()):
         raise ExperimentError(
-            "a plan needs loads of use: nothing with a mass hangs on any sensor; state a [[load_case]]"
+            "a plan needs loads of use: no distal link of any sensor has a mass; state a [[load_case]]"
         )
     chosen: list[_Outcome] = []
     while len(chosen) < min(recordings, len(data.recordings)):

@@ -209,7 +209,7 @@ def _chosen(cases: Sequence[LoadCase], errors: Sequence[PredictedError], wanted:
     names = [case.name for case in cases]
     if not cases:
         raise ExperimentError(
-            "a plan needs loads of use: nothing with a mass hangs on the sensor; state a [[load_case]]"
+            "a plan needs loads of use: no distal link of the sensor has a mass; state a [[load_case]]"
         )
     if wanted is None:
         ratios = [_excess(case, error) for case, error in zip(cases, errors, strict=True)]

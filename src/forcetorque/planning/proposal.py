@@ -116,7 +116,7 @@ def workplaces(run: SensorRun, table: PlanTable, clearance_deg: float, supports:
     for tool in table.tool:
         if tool.name not in carried:
             raise ExperimentError(
-                f"plan: tool {tool.name!r}: what hangs on {tool.frame!r} does not load the sensor {name!r} from any "
+                f"plan: tool {tool.name!r}: a load on {tool.frame!r} does not load the sensor {name!r} from any "
                 "support; expected a link beyond the sensor"
             )
     if not places:

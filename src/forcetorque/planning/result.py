@@ -297,7 +297,7 @@ def _left(before: Posterior, after: Posterior, criterion: Criterion, places: Seq
             f"; {', '.join(stays)} {verb} with the prior: the loads within these limits span {rank} of 6 directions, a "
             "tool with its centre of mass elsewhere would load what is left"
         )
-    return f"; {', '.join(stays)} {verb} with the prior: a heavier tool, or more recordings, would tell"
+    return f"; {', '.join(stays)} {verb} with the prior: a heavier tool, or more recordings, would determine it"
 
 
 def _rank(places: Sequence[Workplace]) -> int:

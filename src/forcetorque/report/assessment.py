@@ -238,7 +238,7 @@ def _warnings(
     warnings: list[str] = []
     for file, calibration in calibrations.items():
         doubts = partial(doubts_about_choice, run, names[file], calibration)
-        warnings += tried.attempt(f"doubts about {names[file]}", doubts) or ()
+        warnings += tried.attempt(f"warnings on {names[file]}", doubts) or ()
     return tuple(warnings)
 
 
@@ -336,7 +336,7 @@ def _lines(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     yield from _saturation(assessment)
     yield from _sphere(assessment)
     for what, reason in assessment.not_judged.items():
-        yield "unknown", f"not judged: {what}: {reason}"
+        yield "unknown", f"not evaluated: {what}: {reason}"
     for words in assessment.left_out:
         yield "unknown", f"left out: {words}"
 
@@ -376,7 +376,7 @@ def _doubts(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     names = short_names(list(assessment.calibrations))
     for file, calibration in assessment.calibrations.items():
         for doubt in calibration.doubts:
-            yield "caution", f"{names[file]} was in doubt before it was fitted: {doubt}"
+            yield "caution", f"{names[file]} has a warning from before it was fitted: {doubt}"
 
 
 def _unless_doubted(tone: Tone, assessment: Assessment, candidate: str) -> Tone:

@@ -69,7 +69,7 @@ def decide_uses(
             for file, one in groups.get(key[0], {}).items()
         }
         if not files:
-            refuse(key, None, "no calibration was given; without one nothing tells what its errors will be")
+            refuse(key, None, "no calibration was given; without one no error can be predicted")
         for file, calibration in files.items():
             try:
                 campaign = Campaign(_unseen(own, file, calibration))
@@ -265,7 +265,7 @@ def _to_record(
         advice = None if rows is None else to_learn(rows)
         if advice is not None:
             little = ", ".join(row.direction for row in rows or () if row.learnt < LITTLE_LEARNT)
-            yield names[verdict.candidate], f"The recordings taught little of loads along {little}: {advice}."
+            yield names[verdict.candidate], f"The recordings gave little information on loads along {little}: {advice}."
 
 
 def _predicts_too_much(verdict: UseVerdict) -> bool:
@@ -333,9 +333,9 @@ def _begin(
 
 
 def _state_use(uses: Sequence[UseVerdict]) -> Iterator[str]:
-    """Nobody can decide on loads that nobody stated."""
+    """Ask for the load case where the default is used."""
     for loads in dict.fromkeys(verdict.loads for verdict in uses if not verdict.stated):
         yield (
-            f"Check that this is your use. Nobody stated one, so {loads}, was taken for granted; state your loads, and "
-            "the error that you allow, as [[load_case]] in the experiment file, and write this report again."
+            f"Check that this is your use. The experiment file specifies none, so {loads}, was assumed; specify your "
+            "loads, and the error that you allow, as [[load_case]] in the experiment file, and write this report again."
         )

@@ -22,7 +22,7 @@ _WORDS = (
     "load that moved, do not speak against it.",
     "do not use: that probability is 10 % or less, or such data speak against it.",
     "not enough data: neither of the two.",
-    "What is allowed is stated with the load case; where it is not, it is a twentieth of the loads.",
+    "The allowed error is specified with the load case; by default it is a twentieth of the loads.",
 )
 """What the words of a verdict mean."""
 _MOST_SENTENCES = 4

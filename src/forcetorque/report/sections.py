@@ -150,7 +150,7 @@ def _acceptance(sensor: Assessment) -> Iterator[Block]:
 ERRORS: Final[Question] = ("Errors on data that was not fitted", _errors)
 """The first question."""
 QUESTIONS: Final[tuple[Question, ...]] = (
-    ("What the recordings taught", learnt_blocks),
+    ("Information gained from the recordings", learnt_blocks),
     ("Uncertainty", uncertainty_blocks),
     ("Choice of lambda", lambda_blocks),
     ("Excitation", excitation_blocks),
@@ -227,7 +227,7 @@ def result_figures(content: Mapping[str, Any]) -> Iterator[Block]:
         rows = [ContestLoadRow.model_validate(row) for row in content["loads"]]
         yield Figure(
             picture=Picture(lambda: contest_figure(rows)),
-            caption="Errors of every contestant over the loads, on which nobody was fitted, with 95 % intervals.",
+            caption="Errors of every contestant over the loads, on which none was fitted, with 95 % intervals.",
             description="Six plots over the load, one per component, with a curve for each contestant.",
         )
     elif content["schema"] == Response.model_fields["schema_name"].default and (content["curve"] or content["decays"]):
@@ -269,9 +269,9 @@ def _parts(experiment: ExperimentAssessment) -> Section:
     if not residuals:
         return Section(title=title)
     words = (
-        "What the sensors around a part read, added up, is what moves its bodies, whatever the rest of the robot "
-        "touches. What is left, by the first calibration of each sensor on data that was not fitted: root mean square; "
-        "offsets are those of the session where it was fitted, else the best."
+        "The sum of the wrenches at the sensors around a link group moves its bodies, independently of contacts "
+        "elsewhere on the robot. The residual, by the first calibration of each sensor on data that was not fitted: "
+        "root mean square; offsets are those of the session where it was fitted, else the best."
     )
     figure = Figure(
         picture=Picture(lambda: joint_figure(residuals)),

@@ -178,8 +178,8 @@ def _far(study: Study, rows: Sequence[int]) -> Iterator[str]:
     beyond = [name for name, value in deviations.items() if value > FAR_SD]
     if beyond:
         yield (
-            f"a push of {PUSH_N:g} N reads {max(deviations.values()):.1f} standard deviations away from what prior and "
-            f"data tell together ({', '.join(beyond)}): a load that was not fitted may be read wrong; "
+            f"a push of {PUSH_N:g} N reads {max(deviations.values()):.1f} standard deviations away from the estimate "
+            f"of prior and data together ({', '.join(beyond)}): a load that was not fitted may be measured wrong; "
             f"{_instead(study, rows)}"
         )
 
@@ -253,7 +253,7 @@ class StudiedSensor(Row):
         """
         yield (
             f"{self.sensor} ({self.serial}): {self.candidates} matrices of {len(self.combinations)} data sets and "
-            f"{self.generative} generative fits, judged on {self.validation_samples} samples that were not fitted"
+            f"{self.generative} generative fits, evaluated on {self.validation_samples} samples that were not fitted"
         )
         yield self._best()
         yield self._by_axis()
@@ -405,7 +405,7 @@ def study_warnings(study: SensorStudy) -> tuple[str, ...]:
     fitted = {interval.session for interval in study.data.calibration}
     shared = sorted({interval.session for interval in study.data.validation} & fitted)
     return (
-        *(f"session {name!r} is fitted and judged: its score is not what another session gives" for name in shared),
+        *(f"session {name!r} is fitted and validated: its score is not that of another session" for name in shared),
         *(f"left out: {sentence}" for sentence in study.left_out),
         *unfitted_warnings(study),
         *study.data.added,

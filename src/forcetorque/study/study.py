@@ -251,7 +251,7 @@ def study_sensor(
     if kinds and not chosen_kinds:
         raise ExperimentError(
             f"{', '.join(kind.name for kind in kinds)} need a linear variable such as temperature, and the experiment "
-            "files state none; give [[sensor.variable]], or ask for a type without"
+            "files have none; add [[sensor.variable]], or choose a type without"
         )
     drawing = data.sphere if sphere is None else tuple(sphere)
     named = combinations_of(data.calibration) if data_sets is None else _resolved(data.calibration, data_sets)

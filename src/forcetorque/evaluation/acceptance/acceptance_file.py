@@ -68,7 +68,7 @@ def _refuse_old_word(instead: str) -> BeforeValidator:
 
 
 _ErrorOffset = Annotated[
-    Literal["fitted", "judged-mean"], _refuse_old_word('"judged-mean" for the mean of the judged samples')
+    Literal["fitted", "judged-mean"], _refuse_old_word('"judged-mean" for the mean of the validation samples')
 ]
 _ContactOffset = Annotated[
     Literal["first-second", "fitted"], _refuse_old_word('"first-second" for that of the first second of every interval')

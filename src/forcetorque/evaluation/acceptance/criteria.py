@@ -181,7 +181,7 @@ class Judged:
         """
         if self.calibration is None:
             raise ExperimentError(
-                f"it judges a calibration, none was given of {self.checks.sensor!r}; give it by --calibration, from "
+                f"it evaluates a calibration, none was given of {self.checks.sensor!r}; give it by --calibration, from "
                 "Python calibration"
             )
         return self.calibration
@@ -233,7 +233,7 @@ def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Ite
         ExperimentError: If there are limits for a workbench.
     """
     if spec.workbench is not None:
-        raise ExperimentError("[workbench] cannot be judged on a robot; see forcetorque workbench --spec")
+        raise ExperimentError("[workbench] cannot be evaluated on a robot; see forcetorque workbench --spec")
     for table, criteria in _TABLES.items():
         stated = getattr(spec, "validate_" if table == "validate" else table)
         if not stated:
@@ -245,7 +245,7 @@ def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Ite
                 yield from criteria(subjects[0], stated)
         except ForceTorqueError as error:
             name = subjects[0].run.sensor.name
-            raise type(error)(f"sensor {name!r}: [{table}] cannot be judged: {error}") from error
+            raise type(error)(f"sensor {name!r}: [{table}] cannot be evaluated: {error}") from error
 
 
 def _worst(
@@ -418,7 +418,7 @@ def _learnt(subject: Judged, stated: limits.Learnt) -> Iterator[Criterion]:
     name, fitted = subject.fitted()
     directions = learnt_directions(fitted)
     if directions is None:
-        raise ExperimentError(f"calibration {name!r} is not a generative fit towards a prior, which alone tells it")
+        raise ExperimentError(f"calibration {name!r} is not a generative fit with a prior matrix; [learnt] needs one")
     for row in directions:
         limit = getattr(stated, row.direction)
         n = fitted.provenance.samples

@@ -323,7 +323,7 @@ class _SensorLocation:
             return LoadCase(name="weight of the robot", words=words, wrench=wrench, is_stated=False)
         if weight <= 0.0:
             return None
-        words = f"pushes of {weight:.3g} N, as much as hangs on the sensor, anywhere within {DEFAULT_RADIUS_M:g} m"
+        words = f"pushes of {weight:.3g} N, the weight of the distal links, anywhere within {DEFAULT_RADIUS_M:g} m"
         wrench = pushes_around_sensor(weight, DEFAULT_RADIUS_M)
         return LoadCase(name="push", words=words, wrench=wrench, is_stated=False)
 

@@ -207,7 +207,7 @@ def static_loads_text(force: MovedAndLoad, moment: MovedAndLoad) -> str | None:
     of = ", ".join(f"{moved:.2g} {unit} of {load:.2g} {unit}" for moved, load, unit in static.values())
     what = "loads" if len(static) == len(kinds) else next(iter(static))
     wrong = "a wrong matrix" if what == "loads" else f"a matrix that is wrong for {what}"
-    return f"the {what} hardly moved in the judged samples ({of}): {wrong} would show nothing"
+    return f"the {what} hardly moved in the validation samples ({of}): {wrong} would show nothing"
 
 
 def hardly_moved(moved: float, load: float) -> bool:
@@ -242,7 +242,7 @@ Quantity = Literal["force", "moment"]
 OFFSET_WORDS = {
     Offset.FITTED: "its own offset",
     Offset.FIRST_SECOND: "the offset of the first second",
-    Offset.JUDGED_MEAN: "the mean of the judged samples taken off",
+    Offset.JUDGED_MEAN: "the mean of the validation samples removed",
     Offset.NONE: "no offset removed",
 }
 """The offsets in sentences."""

@@ -148,7 +148,7 @@ LOOK_FOR_CAUSE: Final = (
     "and losses; masses that the robot's model lacks, and a sensor that warms up, look like it too."
 )
 """About an error on data that were not fitted which nothing predicts."""
-MEND_DATA: Final = "Put right in the recording or the experiment file what the doubt names, and calibrate again."
+MEND_DATA: Final = "Correct in the recording or the experiment file what the warning names, and calibrate again."
 """About fitted data that were in doubt."""
 JUDGE: Final = (
     'State an interval with use = "validation" in the experiment file, on which the calibration was not fitted and in '
@@ -156,7 +156,7 @@ JUDGE: Final = (
 )
 """About a calibration that no data test."""
 JUDGE_WHAT_MOVES: Final = (
-    "Judge it on data in which the load moves by more than that: a validation interval with other postures or loads."
+    "Evaluate it on data in which the load moves by more than that: a validation interval with other postures or loads."
 )
 """About judged data that test little."""
 TARE: Final = 'Tare the sensor before use, and state offset = "tared" in [[load_case]].'
@@ -250,7 +250,7 @@ class LoadCaseAssessment:
         yield from self._predicted()
         yield from self._measured()
         for doubt in self.calibration.doubts:
-            yield Reason(against="data", text=f"the fitted data were in doubt: {doubt}", remedy=MEND_DATA)
+            yield Reason(against="data", text=f"warning about the fitted data: {doubt}", remedy=MEND_DATA)
         yield from self._worse()
 
     def _worse(self) -> Iterator[Reason]:
@@ -268,8 +268,8 @@ class LoadCaseAssessment:
     def _predicted(self) -> Iterator[Reason]:
         if self.after is None:
             text = (
-                f"a calibration of type {self.calibration.estimation_type} knows no error at other loads than those "
-                "that were judged; fit it by the generative model"
+                f"a calibration of type {self.calibration.estimation_type} predicts errors at the loads of the "
+                "validation data only; fit it by the generative model"
             )
             yield Reason(against="data", text=text, remedy=FIT_GENERATIVE)
             return
@@ -360,7 +360,7 @@ class LoadCaseAssessment:
             *validation_excitation(self.measured.reference, [self.calibration], moved=self.measured.moved)
         )
         if static is not None:
-            yield Reason(against="data", text=f"{static}; judge data that move", remedy=JUDGE_WHAT_MOVES)
+            yield Reason(against="data", text=f"{static}; evaluate it on data that move", remedy=JUDGE_WHAT_MOVES)
 
     def _constant(
         self, error: MeasuredError, quantity: str, unit: str, allowed: float, load: float

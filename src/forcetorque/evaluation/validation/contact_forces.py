@@ -287,7 +287,7 @@ def contact_forces_of(sensor: ExperimentSensor, recordings: Mapping[str, Contact
     contacts = pooled_contacts(recordings)
     verdicts = tuple(contact_force_rows(sensor, contacts))
     if not verdicts:
-        raise ExperimentError(f"nothing can be judged: {'; '.join(contacts.left_out)}")
+        raise ExperimentError(f"nothing can be evaluated: {'; '.join(contacts.left_out)}")
     return ContactForces(
         verdicts=verdicts,
         best=tuple(_best(sensor, contacts, list(recordings.values()))),
