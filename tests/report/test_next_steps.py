@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.evaluation.load_cases.verdict import Reason, UseVerdict
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.report.decision import Undecided, gathered, next_steps, said_once
+from forcetorque.report.decision import Undecided, grouped_by_text, next_steps, texts_with_names
 from tests.report.drawing import use_of
 from tests.scenes.calibrations import make_calibration
 
@@ -102,8 +102,8 @@ def test_where_there_is_no_verdict_the_reason_is_what_to_mend() -> None:
 
 def test_sentences_of_several_come_once_in_their_order() -> None:
     """Behind the names of some, by themselves for all."""
-    assert said_once([("a", "x"), ("b", "y"), ("b", "x"), ("a", "x")], "ab") == ["x", "b: y"]
-    assert said_once([("a", "x")], "a") == ["x"]
-    assert said_once([("a", "x")], "ab") == ["a: x"], "the other is good"
-    assert gathered([("a", 1), ("b", 1), ("a", 2)]) == [(("a", "b"), 1), (("a",), 2)]
-    assert np.size(gathered([])) == 0
+    assert texts_with_names([("a", "x"), ("b", "y"), ("b", "x"), ("a", "x")], "ab") == ["x", "b: y"]
+    assert texts_with_names([("a", "x")], "a") == ["x"]
+    assert texts_with_names([("a", "x")], "ab") == ["a: x"], "the other is good"
+    assert grouped_by_text([("a", 1), ("b", 1), ("a", 2)]) == [(("a", "b"), 1), (("a",), 2)]
+    assert np.size(grouped_by_text([])) == 0

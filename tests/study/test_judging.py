@@ -15,7 +15,7 @@ from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, OFFSET_S, Offset, ValidationSet
 from forcetorque.study.candidate_errors import BlockErrors, PooledErrors
-from forcetorque.study.selection import judge, with_offset
+from forcetorque.study.selection import evaluate_models, with_offset
 from tests.study import measured
 from tests.study.measured import JUDGED, NOISE, TRUTH, errors_by_samples, judged, study
 
@@ -43,7 +43,7 @@ def _difference(one: PooledErrors, other: PooledErrors) -> float:
 
 
 def _judge(models: Sequence[WrenchModel], sets: Sequence[ValidationSet], source: Offset) -> BlockErrors:
-    return judge(models, [source] * len(models), sets)
+    return evaluate_models(models, [source] * len(models), sets)
 
 
 @BOTH
@@ -173,12 +173,12 @@ def test_an_offset_of_the_counts_matters_to_the_fitted_offset_alone() -> None:
 def test_a_mixture_of_offsets_keeps_every_model_its_own() -> None:
     """Sources are given model by model, as for the workbench beside the candidates."""
     models = study().models[:2]
-    mixed = judge(models, [RE_ESTIMATED, FITTED_OFFSET], JUDGED).pooled()
+    mixed = evaluate_models(models, [RE_ESTIMATED, FITTED_OFFSET], JUDGED).pooled()
     for index, source in enumerate((RE_ESTIMATED, FITTED_OFFSET)):
         alone = _judge([models[index]], JUDGED, source).pooled()
         assert abs(alone.force_mean[0] - mixed.force_mean[index]) < EXACT
     with pytest.raises(ValueError, match="zip"):
-        judge(models, [RE_ESTIMATED], JUDGED)
+        evaluate_models(models, [RE_ESTIMATED], JUDGED)
 
 
 @BOTH
@@ -206,7 +206,7 @@ def test_a_sensor_without_variables_is_judged_too() -> None:
 def test_progress_names_every_set_once() -> None:
     """People see which interval is judged."""
     said: list[str] = []
-    judge([TRUTH], [RE_ESTIMATED], JUDGED, progress=said.append)
+    evaluate_models([TRUTH], [RE_ESTIMATED], JUDGED, progress=said.append)
     assert said == ["one", "two", "three"]
 
 
@@ -220,7 +220,7 @@ def test_an_interval_that_is_too_short_is_refused() -> None:
     assert OFFSET_S == 1.0
     for short, counts in ((_of_length(109), "100 and 9"), (_of_length(40, rate_hz=9.0), "9 and 31")):
         with pytest.raises(FitError, match=f"validation interval 'short': expected at least 10 .*, got {counts}"):
-            judge([TRUTH], [RE_ESTIMATED], [JUDGED[0], short])
+            evaluate_models([TRUTH], [RE_ESTIMATED], [JUDGED[0], short])
     assert _judge([TRUTH], [_of_length(110)], RE_ESTIMATED).count.sum() == 10
     assert _of_length(40, rate_hz=10.0).for_offset().sum() == 10
 

@@ -17,7 +17,7 @@ from forcetorque.study.selection import (
     assembled,
     best_by_axis,
     best_by_magnitude,
-    judge,
+    evaluate_models,
     scored_across_sessions,
 )
 from tests.study.measured import JUDGED, PRIOR, TRUTH, study
@@ -137,7 +137,7 @@ def test_scores_are_of_a_choice_made_without_the_scored_session(source: Offset) 
     days = {"day 1": JUDGED[:2], "day 2": JUDGED[2:]}
     assert [score.session for score in scores] == ["day 1", "day 2"]
     for score, other in zip(scores, ("day 2", "day 1"), strict=True):
-        chosen_on, scored_on = (judge(models, sources, days[day]).pooled() for day in (other, score.session))
+        chosen_on, scored_on = (evaluate_models(models, sources, days[day]).pooled() for day in (other, score.session))
         assert (chosen_on.force_mean[:351] > LESS * chosen_on.force_mean[score.chosen]).all()
         for axis, index in enumerate(score.by_axis):
             assert (chosen_on.mean_absolute[:351, axis] > LESS * chosen_on.mean_absolute[index, axis]).all()
@@ -215,7 +215,10 @@ def test_poisoned_samples_of_a_session_do_not_reach_its_choice() -> None:
     source = Offset.FIRST_SECOND
     determined = np.ones(351, dtype=bool)
     plain, poisoned = (
-        {score.session: score for score in scored_across_sessions(judge(models, [source] * 351, sets), determined)}
+        {
+            score.session: score
+            for score in scored_across_sessions(evaluate_models(models, [source] * 351, sets), determined)
+        }
         for sets in (JUDGED, [*JUDGED[:2], spoilt])
     )
     assert poisoned["day 2"].chosen == plain["day 2"].chosen

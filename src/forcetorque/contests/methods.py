@@ -31,20 +31,20 @@ _FITTED = (Method.IN_SITU, Method.IN_SITU_WITHOUT_PRIOR, Method.KNOWN_MASSES, Me
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Reader:
-    """A contestant that can be judged."""
+    """A contestant that can be evaluated."""
 
     entry: Contestant
     """The contestant."""
     correction: Correction
     """How it is read."""
     judged: tuple[tuple[ContestRun, SensorRun], ...]
-    """Runs that judge it, with its sensor in them."""
+    """Validation runs, with its sensor in them."""
     fitted_loads_kg: tuple[float, ...]
     """Loads that it was fitted on; kg."""
 
 
 def contestant_reader(entry: Contestant, runs: Sequence[ContestRun], *, code_version: str, created: str) -> Reader:
-    """Make a contestant ready to be judged.
+    """Prepare a contestant for evaluation.
 
     Args:
         entry: The contestant.
@@ -53,7 +53,7 @@ def contestant_reader(entry: Contestant, runs: Sequence[ContestRun], *, code_ver
         created: Date and time, ISO 8601, for the same.
 
     Returns:
-        How it is read, and where it is judged.
+        How its samples are read, and its validation runs.
 
     Raises:
         ExperimentError: If no run has its sensor, several sensors go by its name, or its method lacks what it needs.
@@ -201,12 +201,12 @@ _WRENCH = ("applied fx", "applied fy", "applied fz", "applied tx", "applied ty",
 
 
 def contestant_trials(reader: Reader, phases: Phases, offset: Offset) -> list[Trial]:
-    """Judge a contestant in all its runs.
+    """Compute the errors of a contestant in all its runs.
 
     Args:
         reader: The contestant.
         phases: Phases of the runs.
-        offset: Which offset it is judged with.
+        offset: Which offset it is evaluated with.
 
     Returns:
         Its runs, one for every validation interval.

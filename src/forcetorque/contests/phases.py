@@ -137,13 +137,13 @@ class Trial(ArrayRecord):
     """Means over the p phases of one run."""
 
     load_kg: float
-    """Mass that hung there; kg."""
+    """Mass of the carried load; kg."""
     error: FloatArray = field(metadata=array("p", 6))
     """Measured less reference, offset removed; shape (p, 6); N, N m; NaN where no sample is."""
     level: FloatArray = field(metadata=array(6))
     """Mean error without any offset removed: what runs differ by if the sensor drifts; shape (6,); N, N m."""
     reference: FloatArray = field(metadata=array("p", 6))
-    """What mechanics demands; shape (p, 6); N, N m; NaN where no sample is."""
+    """Expected wrenches; shape (p, 6); N, N m; NaN where no sample is."""
     time_s: float
     """Middle of the run, on a clock that all runs share; s; NaN where there is none."""
     temperature_degC: float = np.nan
@@ -166,10 +166,10 @@ def trial_by_phase(
     Args:
         phase: Phase of every sample, 0 to 1; shape (n,).
         error: Measured less reference, no offset removed; shape (n, 6); N, N m.
-        reference: What mechanics demands; shape (n, 6); N, N m.
+        reference: Expected wrenches; shape (n, 6); N, N m.
         removed: Offset to remove; shape (6,); N, N m; the mean over the phases if None.
         phases: Number of phases.
-        load_kg: Mass that hung there; kg.
+        load_kg: Mass of the carried load; kg.
         time_s: Middle of the run; s.
         temperature_degC: Mean temperature; degC.
 
@@ -196,7 +196,7 @@ def _means(place: np.ndarray[Any, np.dtype[np.int64]], values: FloatArray, phase
 
 
 def common_phases(contestants: Mapping[str, Sequence[Trial]]) -> BoolArray:
-    """Tell which phases every run of every contestant has.
+    """Find the phases that every run of every contestant has.
 
     Args:
         contestants: Runs by name of the contestant, all of equally many phases.
@@ -246,7 +246,7 @@ def repeatability(loads: Mapping[float, Sequence[Trial]], common: BoolArray) -> 
         common: Phases that all runs have; shape (p,).
 
     Returns:
-        Standard deviation; shape (6,); N, N m; None where no load was hung twice.
+        Standard deviation; shape (6,); N, N m; None where no load was repeated.
     """
     repeated = [np.stack([t.error[common] for t in trials]) for trials in loads.values() if len(trials) > 1]
     if not repeated:
@@ -265,7 +265,7 @@ def changes(loads: Mapping[float, Sequence[Trial]]) -> dict[str, OffsetDrift]:
         loads: Runs by load.
 
     Returns:
-        Changes `per hour` and `per degC`, those that the runs can tell.
+        Changes `per hour` and `per degC`, as far as the runs determine them.
     """
     every = [trial for trials in loads.values() for trial in trials]
     columns = {}

@@ -40,11 +40,11 @@ class ContestantRow(Row):
     source: str
     """What it is read by, in words."""
     runs: int
-    """Runs that judged it."""
+    """Number of its validation runs."""
     fitted_loads_kg: tuple[float, ...]
     """Loads that it was fitted on; kg."""
     rank: Annotated[int, Shown("rank")]
-    """Rank by force and moment together: one more than the contestants that err less beyond doubt."""
+    """Rank by force and moment together: one more than the number of contestants with significantly smaller errors."""
     error_percent: Annotated[float, Shown("error", "% of the loads", digits=2)]
     """Root mean square error of force over the judged force and of moment over the judged moment, together; %."""
     force_error_N: Annotated[float, Shown("force", "N", digits=3)]
@@ -65,7 +65,7 @@ class ContestantRow(Row):
     rmse_percent_of_full_scale: WrenchValues | None
     """Root mean square error over the full scale; %."""
     drift_per_hour: WrenchValues | None
-    """Change of the mean error from run to run; N, N m per h; none where it cannot be told."""
+    """Change of the mean error from run to run; N, N m per h; none where the samples do not determine it."""
     drift_per_hour_half_width_95: WrenchValues | None
     """Half of its 95 % interval."""
     drift_per_degC: WrenchValues | None
@@ -91,11 +91,11 @@ class ContestLoadRow(Row):
     contestant: Annotated[str, Shown("contestant")]
     """Its name."""
     load_kg: Annotated[float, Shown("load", "kg", digits=2)]
-    """Mass that hung there."""
+    """Mass of the carried load."""
     rmse: Annotated[WrenchValues, ShownWrench(digits=4)]
     """Root mean square error over the phases; N, N m."""
     rmse_low: WrenchValues | None
-    """Lower end of its 95 % interval; none where too few stretches tell any."""
+    """Lower end of its 95 % interval; none where there are too few segments."""
     rmse_high: WrenchValues | None
     """Upper end."""
 
@@ -238,13 +238,13 @@ class Contest(Result):
     figure: str | None = None
     """File of the figure."""
     offset: str
-    """Which offset all were judged with."""
+    """Which offset all were evaluated with."""
     phases: int
     """Phases of the motion that all runs have."""
     loads_kg: tuple[float, ...]
     """Validation loads, on which no contestant was fitted; kg."""
     winner: str | None
-    """The one that errs less than every other beyond doubt, by force and moment together; else none."""
+    """The contestant with significantly smaller errors than every other, by force and moment together; else none."""
     contestants: tuple[ContestantRow, ...]
     """Contestants, the best first."""
     loads: tuple[ContestLoadRow, ...]
@@ -347,7 +347,7 @@ def contest(entries: Entries, *, code_version: str, created: str) -> Contest:
         loads=tuple(row for name in squares for row in load_rows(name, loads[name], squares[name])),
         pairs=tuple(pairs),
         left_out=tuple(left_out),
-        warnings=tuple(_doubts(rows)),
+        warnings=tuple(_warnings(rows)),
     )
 
 
@@ -403,7 +403,7 @@ def _scale(trials: Mapping[str, Sequence[Trial]], common: BoolArray) -> tuple[fl
     )
 
 
-def _doubts(rows: Sequence[ContestantRow]) -> Iterator[str]:
+def _warnings(rows: Sequence[ContestantRow]) -> Iterator[str]:
     if all(row.repeatability is None for row in rows):
         yield "no load was repeated: precision and drift are unobservable; repeat a run"
     without = [row.contestant for row in rows if row.full_scale is None]

@@ -114,7 +114,7 @@ class CandidateErrors(JudgedRow):
     """Errors of one candidate with one offset; per axis in the order fx fy fz (N) tx ty tz (N m)."""
 
     samples: int
-    """Number of judged samples."""
+    """Number of validation samples."""
     rmse: Annotated[WrenchValues, ShownWrench(digits=3)]
     """Root mean square error per component; N, N m."""
     bias: Annotated[WrenchValues, ShownWrench(digits=3)]
@@ -126,7 +126,7 @@ class CandidateErrors(JudgedRow):
     force_error_standard_error_N: float | None
     """Standard error of that mean; None for one sample."""
     force_error_half_width_95_N: float | None
-    """Half-width of its 95 % interval; None where it cannot be told."""
+    """Half-width of its 95 % interval; None where the samples do not determine it."""
     force_error_largest_N: float
     """Largest norm of the force error."""
     moment_error_mean_Nm: Annotated[float, Shown("moment", "N m", digits=3, error="moment_error_half_width_95_Nm")]
@@ -134,13 +134,13 @@ class CandidateErrors(JudgedRow):
     moment_error_standard_error_Nm: float | None
     """Standard error of that mean; None for one sample."""
     moment_error_half_width_95_Nm: float | None
-    """Half-width of its 95 % interval; None where it cannot be told."""
+    """Half-width of its 95 % interval; None where the samples do not determine it."""
     moment_error_largest_Nm: float
     """Largest norm of the moment error."""
     independent: Annotated[float | None, Shown("independent", digits=0)]
     """How many independent samples the errors are worth, of the component worth the fewest; None where none changes."""
     excitation_N: Annotated[float, Shown("moved", "N", digits=1)]
-    """Standard deviation of the reference force over the judged samples, all three components together."""
+    """Standard deviation of the reference force over the validation samples, all three components together."""
     excitation_Nm: Annotated[float, Shown("moved", "N m", digits=2)]
     """The same of the reference moment."""
     load_N: float
@@ -185,9 +185,9 @@ class Evaluation(Result):
     comparisons: tuple[PriorComparison, ...] = ()
     """Calibrations against their priors, force and moment, all recordings pooled."""
     smoothing: tuple[str, ...] = ()
-    """Whether reading and reference were smoothed, in words; of several recordings one per way."""
+    """Whether measured and expected wrench were smoothed, as text; of several recordings one per way."""
     validity: tuple[ReadingsOutside, ...] = ()
-    """One per calibration: how far the judged readings lie outside what it was fitted on."""
+    """One per calibration: how far the validation samples lie outside what it was fitted on."""
     uses: tuple[UseVerdict, ...] = ()
     """One per calibration and load case: whether it may be used."""
 

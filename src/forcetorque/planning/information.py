@@ -32,7 +32,7 @@ UNKNOWN: Final = 1e5
 def unfitted_posterior(
     matrix: FloatArray, assumptions: Assumptions, variables: Sequence[LinearVariable] = ()
 ) -> Posterior:
-    """Say what the generative model takes for granted before any data.
+    """Compute the prior distribution of the generative model.
 
     Args:
         matrix: Prior matrix; shape (6, c); N/count, N m/count.
@@ -89,7 +89,7 @@ def unfitted_posterior(
 
 
 def blank_posterior(noise: FloatArray, load: FloatArray) -> Posterior:
-    """Say that nothing is known of a sensor, not even a prior matrix.
+    """Make the posterior of a sensor of which nothing is known, not even a prior matrix.
 
     Args:
         noise: White noise of a reading, as wrench; shape (6,); N, N m.
@@ -149,7 +149,7 @@ class PlannedLoads(ArrayRecord):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Nuisance:
-    """Quadratic terms, which a fit has to tell from the matrix."""
+    """Quadratic terms, which a fit has to separate from the matrix."""
 
     load_to_full_scale: FloatArray
     """Share of full scale that a load makes of six independent readings; shape (6, 6)."""

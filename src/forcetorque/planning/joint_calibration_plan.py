@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Recordings that inform a joint calibration of all sensors most."""
+"""Recordings with the most information for a joint calibration of all sensors."""
 
 from __future__ import annotations
 
@@ -132,9 +132,9 @@ def plan_jointly(
     recordings: int = 3,
     progress: Callable[[str], None] = lambda _: None,
 ) -> JointPlan:
-    """Order recordings by what they teach all sensors of a robot at once.
+    """Order recordings by the information gained on all sensors of a robot at once.
 
-    What a recording teaches depends on its motion, and hardly on what the sensors read in it: recordings of another
+    The information of a recording depends on its motion, and hardly on its measurements: recordings of another
     day, or simulated ones of motions that are to be recorded, stand for those to come.
 
     Args:

@@ -51,7 +51,7 @@ class Plan(Result):
     serial: str
     """Its serial number."""
     load_case: str
-    """The use whose error is lowered."""
+    """Load case whose error is lowered."""
     loads: str
     """Its loads, as text."""
     start: Literal["calibration", "prior"]
@@ -63,7 +63,7 @@ class Plan(Result):
     postures: tuple[PlannedPosture, ...]
     """Postures of all recordings."""
     limits: tuple[str, ...]
-    """What was taken for granted, and what was not checked."""
+    """Assumptions, and what was not checked."""
     folder: str | None = None
     """Where the trajectories were written."""
     proposals: tuple[Proposal, ...] = Field(default=(), exclude=True)
@@ -95,12 +95,12 @@ def plan(
     effort: Effort | None = None,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Plan:
-    """Plan recordings that lower the predicted error at the loads of a use most, one after the other.
+    """Plan recordings that lower the predicted error at a load case most, one after the other.
 
     Args:
         runs: The sensor, in one experiment or several.
         calibration: What is known of it; None for its prior matrix.
-        load_case: Name of the use; the one that is furthest from what is allowed if left out.
+        load_case: Name of the load case; the one that is furthest from what is allowed if left out.
         clearance_deg: What joints keep away from their limits; that of `[plan]` if left out; deg.
         recordings: How many recordings.
         seconds: About how long each may be; 60 if None; s.
@@ -155,12 +155,12 @@ def plan(
 
 
 def plan_sentence(runs: Runs, calibration: Calibration | None = None, *, load_case: str | None = None) -> str:
-    """Say in a sentence or two what to record next; quick, for assessments.
+    """Advise in a sentence or two what to record next; quick, for assessments.
 
     Args:
         runs: The sensor, in one experiment or several.
         calibration: What is known of it; None for its prior matrix.
-        load_case: Name of the use.
+        load_case: Name of the load case.
 
     Returns:
         What to record first and what it brings; without a clearance what to state to have it planned.

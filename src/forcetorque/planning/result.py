@@ -246,7 +246,7 @@ def _in_the_end(rows: Sequence[PlannedRecording]) -> str:
 
 
 def limits_of(*, calibrated: bool, posterior: Posterior) -> tuple[str, ...]:
-    """Say what was taken for granted, and what was not checked.
+    """List the assumptions, and what was not checked.
 
     Args:
         calibrated: Whether a calibration is known.

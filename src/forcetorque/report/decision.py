@@ -44,12 +44,12 @@ def decide_uses(
     calibrations: Sequence[Mapping[str, Mapping[str, Calibration]]],
     demands: Demands,
 ) -> tuple[tuple[UseVerdict, ...], tuple[Undecided, ...]]:
-    """Judge every calibration over all recordings whose validation intervals it has not seen.
+    """Decide on every calibration over all recordings whose validation intervals were not fitted.
 
     Args:
         runs: For every experiment the runs of the judged sensors, by sensor.
         calibrations: For every experiment calibrations by name of their file, by sensor.
-        demands: Limits, whose load cases are judged too.
+        demands: Limits, whose load cases are evaluated too.
 
     Returns:
         Verdicts, and calibrations and sensors on which there is none.
@@ -81,7 +81,7 @@ def decide_uses(
 
 
 def sensor_keys(uses: Sequence[UseVerdict], undecided: Sequence[Undecided]) -> list[SensorKey]:
-    """Name the sensors of which something is said.
+    """List the sensors that have a verdict or a reason for none.
 
     Args:
         uses: Verdicts.
@@ -95,7 +95,7 @@ def sensor_keys(uses: Sequence[UseVerdict], undecided: Sequence[Undecided]) -> l
 
 
 def sensor_key(run: SensorRun) -> SensorKey:
-    """Tell sensors apart.
+    """Identify a sensor.
 
     Args:
         run: A sensor in a recording.
@@ -131,37 +131,37 @@ def _accepted(runs: Sequence[SensorRun], file: str, calibration: Calibration) ->
         yield run
 
 
-_Said = TypeVar("_Said", bound=Hashable)
+_Text = TypeVar("_Text", bound=Hashable)
 
 
-def gathered(said: Iterable[tuple[str, _Said]]) -> list[tuple[tuple[str, ...], _Said]]:
-    """Put together what is said of several in the same words.
+def grouped_by_text(pairs: Iterable[tuple[str, _Text]]) -> list[tuple[tuple[str, ...], _Text]]:
+    """Group names with the same text.
 
     Args:
-        said: Name of whom something is about, and what is said.
+        pairs: Pairs of a name and a text.
 
     Returns:
-        Names, each once, and what is said of them; in the order in which it first comes.
+        Names, each once, with their text; in the order of first occurrence.
     """
-    about: dict[_Said, dict[str, None]] = {}
-    for name, what in said:
-        about.setdefault(what, {})[name] = None
-    return [(tuple(names), what) for what, names in about.items()]
+    names_of: dict[_Text, dict[str, None]] = {}
+    for name, text in pairs:
+        names_of.setdefault(text, {})[name] = None
+    return [(tuple(names), text) for text, names in names_of.items()]
 
 
-def said_once(sentences: Iterable[tuple[str, str]], everyone: Collection[str]) -> list[str]:
-    """Say every sentence once.
+def texts_with_names(sentences: Iterable[tuple[str, str]], everyone: Collection[str]) -> list[str]:
+    """List every text once.
 
     Args:
-        sentences: Name of whom a sentence is about, and the sentence.
-        everyone: Names of all of whom something might be said.
+        sentences: Pairs of a name and a text.
+        everyone: All names.
 
     Returns:
-        A sentence by itself if it is about everyone, else behind the names.
+        A text by itself if it holds for all names, else behind its names.
     """
     return [
         sentence if set(names) == set(everyone) else f"{', '.join(names)}: {sentence}"
-        for names, sentence in gathered(sentences)
+        for names, sentence in grouped_by_text(sentences)
     ]
 
 
@@ -183,7 +183,7 @@ def next_steps(
     calibrations: Mapping[str, Calibration],
     runs: Mapping[str, SensorRun],
 ) -> NextSteps:
-    """Say what to do next about a sensor.
+    """List the next steps for a sensor.
 
     Args:
         key: Name of the sensor, and serial number.
@@ -198,10 +198,10 @@ def next_steps(
     names = short_names(list(calibrations))
     steps = [
         *_today(uses, names),
-        *said_once(
+        *texts_with_names(
             ((names[verdict.candidate], step) for verdict in uses for step in _remedies(verdict)), names.values()
         ),
-        *said_once(_to_record(uses, calibrations, names), names.values()),
+        *texts_with_names(_to_record(uses, calibrations, names), names.values()),
         *_plan(_to_plan(uses, [*runs.values()]), calibrations, runs, names),
         *_begin(undecided, key[0], [*runs], names),
         *_state_use(uses),
@@ -211,10 +211,11 @@ def next_steps(
 
 def _today(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[str]:
     """What to do with the calibrations as they are, those and those uses together of which it is the same."""
-    by_calibration = gathered(
+    by_calibration = grouped_by_text(
         (f"“{verdict.load_case}”", (names[verdict.candidate], _as_it_is(verdict))) for verdict in uses
     )
-    for calibrations, (cases, words) in gathered((name, (cases, words)) for cases, (name, words) in by_calibration):
+    by_cases = ((name, (cases, words)) for cases, (name, words) in by_calibration)
+    for calibrations, (cases, words) in grouped_by_text(by_cases):
         yield words.format(calibration=" and ".join(calibrations), use=" and ".join(cases))
 
 
@@ -291,14 +292,14 @@ def _plan(
     runs: Mapping[str, SensorRun],
     names: Mapping[str, str],
 ) -> Iterator[str]:
-    """What to record first for the use that a calibration is farthest from, and the command that says what then."""
+    """The first recording for the load case that a calibration is farthest from, and the command for the others."""
     tables = [run.experiment.section(PLAN) for run in runs.values()]
     if any(table is not None and table.clearance_deg is not None for table in tables):
         first = [
             (names[file], _first_recording(calibrations[file], min(verdicts, key=_chance), [*runs.values()]))
             for file, verdicts in wanted.items()
         ]
-        yield from said_once(first, names.values())
+        yield from texts_with_names(first, names.values())
         needed = ""
     else:
         needed = "; it needs clearance_deg, what joints keep away from their limits, in [plan] of the experiment file"

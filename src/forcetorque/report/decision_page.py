@@ -10,7 +10,7 @@ from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import UseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.report.assessment import Assessment, VerdictLine
-from forcetorque.report.decision import NextSteps, Undecided, gathered, said_once
+from forcetorque.report.decision import NextSteps, Undecided, grouped_by_text, texts_with_names
 from forcetorque.report.experiment_assessment import ExperimentAssessment
 from forcetorque.results.document.content import Block, Figure, List, Place, Section, Tone, Verdict
 from forcetorque.results.document.picture import Picture
@@ -92,7 +92,7 @@ def _against(
     assessed: Sequence[VerdictLine],
 ) -> Iterator[Verdict | List]:
     """All that speaks against what the sentences above predict: measured errors, what is bad, and other warnings."""
-    for text in said_once(_beyond_predicted(uses, names), names.values()):
+    for text in texts_with_names(_beyond_predicted(uses, names), names.values()):
         yield Verdict(tone=Tone.CAUTION, word="measured", text=f"{text}.")
     # doubts about fitted data are reasons of every verdict
     reasoned = [doubt for one in calibrations.values() for doubt in one.doubts] if uses else []
@@ -106,7 +106,7 @@ def _against(
         for reason in verdict.reasons[first:]
         if reason.against is not None and reason.remedy is not None
     ]
-    warnings = [*said_once(reasons, names.values()), *(line.text for line in lines if line.tone == "caution")]
+    warnings = [*texts_with_names(reasons, names.values()), *(line.text for line in lines if line.tone == "caution")]
     if warnings:
         yield List(points=tuple(dict.fromkeys(f"warning: {text}" for text in warnings)))
 
@@ -174,7 +174,7 @@ def _other_reasons(uses: Sequence[UseVerdict], names: Mapping[str, str], against
         for reason in verdict.reasons[first:]
         if reason.against is None and not any(reason.text in text for text in shown)
     )
-    points = said_once(reasons, names.values())
+    points = texts_with_names(reasons, names.values())
     return [List(points=tuple(points))] if points else []
 
 
@@ -214,8 +214,8 @@ TITLE = "Better than the prior?"
 """Title of the section."""
 
 
-def judgement_section(experiments: Sequence[ExperimentAssessment]) -> Section:
-    """Put together what the judged data say of every calibration against its prior.
+def prior_comparison_section(experiments: Sequence[ExperimentAssessment]) -> Section:
+    """Compare every calibration with its prior on the validation data.
 
     Args:
         experiments: What is said about every experiment.
@@ -228,7 +228,7 @@ def judgement_section(experiments: Sequence[ExperimentAssessment]) -> Section:
         for experiment in experiments
         for sensor in experiment.sensors
     }
-    sentences = gathered(
+    sentences = grouped_by_text(
         pair
         for name, assessment in assessments.items()
         for pair in _sentences(name if len(assessments) > 1 else "", assessment)

@@ -29,7 +29,7 @@ from forcetorque.study.selection import (
     best_by_axis,
     best_by_magnitude,
     choosable,
-    judge,
+    evaluate_models,
     push_deviations,
     scored_across_sessions,
 )
@@ -224,7 +224,7 @@ class Study:
         return self.candidates[index].name if index < len(self.candidates) else WORKBENCH
 
     def push_error(self, index: int) -> PushError | None:
-        """Judge a model by pushes that were not recorded.
+        """Compute the errors of a model for pushes that were not recorded.
 
         Args:
             index: Its index.
@@ -254,13 +254,13 @@ def run_study(
     Args:
         calibration: Calibration data in the order of the files.
         combinations: Labels of the data that are fitted together, by the name of the combination.
-        validation: Data to judge on.
+        validation: Validation data.
         prior: Matrix to stay close to, the workbench's; shape (6, c); None for a sensor without one.
         variables: What the columns of `variables` in the data are.
         kinds: Estimation types.
         lambdas: Lambdas of (5.4); counts2; those of the thesis' tables, six times as printed there, if left out.
         sphere: Labels of the data that draw the sphere of the sphere types.
-        generative: Generative fits of the combinations, to be judged beside the others.
+        generative: Generative fits of the combinations, to be evaluated beside the others.
         truth: True matrix, of a simulated sensor; shape (6, c); None if it is not known.
         progress: Called with a line for people at every step.
 
@@ -268,7 +268,7 @@ def run_study(
         The study.
 
     Raises:
-        FitError: If there is nothing to judge on, nothing can be fitted, or the data determine none of the fits.
+        FitError: If there is nothing to evaluate on, nothing can be fitted, or the data determine none of the fits.
     """
     if not validation:
         raise FitError('expected at least one interval with use = "validation", got none')
@@ -302,7 +302,7 @@ def run_study(
     for source in KNOWN_BEFORE:
         say(f"judging {len(models)} matrices on {len(validation)} intervals, offset {source}")
         sources = [source] * len(candidates) + [Offset.FIRST_SECOND] * (workbench is not None)
-        errors[source] = judge(
+        errors[source] = evaluate_models(
             models, sources, validation, session_offsets=session_offsets, evaluator=evaluator, progress=say
         )
         choices[source] = _choice(errors[source], determined)

@@ -124,7 +124,7 @@ _WORSE = 1.05
 
 
 def unfitted_load(study: Study, rows: Sequence[int]) -> UnfittedLoad:
-    """Judge a model that takes its six rows from models of a study.
+    """Evaluate a model that takes its six rows from models of a study.
 
     Args:
         study: The study.
@@ -231,7 +231,7 @@ class StudiedSensor(Row):
     generative: int
     """Number of generative fits, one per combination that allows it."""
     validation_samples: int
-    """Samples that they were judged on."""
+    """Number of validation samples."""
     combinations: tuple[FittedCombination, ...]
     """What was fitted together."""
     left_out: tuple[str, ...]
@@ -357,7 +357,7 @@ class Studies(Result):
 
 
 def studied_sensor(study: SensorStudy) -> StudiedSensor:
-    """Say what the study of a sensor comes to.
+    """Summarise the study of a sensor.
 
     Args:
         study: The study.
@@ -393,13 +393,13 @@ def studied_sensor(study: SensorStudy) -> StudiedSensor:
 
 
 def study_warnings(study: SensorStudy) -> tuple[str, ...]:
-    """Say what makes the choice doubtful.
+    """List the warnings about the choice.
 
     Args:
         study: The study.
 
     Returns:
-        A sentence per session that is fitted and judged, one per type that a combination cannot give, one per choice
+        A text per session that is fitted and validated, one per type that a combination cannot give, one per choice
         that makes the sensor worse, or may, at loads that were not fitted, and what experiment files add to their logs.
     """
     fitted = {interval.session for interval in study.data.calibration}

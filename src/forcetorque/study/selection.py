@@ -17,7 +17,7 @@ from forcetorque.study.candidate import Candidate, GenerativeCandidate
 from forcetorque.study.candidate_errors import BlockErrors, PooledErrors, candidate_errors, pushes
 
 
-def judge(
+def evaluate_models(
     models: Sequence[WrenchModel],
     sources: Sequence[Offset],
     sets: Sequence[ValidationSet],
@@ -26,12 +26,12 @@ def judge(
     evaluator: Evaluator | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> BlockErrors:
-    """Judge models on validation sets; samples that can give an offset are judged in neither mode.
+    """Evaluate models on validation sets; the samples that give an offset are evaluated in neither mode.
 
     Args:
         models: The models; each has no variable, or all those of the sets.
         sources: Which offset each of them is judged with.
-        sets: What they are judged on, at least one.
+        sets: Validation sets, at least one.
         session_offsets: Offsets by session of those models that have several, by their index; a set of another session
             is judged with that of the model.
         evaluator: Who computes; by the amount of work of every set if None.
@@ -247,13 +247,13 @@ def choosable(errors: PooledErrors, determined: BoolArray) -> PooledErrors:
 
 
 FAR_SD: Final = 3.0
-"""Standard deviations beyond which a candidate has left what prior and data tell together."""
+"""Standard deviations beyond which a candidate contradicts the estimate from prior and data."""
 
 
 def push_deviations(
     candidates: Sequence[Candidate | GenerativeCandidate], generative: Sequence[GenerativeCandidate]
 ) -> FloatArray:
-    """Tell how far the candidates read pushes from what the generative fit of the same data reads.
+    """Compare the wrenches of candidates for pushes with those of the generative fit of the same data.
 
     Args:
         candidates: The k candidates.

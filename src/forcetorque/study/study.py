@@ -226,7 +226,7 @@ def study_sensor(
     created: str,
     progress: Callable[[str], None] | None = None,
 ) -> SensorStudy:
-    """Fit and judge every candidate, and make calibrations of the best.
+    """Fit and evaluate every candidate, and make calibrations of the best.
 
     Args:
         data: Samples of the sensor.
@@ -244,7 +244,7 @@ def study_sensor(
 
     Raises:
         ExperimentError: If all types need variables that the sensor has not, or combinations cannot be made.
-        FitError: If there is nothing to judge on, or nothing can be fitted.
+        FitError: If there is nothing to evaluate on, or nothing can be fitted.
     """
     has_variables = bool(data.sensor.variables)
     chosen_kinds = [kind for kind in kinds if has_variables or not kind.with_variables]

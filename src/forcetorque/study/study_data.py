@@ -45,7 +45,7 @@ class StudyData:
     calibration: tuple[CampaignInterval, ...]
     """Intervals to fit, in the order of the files."""
     validation: tuple[CampaignInterval, ...]
-    """Intervals to judge on."""
+    """Intervals to validate on."""
     sphere: tuple[str, ...] | None
     """Labels of the intervals that draw the sphere of the sphere types, from the files."""
     experiments: tuple[str, ...]
@@ -82,7 +82,7 @@ def read_study_data(
 
     Raises:
         ExperimentError: If there is no file, a file lacks a sensor, a sensor is not the same in all files, or samples
-            that are fitted are judged too.
+            that are fitted are evaluated too.
     """
     if not paths:
         raise ExperimentError("expected at least one experiment file to study, got none")
@@ -161,7 +161,7 @@ class GenerativeFits:
     """What the generative model makes of the combinations."""
 
     candidates: tuple[GenerativeCandidate, ...]
-    """Fits to be judged."""
+    """Fits to be evaluated."""
     calibrations: Mapping[str, Calibration]
     """The same as artefacts, by combination."""
     left_out: tuple[str, ...]

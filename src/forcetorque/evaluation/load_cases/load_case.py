@@ -46,7 +46,7 @@ class LoadCase(ArrayRecord):
     allowed_moment_Nm: float | None = None
     """The same of the moment error."""
     is_stated: bool = True
-    """Whether a file states it; else it is the default."""
+    """Whether a file specifies it; else it is the default."""
 
     def __post_init__(self) -> None:
         check_arrays(self)
@@ -72,7 +72,7 @@ class LoadCase(ArrayRecord):
 
     @property
     def states_requirement(self) -> bool:
-        """Whether a file states the allowed error."""
+        """Whether a file specifies the allowed error."""
         return self.allowed_force_N is not None or self.allowed_moment_Nm is not None
 
     @property

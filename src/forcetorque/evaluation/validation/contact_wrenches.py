@@ -194,7 +194,7 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
     """Read a sensor by every candidate, and carry the contact wrench of the free sub-model to the sensor.
 
     Args:
-        free: The sub-model; the validation intervals are judged.
+        free: The sub-model; the validation intervals are used.
         calibrations: Calibrations of the sensor by name.
 
     Returns:

@@ -306,7 +306,7 @@ def torque_error_samples(free: FreeSubModel, calibrations: Mapping[str, Calibrat
     """Estimate the torques of the joints that depend on a sensor by every candidate, and compare with the model.
 
     Args:
-        free: The free sub-model of the sensor; the validation intervals are judged.
+        free: The free sub-model of the sensor; the validation intervals are used.
         calibrations: Calibrations of the sensor by name.
 
     Returns:

@@ -44,7 +44,7 @@ class JointTorqueErrors(TorqueErrors, EstimatedJointRow):
     logged_rmse_error: float | None
     """Standard error of that root; none for one sample."""
     logged_rmse_half_width_95: float | None
-    """Half-width of its 95 % interval; none where it cannot be told."""
+    """Half-width of its 95 % interval; none where the samples do not determine it."""
 
 
 class RecordingJointTorques(JointTorqueErrors):
@@ -84,16 +84,16 @@ def joint_torques(
     sub_model: str | None = None,
     contact: str | None = None,
 ) -> JointTorques:
-    """Judge candidates of a sensor by the joint torques that are estimated from it.
+    """Evaluate calibrations of a sensor by the joint torques that are estimated from it.
 
     The contacts are those of `estimate_experiment`: the support, and a full wrench at the sensor at the base of every
     other sub-model; `contact` moves that of the free one. The model's torques are those of the support as the only
     contact.
 
     Args:
-        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are judged.
-        calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
-            there is none.
+        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are used.
+        calibrations: Calibrations of that sensor by name; their priors are evaluated too, or that of the experiment
+            where there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
         other_sensors: Whether the other sensors read what the model expects or what they measured.
         sub_model: The free sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
@@ -112,7 +112,7 @@ def joint_torques(
 
 
 def joint_torques_of(campaign: Campaign, torques: TorqueErrorSamples) -> JointTorques:
-    """Judge candidates of a sensor by given errors of joint torques.
+    """Evaluate calibrations of a sensor by given errors of joint torques.
 
     Args:
         campaign: The sensor.
