@@ -73,7 +73,7 @@ def test_the_same_step_for_several_is_said_once() -> None:
     """With the names where it is not about all; uses and calibrations of which the same holds come together."""
     doubtful = {"decision": "not enough data", "reasons": (MOVE,)}
     steps = _steps(*(use_of(name, case, **doubtful) for name in ("a.json", "b.json") for case in ("push", "tool")))
-    assert sum("judge data that move" in step for step in steps) == 1
+    assert sum("evaluate it on data that move" in step for step in steps) == 1
     assert "The load hardly moved; evaluate it on data that move." in steps
     assert steps[0].startswith("Do not rely on a.json and b.json for “push” and “tool” yet.")
     only_one = _steps(use_of("a.json"), use_of("b.json", **doubtful))
@@ -84,7 +84,7 @@ def test_the_same_step_for_several_is_said_once() -> None:
 def test_a_use_that_nobody_stated_is_to_be_stated() -> None:
     """And one that somebody stated is not."""
     (_, step) = _steps(use_of(stated=False))
-    assert step.startswith("Check that this is your use. Nobody stated one")
+    assert step.startswith("Check that this is your use. The experiment file specifies none")
     assert "[[load_case]]" in step
     assert len(_steps(use_of(stated=True))) == 1
 

@@ -203,10 +203,10 @@ def test_samples_that_are_fitted_and_judged_are_refused(days: Path) -> None:
     overlapping = again.replace("start_s = 0.5", "start_s = 5.0")
     (days / "again.toml").write_text(overlapping, encoding="utf-8")
     first = edit(days / "move_cold.toml", "end_s = 7.5", "end_s = 5.1")
-    with pytest.raises(
-        ExperimentError,
-        match="'arm_ft': samples of the calibration interval 'move_cold' are judged in 'again' too; judge on data that",
-    ):
+    message = (
+        "'arm_ft': samples of the calibration interval 'move_cold' are validated in 'again' too; validate on data that"
+    )
+    with pytest.raises(ExperimentError, match=message):
         _read(days, (*CALIBRATION, "again.toml"))
     edit(first, "end_s = 5.1", "end_s = 5.0")  # the end itself is not in the interval
     data = _read(days, (*CALIBRATION, "again.toml"))

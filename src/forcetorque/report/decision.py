@@ -238,8 +238,8 @@ def _instead(verdict: UseVerdict) -> str:
         return " Nothing is known of another matrix that could take its place."
     if all(row.allowed is None or most <= row.allowed for row, most in pairs):
         return (
-            " The matrix that it came from (the prior) may be used there if the errors that it shows on judged "
-            "intervals bear it out: its predicted errors are small enough."
+            " The matrix that it came from (the prior) may be used there if the errors that it shows on "
+            "validation intervals confirm it: its predicted errors are small enough."
         )
     judged = [(row, most) for row, most in pairs if row.allowed is not None] or pairs
     worse = all(most >= row.after_at_most for row, most in judged)

@@ -151,7 +151,7 @@ def _refuse_judging_what_was_fitted(
             )
             if (fitted.part.raw[one] == judged.part.raw[other]).all(axis=1).any():
                 raise ExperimentError(
-                    f"sensor {sensor!r}: samples of the calibration interval {fitted.label!r} are judged in "
+                    f"sensor {sensor!r}: samples of the calibration interval {fitted.label!r} are validated in "
                     f"{judged.label!r} too; validate on data that is not fitted"
                 )
 

@@ -323,11 +323,11 @@ def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
 @pytest.mark.parametrize(
     ("table", "key", "reason"),
     [
-        ("evaluate", "rmse", "judges a calibration, none was given of 'arm_ft'"),
-        ("improvement", "force_error_ratio", "judges a calibration"),
-        ("uncertainty", "offset", "judges a calibration"),
-        ("excitation", "directions", "judges a calibration"),
-        ("learnt", "fz", "judges a calibration"),
+        ("evaluate", "rmse", "evaluates a calibration, none was given of 'arm_ft'"),
+        ("improvement", "force_error_ratio", "evaluates a calibration"),
+        ("uncertainty", "offset", "evaluates a calibration"),
+        ("excitation", "directions", "evaluates a calibration"),
+        ("learnt", "fz", "evaluates a calibration"),
         ("population", "robust_z", "no matrices of other sensors were given; name them by --population"),
         ("recording", "lost_share", "stream 'arm_ft' has no sequence numbers"),
         ("offset", "per_degree", "expected a variable of the sensor in degC"),

@@ -73,7 +73,7 @@ def test_a_tool_on_an_arm_without_mass_beyond_its_sensor_says_what_the_sensor_is
 ) -> None:
     """Pushes as strong as the tool is heavy: the URDF has nothing there, and without a use there is no verdict."""
     (case,) = operating_load_cases([_run(arm[0] / "weight.toml")])
-    assert case.words.startswith("pushes of 21.6 N, as much as hangs on the sensor")
+    assert case.words.startswith("pushes of 21.6 N, the weight of the distal links")
 
 
 def test_a_weighed_tool_weighs_the_other(weighed: WeighedLoad) -> None:

@@ -130,7 +130,7 @@ def test_without_a_load_case_the_default_is_stated(arm: Path) -> None:
     run = _run(arm, "")
     (case,) = operating_load_cases([run])
     assert not case.is_stated
-    assert "as much as hangs on the sensor" in case.words
+    assert "the weight of the distal links" in case.words
     verdict = _verdict(run, _fit(run))
     assert case.words in verdict.sentence
     assert not verdict.stated
