@@ -219,7 +219,7 @@ def test_stamps_that_coincide_are_no_overlap(days: Path) -> None:
     shutil.rmtree(days / "day_1")
     shutil.copytree(days / "move_cold", days / "day_1")
     edit(days / "day_1.toml", "end_s = 8.5", "end_s = 7.5")
-    with pytest.raises(ExperimentError, match="'move_cold' are judged in 'day_1' too"):
+    with pytest.raises(ExperimentError, match="'move_cold' are validated in 'day_1' too"):
         _read(days, ("move_cold.toml", "day_1.toml"))
     stream = recording.stream(SENSOR)
     raw = stream.signal("raw")
