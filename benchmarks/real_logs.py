@@ -30,7 +30,7 @@ import numpy as np
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
-from forcetorque.evaluation.evaluation import validation_errors
+from forcetorque.evaluation.evaluation import evaluate
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
@@ -91,7 +91,7 @@ def yoga(data: Path, folder: Path) -> dict[str, Any]:
         experiment = _load(path.read_text(encoding="utf-8"), data, folder / path.name)
         run = SensorRun(experiment, experiment.sensors[0].name)
         calibration, seconds = _timed(partial(calibrate_sensor, run, code_version=VERSION, created=CREATED))
-        rows = validation_errors(run, {"new": calibration}).verdicts
+        rows = evaluate(run, {"new": calibration}, load_cases=False).verdicts
         split: dict[str, Any] = {"example": path.stem, "seconds": seconds, "samples": rows[0].samples}
         for candidate in ("prior", "new"):
             of = {row.offset: row for row in rows if row.candidate == candidate}
@@ -209,7 +209,7 @@ def _in_air(air: Experiment, calibrations: Mapping[str, Calibration]) -> dict[st
     errors: dict[str, Any] = {}
     for sensor in AIR_SENSORS:
         if sensor in calibrations:
-            rows = validation_errors(SensorRun(air, sensor), {"new": calibrations[sensor]}).verdicts
+            rows = evaluate(SensorRun(air, sensor), {"new": calibrations[sensor]}, load_cases=False).verdicts
             errors[sensor] = {
                 row.candidate: (row.force_error_mean_N, row.moment_error_mean_Nm)
                 for row in rows

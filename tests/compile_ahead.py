@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from forcetorque.evaluation.candidate_errors import candidate_errors
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.motion import RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import ARM_URDF
+from forcetorque.study.candidate_errors import candidate_errors
 from tests.scenes.robots import random_motion
 
 if __name__ == "__main__":

@@ -19,8 +19,8 @@ import numpy as np
 from benchmarks.calibration.measured import Measured
 from benchmarks.harness import interleaved, median_ratio
 from forcetorque.base.arrays import FloatArray
-from forcetorque.evaluation.candidate_errors import candidate_errors
 from forcetorque.robot.mechanics.estimate import Evaluator
+from forcetorque.study.candidate_errors import candidate_errors
 
 CANDIDATES = 351
 """Three data sets, nine types of estimation, thirteen lambdas."""

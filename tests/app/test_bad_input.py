@@ -214,7 +214,7 @@ def test_bad_input_is_one_line_and_no_file(arm: Path, run: Run, name: str, outpu
 
 @pytest.mark.parametrize("name", ["no URDF", "last line that is cut", "joint that was not logged", "no port"])
 def test_evaluate_refuses_the_same(arm: Path, run: Run, name: str) -> None:
-    """Input that cannot be fitted cannot be judged either, and is named alike."""
+    """Input that cannot be fitted cannot be evaluated either, and is named alike."""
     form, damage, message = BAD[name]
     assert run("evaluate", form, "-c", "fitted.json").code == 0
     damage()

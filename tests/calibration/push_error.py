@@ -15,7 +15,6 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.toml_file import read_toml
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.thesis.calibrate import CalibrationFit, calibrate
-from forcetorque.evaluation.candidate_errors import push_error, pushes
 from forcetorque.experiment.calibration.assumptions import REPEATABILITY, Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
@@ -33,6 +32,7 @@ from forcetorque.simulation.scenario.scenario import (
 )
 from forcetorque.simulation.sensor_family import Specimen
 from forcetorque.simulation.trace import Trace
+from forcetorque.study.candidate_errors import push_error, pushes
 
 TEMPERATURE = LinearVariable(name="temperature", unit="degC")
 LIMIT_COUNTS = 32767.0

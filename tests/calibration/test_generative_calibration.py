@@ -14,7 +14,6 @@ import pytest
 from forcetorque.base.errors import ExperimentError, FitError, FormatError, MissingFileError
 from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor, fit_doubts
 from forcetorque.calibration.moments import recording_moments
-from forcetorque.evaluation.candidate_errors import push_error
 from forcetorque.evaluation.evaluation import evaluate
 from forcetorque.experiment.calibration.artefact import GENERATIVE, Calibration, read_calibration, write_calibration
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments, read_moments
@@ -22,6 +21,7 @@ from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
+from forcetorque.study.candidate_errors import push_error
 from tests.scenes.experiments import MOUNTED, PARQUET, RATE_HZ, edit
 from tests.scenes.studies import CALIBRATION, SENSOR, VALIDATION
 

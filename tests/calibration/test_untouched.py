@@ -12,9 +12,9 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.contact_windows import Disagreeing, agreeing_samples
 from forcetorque.calibration.generative.fit import fit_generative
-from forcetorque.evaluation.candidate_errors import push_error
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
+from forcetorque.study.candidate_errors import push_error
 from tests.calibration.push_error import LIMIT_COUNTS, TEMPERATURE, cases
 from tests.calibration.synthetic import GRAVITY, MOUNTED, OFFSET, PRIOR, assumptions
 

@@ -65,7 +65,7 @@ def test_bad_input_is_one_line(run: Run, folder: Path, monkeypatch: pytest.Monke
     (folder / "favours.toml").write_text(text, encoding="utf-8")
     asked = run("contest", "favours.toml")
     assert asked.code == 2
-    assert "favours.toml: judge_10kg_0.toml: expected loads to judge that nobody was fitted on" in asked.err
+    assert "favours.toml: judge_10kg_0.toml: expected validation loads that no contestant was fitted on" in asked.err
     assert "'ours 1, in situ' was" in asked.err
     assert run("contest", "none.toml").code == 2
 

@@ -89,7 +89,7 @@ def test_a_sensor_that_is_turned_and_judged_at_rest_is_said_to_be_judged_by_noth
     row = evaluation.verdicts[-1]
     assert [use.decision for use in evaluation.uses] != ["use"]
     assert words == (
-        f"arm_ft: the loads hardly moved in the judged samples ({row.excitation_N:.2g} N of {row.load_N:.2g} N, "
+        f"arm_ft: the loads hardly moved in the validation samples ({row.excitation_N:.2g} N of {row.load_N:.2g} N, "
         f"{row.excitation_Nm:.2g} N m of {row.load_Nm:.2g} N m): a wrong matrix would show nothing"
     )
     assert sum("hardly moved" in line.text for line in assess(still, {NAME: _turned(still)}).verdict) == 1

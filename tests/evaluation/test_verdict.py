@@ -89,7 +89,7 @@ def test_a_calibration_in_doubt_is_never_good() -> None:
     for gain, tone in ((BETTER, "caution"), (WORSE, "bad")):
         first, second = verdict(_report([_comparison(q, gain) for q in ("force", "moment")], **doubted))
         assert (first.tone, second.tone) == (tone, "caution")
-        assert second.text.endswith("was in doubt before it was fitted: the gain changed by +69%")
+        assert second.text.endswith("has a warning from before it was fitted: the gain changed by +69%")
     passed = (SimpleNamespace(candidate="new.json", passed=True, criterion="force"),)
     for calibrations, tone in ((doubted, "caution"), ({}, "good")):
         assert verdict(_report([], criteria=passed, **calibrations))[0].tone == tone
@@ -134,7 +134,7 @@ def test_an_own_offset_is_called_one_draw() -> None:
 def test_what_was_not_judged_comes_last() -> None:
     """With its reason."""
     *_, last = verdict(_report([_comparison("force", BETTER)], not_judged={"spheres": "no grid"}))
-    assert (last.tone, last.text) == ("unknown", "not judged: spheres: no grid")
+    assert (last.tone, last.text) == ("unknown", "not evaluated: spheres: no grid")
 
 
 def test_what_was_left_out_is_said() -> None:

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
+from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import predict, predict_prior
 from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.experiment.loading import load_experiment

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
-from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
+from forcetorque.evaluation.load_cases.load_case import operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import predict
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment

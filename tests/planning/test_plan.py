@@ -166,7 +166,7 @@ def test_a_full_scale_alone_is_enough_to_begin_with(arm: Path) -> None:
 
 def test_a_calibration_is_where_the_plan_begins(arm: Path) -> None:
     """Its predicted error stands before the first recording; nothing is assumed of the noise."""
-    from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
+    from forcetorque.evaluation.load_cases.load_case import operating_load_cases
     from forcetorque.evaluation.load_cases.predicted_error import predict
 
     run = _run(arm)

@@ -13,8 +13,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.toml_file import read_toml
 from forcetorque.calibration.generative.fit import GenerativeFit
-from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
+from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import PredictedError, predict_from_posterior
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.sensor_run import SensorRun

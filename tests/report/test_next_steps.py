@@ -10,12 +10,12 @@ import numpy as np
 
 from forcetorque.evaluation.load_cases.verdict import Reason, UseVerdict
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.report.decision import Undecided, gathered, next_steps, said_once
+from forcetorque.report.decision import Undecided, grouped_by_text, next_steps, texts_with_names
 from tests.report.drawing import use_of
 from tests.scenes.calibrations import make_calibration
 
 KEY = ("leg_ft", "SN1")
-MOVE = Reason(against="data", text="the load hardly moved; judge data that move")
+MOVE = Reason(against="data", text="the load hardly moved; evaluate it on data that move")
 
 
 def _steps(*uses: UseVerdict, undecided: tuple[Undecided, ...] = (), stands: bool = True) -> tuple[str, ...]:
@@ -59,13 +59,13 @@ def test_no_plan_where_none_can_be_had() -> None:
 def test_a_prior_of_small_predicted_errors_is_to_be_judged_first() -> None:
     """A prediction alone does not make it fit for use."""
     (today, *_) = _steps(use_of(force=40.0, before=2.0))
-    assert "if the errors that it shows on judged intervals bear it out" in today
+    assert "if the errors that it shows on validation intervals confirm it" in today
 
 
 def test_no_plan_where_the_prediction_is_not_what_speaks_against_it() -> None:
     """Data that did not move need other data to be judged on, not a smaller predicted error."""
     steps = _steps(use_of(decision="not enough data", reasons=(MOVE,)))
-    assert "The load hardly moved; judge data that move." in steps
+    assert "The load hardly moved; evaluate it on data that move." in steps
     assert not any("forcetorque plan" in step or "prior" in step for step in steps)
 
 
@@ -73,8 +73,8 @@ def test_the_same_step_for_several_is_said_once() -> None:
     """With the names where it is not about all; uses and calibrations of which the same holds come together."""
     doubtful = {"decision": "not enough data", "reasons": (MOVE,)}
     steps = _steps(*(use_of(name, case, **doubtful) for name in ("a.json", "b.json") for case in ("push", "tool")))
-    assert sum("judge data that move" in step for step in steps) == 1
-    assert "The load hardly moved; judge data that move." in steps
+    assert sum("evaluate it on data that move" in step for step in steps) == 1
+    assert "The load hardly moved; evaluate it on data that move." in steps
     assert steps[0].startswith("Do not rely on a.json and b.json for “push” and “tool” yet.")
     only_one = _steps(use_of("a.json"), use_of("b.json", **doubtful))
     assert only_one[0].startswith("Put a.json on the robot")
@@ -84,7 +84,7 @@ def test_the_same_step_for_several_is_said_once() -> None:
 def test_a_use_that_nobody_stated_is_to_be_stated() -> None:
     """And one that somebody stated is not."""
     (_, step) = _steps(use_of(stated=False))
-    assert step.startswith("Check that this is your use. Nobody stated one")
+    assert step.startswith("Check that this is your use. The experiment file specifies none")
     assert "[[load_case]]" in step
     assert len(_steps(use_of(stated=True))) == 1
 
@@ -102,8 +102,8 @@ def test_where_there_is_no_verdict_the_reason_is_what_to_mend() -> None:
 
 def test_sentences_of_several_come_once_in_their_order() -> None:
     """Behind the names of some, by themselves for all."""
-    assert said_once([("a", "x"), ("b", "y"), ("b", "x"), ("a", "x")], "ab") == ["x", "b: y"]
-    assert said_once([("a", "x")], "a") == ["x"]
-    assert said_once([("a", "x")], "ab") == ["a: x"], "the other is good"
-    assert gathered([("a", 1), ("b", 1), ("a", 2)]) == [(("a", "b"), 1), (("a",), 2)]
-    assert np.size(gathered([])) == 0
+    assert texts_with_names([("a", "x"), ("b", "y"), ("b", "x"), ("a", "x")], "ab") == ["x", "b: y"]
+    assert texts_with_names([("a", "x")], "a") == ["x"]
+    assert texts_with_names([("a", "x")], "ab") == ["a: x"], "the other is good"
+    assert grouped_by_text([("a", 1), ("b", 1), ("a", 2)]) == [(("a", "b"), 1), (("a",), 2)]
+    assert np.size(grouped_by_text([])) == 0

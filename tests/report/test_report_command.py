@@ -170,7 +170,7 @@ def test_the_document_holds_the_tables_and_pictures(result: Any) -> None:
         "Force and moment space",
         "Contact force where nothing touches",
         "Joint torques",
-        "What the recordings taught",
+        "Information gained from the recordings",
         "Uncertainty",
         "What the sensor can do",
         "Acceptance",
@@ -223,7 +223,7 @@ def test_what_cannot_be_judged_is_said_and_the_rest_is_shown(arm: Path, run: Run
     assert sensor["spheres"]
     assert sensor["static"]
     unknown = [line["text"] for line in sensor["verdict"] if line["tone"] == "unknown"]
-    assert any(text.startswith("not judged: errors of fitted.json: ") for text in unknown)
+    assert any(text.startswith("not evaluated: errors of fitted.json: ") for text in unknown)
     assert "Errors on data that was not fitted" not in _words("report.html")
     assert "Uncertainty" in _words("report.html")
 

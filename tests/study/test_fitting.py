@@ -163,7 +163,7 @@ def test_without_a_prior_there_is_only_lambda_zero() -> None:
     with_workbench = study()
     assert len(with_workbench.models) == 352
     assert with_workbench.name(351) == "workbench"
-    assert all(len(j.over().force_mean) == 27 for j in found.judgements.values())
+    assert all(len(j.pooled().force_mean) == 27 for j in found.errors.values())
     assert {s.workbench_force_mean for c in found.choices.values() for s in c.across_sessions} == {None}
 
 
@@ -203,7 +203,7 @@ def test_what_is_not_determined_is_never_chosen() -> None:
     )
     assert [c.determined for c in found.fits.candidates] == [False, True]
     for source, choice in found.choices.items():
-        pooled_errors = found.judgements[source].over()
+        pooled_errors = found.errors[source].pooled()
         assert pooled_errors.force_mean[0] < pooled_errors.force_mean[1]
         assert (pooled_errors.mean_absolute[0] < pooled_errors.mean_absolute[1]).any()
         assert choice.by_magnitude == 1

@@ -29,7 +29,7 @@ from forcetorque.simulation.scenario.scenario import (
     trace_recordings,
 )
 from forcetorque.study.one_sensor import Study, run_study
-from forcetorque.study.selection import judge
+from forcetorque.study.selection import evaluate_models
 
 LEG = "l_leg_ft"
 SEEDS = [range(1, 6), pytest.param(range(6, 26), marks=pytest.mark.long)]
@@ -178,7 +178,7 @@ def test_a_choice_on_one_day_leaves_a_third_of_the_force_on_the_other(seeds: ran
         study = _study(sensor)
         assert len(study.fits.candidates) == 351
         shares += _shares(study, Offset.FIRST_SECOND)
-        workbench.append(study.judgements[Offset.FIRST_SECOND].over().force_mean[-1])
+        workbench.append(study.errors[Offset.FIRST_SECOND].pooled().force_mean[-1])
     assert len(workbench) == len(seeds)
     # the error is set to 14 to 20 N on the true loads; other effects, and what boards hold, move it
     assert WORKBENCH_N[0] < min(workbench) < max(workbench) < WORKBENCH_N[1]
@@ -194,9 +194,9 @@ def test_linear_effects_are_taken_out_to_the_noise(seeds: range) -> None:
     distinct = [kind for kind in ESTIMATION_TYPES if not kind.startswith("C")]  # the C types equal the O types
     for sensor in sensors(seeds, **LINEAR_ONLY):
         study = _study(sensor, distinct)
-        floor = judge([sensor.truth], [Offset.FIRST_SECOND], sensor.validation)
+        floor = evaluate_models([sensor.truth], [Offset.FIRST_SECOND], sensor.validation)
         for score in study.choices[Offset.FIRST_SECOND].across_sessions:
-            ratios.append(score.force_mean / floor.over([score.session]).force_mean[0])
+            ratios.append(score.force_mean / floor.pooled([score.session]).force_mean[0])
         fit = calibrate(sensor.calibration, None, regularisation=0.0, variables=[TEMPERATURE])
         assert fit.standard_errors is not None
         errors.append((fit.fit.matrix - sensor.truth.matrix) / fit.standard_errors.matrix)
@@ -212,5 +212,5 @@ def test_the_true_error_of_a_workbench_matrix_is_no_noise() -> None:
     """Negative control of the floor: the workbench matrix is far above it, with linear effects only."""
     sensor = next(sensors(range(1, 2), **LINEAR_ONLY))
     prior = WrenchModel(matrix=sensor.prior, offset=np.zeros(6))
-    judged = judge([sensor.truth, prior], [Offset.FIRST_SECOND] * 2, sensor.validation).over().force_mean
+    judged = evaluate_models([sensor.truth, prior], [Offset.FIRST_SECOND] * 2, sensor.validation).pooled().force_mean
     assert judged[1] > 30.0 * judged[0]

@@ -12,10 +12,10 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, ShapeError
-from forcetorque.evaluation.candidate_errors import PooledErrors
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, OFFSET_S, Offset, ValidationSet
-from forcetorque.study.selection import Judgement, judge, with_offset
+from forcetorque.study.candidate_errors import BlockErrors, PooledErrors
+from forcetorque.study.selection import evaluate_models, with_offset
 from tests.study import measured
 from tests.study.measured import JUDGED, NOISE, TRUTH, errors_by_samples, judged, study
 
@@ -42,21 +42,21 @@ def _difference(one: PooledErrors, other: PooledErrors) -> float:
     return max(float(np.abs(getattr(one, field) - getattr(other, field)).max()) for field in fields)
 
 
-def _judge(models: Sequence[WrenchModel], sets: Sequence[ValidationSet], source: Offset) -> Judgement:
-    return judge(models, [source] * len(models), sets)
+def _judge(models: Sequence[WrenchModel], sets: Sequence[ValidationSet], source: Offset) -> BlockErrors:
+    return evaluate_models(models, [source] * len(models), sets)
 
 
 @BOTH
 def test_the_errors_are_those_of_the_samples_after_the_first_second(source: Offset) -> None:
     """All 351 candidates, over everything, over one day and over one set; other samples give other numbers."""
-    judgement, models = study().judgements[source], study().models[:-1]
+    judgement, models = study().errors[source], study().models[:-1]
     part = slice(None, None, 7)
     assert len(models[part]) == 51
-    assert judgement.errors.count.sum() == sum(len(one.time_s) - 100 for one in JUDGED)
+    assert judgement.count.sum() == sum(len(one.time_s) - 100 for one in JUDGED)
     parts = {
-        "all": (judgement.over(), JUDGED),
-        "day 1": (judgement.over(["day 1"]), JUDGED[:2]),
-        "days": (judgement.over(["day 2", "day 1"]), JUDGED),
+        "all": (judgement.pooled(), JUDGED),
+        "day 1": (judgement.pooled(["day 1"]), JUDGED[:2]),
+        "days": (judgement.pooled(["day 2", "day 1"]), JUDGED),
     }
     for name, (pooled, sets) in parts.items():
         found = PooledErrors(
@@ -65,17 +65,17 @@ def test_the_errors_are_those_of_the_samples_after_the_first_second(source: Offs
             moment_mean=pooled.moment_mean[:-1][part],
         )
         assert _difference(found, _by_samples(models[part], sets, source)) < EXACT, name
-    assert _difference(judgement.over(["day 1"]), judgement.over()) > 1e-3
+    assert _difference(judgement.pooled(["day 1"]), judgement.pooled()) > 1e-3
 
 
 def test_a_study_of_much_work_is_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
     """However little there is in each set: all candidates meet all samples in both modes."""
-    module = sys.modules["forcetorque.evaluation.candidate_errors"]
+    module = sys.modules["forcetorque.study.candidate_errors"]
     work = 2 * len(study().models) * sum(len(one.time_s) for one in JUDGED)
     monkeypatch.setattr(module, "_FEW", work)
     monkeypatch.setattr(module, "_run_readable", None)
     compiled = measured.study.__wrapped__()
-    assert _difference(compiled.judgements[RE_ESTIMATED].over(), study().judgements[RE_ESTIMATED].over()) < EXACT
+    assert _difference(compiled.errors[RE_ESTIMATED].pooled(), study().errors[RE_ESTIMATED].pooled()) < EXACT
     monkeypatch.setattr(module, "_FEW", work + 1)  # negative control
     with pytest.raises(TypeError):
         measured.study.__wrapped__()
@@ -87,17 +87,17 @@ def test_the_first_second_itself_is_not_judged(source: Offset) -> None:
     blow = JUDGED[0].reference.copy()
     blow[3] += [500.0, 0, 0, 0, 0, 0]
     plain, struck = (_judge([TRUTH], [one], source) for one in (JUDGED[0], replace(JUDGED[0], reference=blow)))
-    change = _difference(plain.over(), struck.over())
+    change = _difference(plain.pooled(), struck.pooled())
     assert change == 0.0 if source is FITTED_OFFSET else change > 1.0
     later = JUDGED[0].reference.copy()
     later[103] += [500.0, 0, 0, 0, 0, 0]
-    assert _difference(plain.over(), _judge([TRUTH], [replace(JUDGED[0], reference=later)], source).over()) > 0.5
+    assert _difference(plain.pooled(), _judge([TRUTH], [replace(JUDGED[0], reference=later)], source).pooled()) > 0.5
 
 
 @BOTH
 def test_centralised_equals_one_shot_and_its_reference_temperature_does_not_matter(source: Offset) -> None:
     """Theorem 5.1 as Tables 5.5 and 5.6 show it: four types with temperature judge alike, two without; S does not."""
-    pooled = study().judgements[source].over()
+    pooled = study().errors[source].pooled()
     by_type: dict[str, list[int]] = {}
     for index, candidate in enumerate(study().fits.candidates):
         by_type.setdefault(candidate.kind.name, []).append(index)
@@ -119,7 +119,7 @@ def test_centralised_equals_one_shot_and_its_reference_temperature_does_not_matt
 
 def test_the_workbench_is_judged_alike_in_both_modes() -> None:
     """It has no offset of a fit; its errors are those of its matrix with the offset of the first second."""
-    both = [study().judgements[source].over() for source in KNOWN_BEFORE]
+    both = [study().errors[source].pooled() for source in KNOWN_BEFORE]
     assert np.array_equal(both[0].mean_absolute[-1], both[1].mean_absolute[-1])
     assert both[0].force_mean[-1] == both[1].force_mean[-1]
     assert both[0].moment_mean[-1] == both[1].moment_mean[-1]
@@ -135,7 +135,7 @@ def test_the_true_model_leaves_noise_only() -> None:
     """
     long = judged("long", "day", 27.0, 40.0, seed=30, n=20_000)
     for source in KNOWN_BEFORE:
-        pooled = _judge([TRUTH], [long], source).over()
+        pooled = _judge([TRUTH], [long], source).pooled()
         # the offset of 100 samples is off by a tenth of the noise, or three, whose square half counts
         slack = 0.05 if source is RE_ESTIMATED else 0.02
         assert pooled.force_mean[0] == pytest.approx(2.0 * np.sqrt(2.0 / np.pi) * NOISE[0], rel=slack)
@@ -143,9 +143,9 @@ def test_the_true_model_leaves_noise_only() -> None:
         np.testing.assert_allclose(pooled.mean_absolute[0], np.sqrt(2.0 / np.pi) * NOISE, rtol=slack)
     exact = judged("exact", "day", 27.0, 40.0, seed=30, noise=0.0)
     for source in KNOWN_BEFORE:
-        assert _judge([TRUTH], [exact], source).over().force_mean[0] < EXACT
+        assert _judge([TRUTH], [exact], source).pooled().force_mean[0] < EXACT
         without = replace(TRUTH, coefficients=np.zeros((6, 1)))
-        assert _judge([without], [exact], source).over().force_mean[0] > 1.0
+        assert _judge([without], [exact], source).pooled().force_mean[0] > 1.0
 
 
 def _shifted(one: ValidationSet, counts: FloatArray) -> ValidationSet:
@@ -159,7 +159,7 @@ def test_an_offset_of_the_counts_matters_to_the_fitted_offset_alone() -> None:
     models = study().models[:351:50]
     assert len(models) == 8
     for source in KNOWN_BEFORE:
-        plain, shifted = ([_judge(models, [one], source).over() for one in judged] for judged in (JUDGED, sets))
+        plain, shifted = ([_judge(models, [one], source).pooled() for one in judged] for judged in (JUDGED, sets))
         elsewhere, there, after = (_difference(*pair) for pair in zip(plain, shifted, strict=True))
         assert (elsewhere, after) == (0.0, 0.0)
         assert there < EXACT if source is RE_ESTIMATED else there > 0.1
@@ -167,18 +167,18 @@ def test_an_offset_of_the_counts_matters_to_the_fitted_offset_alone() -> None:
     bent = replace(JUDGED[1], raw=1.05 * JUDGED[1].raw)
     for source in KNOWN_BEFORE:
         changed = _judge(models, [bent], source)
-        assert _difference(_judge(models, [JUDGED[1]], source).over(), changed.over()) > 0.1
+        assert _difference(_judge(models, [JUDGED[1]], source).pooled(), changed.pooled()) > 0.1
 
 
 def test_a_mixture_of_offsets_keeps_every_model_its_own() -> None:
     """Sources are given model by model, as for the workbench beside the candidates."""
     models = study().models[:2]
-    mixed = judge(models, [RE_ESTIMATED, FITTED_OFFSET], JUDGED).over()
+    mixed = evaluate_models(models, [RE_ESTIMATED, FITTED_OFFSET], JUDGED).pooled()
     for index, source in enumerate((RE_ESTIMATED, FITTED_OFFSET)):
-        alone = _judge([models[index]], JUDGED, source).over()
+        alone = _judge([models[index]], JUDGED, source).pooled()
         assert abs(alone.force_mean[0] - mixed.force_mean[index]) < EXACT
     with pytest.raises(ValueError, match="zip"):
-        judge(models, [RE_ESTIMATED], JUDGED)
+        evaluate_models(models, [RE_ESTIMATED], JUDGED)
 
 
 @BOTH
@@ -200,13 +200,13 @@ def test_a_sensor_without_variables_is_judged_too() -> None:
     bare = [replace(one, variables=np.empty((len(one.time_s), 0))) for one in JUDGED]
     model = WrenchModel(matrix=TRUTH.matrix, offset=TRUTH.offset)
     for source in KNOWN_BEFORE:
-        assert _difference(_judge([model], bare, source).over(), _by_samples([model], bare, source)) < EXACT
+        assert _difference(_judge([model], bare, source).pooled(), _by_samples([model], bare, source)) < EXACT
 
 
 def test_progress_names_every_set_once() -> None:
     """People see which interval is judged."""
     said: list[str] = []
-    judge([TRUTH], [RE_ESTIMATED], JUDGED, progress=said.append)
+    evaluate_models([TRUTH], [RE_ESTIMATED], JUDGED, progress=said.append)
     assert said == ["one", "two", "three"]
 
 
@@ -220,8 +220,8 @@ def test_an_interval_that_is_too_short_is_refused() -> None:
     assert OFFSET_S == 1.0
     for short, counts in ((_of_length(109), "100 and 9"), (_of_length(40, rate_hz=9.0), "9 and 31")):
         with pytest.raises(FitError, match=f"validation interval 'short': expected at least 10 .*, got {counts}"):
-            judge([TRUTH], [RE_ESTIMATED], [JUDGED[0], short])
-    assert _judge([TRUTH], [_of_length(110)], RE_ESTIMATED).errors.count.sum() == 10
+            evaluate_models([TRUTH], [RE_ESTIMATED], [JUDGED[0], short])
+    assert _judge([TRUTH], [_of_length(110)], RE_ESTIMATED).count.sum() == 10
     assert _of_length(40, rate_hz=10.0).for_offset().sum() == 10
 
 

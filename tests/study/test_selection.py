@@ -10,15 +10,14 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
+from forcetorque.study.candidate_errors import BlockErrors, PooledErrors
 from forcetorque.study.selection import (
-    Judgement,
     assembled,
     best_by_axis,
     best_by_magnitude,
-    judge,
+    evaluate_models,
     scored_across_sessions,
 )
 from tests.study.measured import JUDGED, PRIOR, TRUTH, study
@@ -73,7 +72,7 @@ def test_rounding_does_not_choose() -> None:
 @BOTH
 def test_the_choice_of_a_study_is_the_smallest_of_all_351(source: Offset) -> None:
     """Its errors are no larger than those of any candidate, and the workbench is never among them."""
-    choice, pooled = study().choices[source], study().judgements[source].over()
+    choice, pooled = study().choices[source], study().errors[source].pooled()
     assert pooled.force_mean.shape == (352,)
     assert 0 <= choice.by_magnitude < 351
     assert (pooled.force_mean[:351] > LESS * pooled.force_mean[choice.by_magnitude]).all()
@@ -138,7 +137,7 @@ def test_scores_are_of_a_choice_made_without_the_scored_session(source: Offset) 
     days = {"day 1": JUDGED[:2], "day 2": JUDGED[2:]}
     assert [score.session for score in scores] == ["day 1", "day 2"]
     for score, other in zip(scores, ("day 2", "day 1"), strict=True):
-        chosen_on, scored_on = (judge(models, sources, days[day]).over() for day in (other, score.session))
+        chosen_on, scored_on = (evaluate_models(models, sources, days[day]).pooled() for day in (other, score.session))
         assert (chosen_on.force_mean[:351] > LESS * chosen_on.force_mean[score.chosen]).all()
         for axis, index in enumerate(score.by_axis):
             assert (chosen_on.mean_absolute[:351, axis] > LESS * chosen_on.mean_absolute[index, axis]).all()
@@ -153,20 +152,20 @@ def test_scores_are_of_a_choice_made_without_the_scored_session(source: Offset) 
 SESSIONS = ("a", "b", "a", "c", "b", "c", "c")
 
 
-def _judgement(k: int, *, seed: int) -> Judgement:
+def _judgement(k: int, *, seed: int) -> BlockErrors:
     """Errors of k models in seven blocks of three sessions, one block after the other."""
     rng = np.random.default_rng(seed)
     b = len(SESSIONS)
-    errors = CandidateErrors(
+    return BlockErrors(
         count=rng.integers(5, 50, size=b),
         mean_absolute=rng.uniform(1, 2, size=(k, b, 6)),
         force_mean=rng.uniform(1, 2, size=(k, b)),
         moment_mean=rng.uniform(1, 2, size=(k, b)),
+        sessions=SESSIONS,
     )
-    return Judgement(errors=errors, sessions=SESSIONS)
 
 
-def _poisoned(judgement: Judgement, candidate: int, session: str, factor: float) -> Judgement:
+def _poisoned(judgement: BlockErrors, candidate: int, session: str, factor: float) -> BlockErrors:
     """Change all errors of one candidate in one session."""
     there = np.array([of == session for of in judgement.sessions])
 
@@ -175,15 +174,11 @@ def _poisoned(judgement: Judgement, candidate: int, session: str, factor: float)
         copy[candidate, there] *= factor
         return copy
 
-    errors = judgement.errors
     return replace(
         judgement,
-        errors=replace(
-            errors,
-            mean_absolute=changed(errors.mean_absolute),
-            force_mean=changed(errors.force_mean),
-            moment_mean=changed(errors.moment_mean),
-        ),
+        mean_absolute=changed(judgement.mean_absolute),
+        force_mean=changed(judgement.force_mean),
+        moment_mean=changed(judgement.moment_mean),
     )
 
 
@@ -220,7 +215,10 @@ def test_poisoned_samples_of_a_session_do_not_reach_its_choice() -> None:
     source = Offset.FIRST_SECOND
     determined = np.ones(351, dtype=bool)
     plain, poisoned = (
-        {score.session: score for score in scored_across_sessions(judge(models, [source] * 351, sets), determined)}
+        {
+            score.session: score
+            for score in scored_across_sessions(evaluate_models(models, [source] * 351, sets), determined)
+        }
         for sets in (JUDGED, [*JUDGED[:2], spoilt])
     )
     assert poisoned["day 2"].chosen == plain["day 2"].chosen

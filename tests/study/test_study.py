@@ -129,7 +129,7 @@ def test_the_study_finds_the_mounted_sensor(made: SensorStudy) -> None:
         np.linalg.norm(matrix - truth.sensor.matrix, axis=1) for matrix in (best.matrix, truth.workbench)
     )
     assert (off[:3] < 0.1 * workbench_off[:3]).all()
-    errors = made.study.judgements[Offset.FIRST_SECOND].over().force_mean
+    errors = made.study.errors[Offset.FIRST_SECOND].pooled().force_mean
     assert errors[made.study.choices[Offset.FIRST_SECOND].by_magnitude] < 0.05 * errors[-1]
 
 
@@ -199,7 +199,7 @@ def test_the_best_says_what_it_was_made_from_and_chosen_on(data: StudyData, made
     calibration = made.calibrations[NAMES[source, "best"]]
     best = made.study.choices[source].by_magnitude
     candidate = made.study.fits.candidates[best]
-    value = made.study.judgements[source].over().force_mean[best]
+    value = made.study.errors[source].pooled().force_mean[best]
     assert calibration.selection.rule == (
         f"smallest mean contact force, offset {source}: {value:.4g} N by {candidate.name}"
     )
@@ -296,7 +296,7 @@ def test_what_a_study_comes_to_shows_itself(made: SensorStudy) -> None:
     assert "candidate_rows" not in studies.json_text()
     assert [mode.offset for mode in row.modes] == ["first-second", "fitted"]
     chosen = made.study.choices[Offset.FIRST_SECOND].by_magnitude
-    assert row.modes[0].best.force_mean_N == made.study.judgements[Offset.FIRST_SECOND].over().force_mean[chosen]
+    assert row.modes[0].best.force_mean_N == made.study.errors[Offset.FIRST_SECOND].pooled().force_mean[chosen]
 
 
 def test_a_session_that_is_fitted_and_judged_is_a_warning(data: StudyData, made: SensorStudy) -> None:
@@ -305,7 +305,7 @@ def test_a_session_that_is_fitted_and_judged_is_a_warning(data: StudyData, made:
     session = data.validation[0].session
     both = replace(data, calibration=tuple(replace(interval, session=session) for interval in data.calibration))
     (sentence,) = [s for s in study_warnings(replace(made, data=both)) if "is fitted and judged" in s]
-    assert sentence == f"session {session!r} is fitted and judged: its score is not what another session gives"
+    assert sentence == f"session {session!r} is fitted and validated: its score is not that of another session"
 
 
 def test_a_sensor_without_variables_is_studied_without_the_types_that_need_them(intact: Path) -> None:

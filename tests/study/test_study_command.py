@@ -361,7 +361,8 @@ def test_the_table_shows_the_choice_and_what_to_expect(days: Path, run: Run) -> 
     assert done.code == 0
     shown = " ".join(done.out.split())
     assert (
-        "arm_ft (SIM001): 12 matrices of 3 data sets and 3 generative fits, judged on 599 samples that were not fitted"
+        "arm_ft (SIM001): 12 matrices of 3 data sets and 3 generative fits, "
+        "evaluated on 599 samples that were not fitted"
     ) in shown
     for text in (
         "mean contact force where nothing touches",

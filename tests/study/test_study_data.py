@@ -203,10 +203,10 @@ def test_samples_that_are_fitted_and_judged_are_refused(days: Path) -> None:
     overlapping = again.replace("start_s = 0.5", "start_s = 5.0")
     (days / "again.toml").write_text(overlapping, encoding="utf-8")
     first = edit(days / "move_cold.toml", "end_s = 7.5", "end_s = 5.1")
-    with pytest.raises(
-        ExperimentError,
-        match="'arm_ft': samples of the calibration interval 'move_cold' are judged in 'again' too; judge on data that",
-    ):
+    message = (
+        "'arm_ft': samples of the calibration interval 'move_cold' are validated in 'again' too; validate on data that"
+    )
+    with pytest.raises(ExperimentError, match=message):
         _read(days, (*CALIBRATION, "again.toml"))
     edit(first, "end_s = 5.1", "end_s = 5.0")  # the end itself is not in the interval
     data = _read(days, (*CALIBRATION, "again.toml"))
@@ -219,7 +219,7 @@ def test_stamps_that_coincide_are_no_overlap(days: Path) -> None:
     shutil.rmtree(days / "day_1")
     shutil.copytree(days / "move_cold", days / "day_1")
     edit(days / "day_1.toml", "end_s = 8.5", "end_s = 7.5")
-    with pytest.raises(ExperimentError, match="'move_cold' are judged in 'day_1' too"):
+    with pytest.raises(ExperimentError, match="'move_cold' are validated in 'day_1' too"):
         _read(days, ("move_cold.toml", "day_1.toml"))
     stream = recording.stream(SENSOR)
     raw = stream.signal("raw")

@@ -12,7 +12,6 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.evaluation.candidate_errors import push_error
 from forcetorque.experiment.calibration.artefact import read_calibration, write_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.campaign import Campaign
@@ -22,6 +21,7 @@ from forcetorque.experiment.validation_offset import Offset
 from forcetorque.simulation.recordings import true_matrix
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate import Candidate
+from forcetorque.study.candidate_errors import push_error
 from forcetorque.study.result import studied_sensor, study_warnings
 from forcetorque.study.selection import FAR_SD
 from forcetorque.study.study import SensorStudy, study_sensor
@@ -120,8 +120,8 @@ def test_a_judged_session_that_was_fitted_is_read_with_its_offset(days: Path) ->
     (fit,) = study.study.generative
     assert list(fit.offsets) == ["power-up 1", "power-up 0"]
     index = len(study.study.fits.candidates)
-    force = study.study.judgements[Offset.FITTED].over(["power-up 1"]).force_mean[index]
-    elsewhere = study.study.judgements[Offset.FITTED].over(["power-up 2"]).force_mean[index]
+    force = study.study.errors[Offset.FITTED].pooled(["power-up 1"]).force_mean[index]
+    elsewhere = study.study.errors[Offset.FITTED].pooled(["power-up 2"]).force_mean[index]
     assert force < 0.3 * elsewhere
 
 

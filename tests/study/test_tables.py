@@ -150,7 +150,7 @@ def test_table_5_7_is_the_best_of_every_axis() -> None:
     prior = WrenchModel(matrix=PRIOR, offset=np.zeros(6))
     for axis, row in enumerate(rows):
         for source in KNOWN_BEFORE:
-            values = study().judgements[source].over().mean_absolute[:351, axis]
+            values = study().errors[source].pooled().mean_absolute[:351, axis]
             best = [c.name for c in study().fits.candidates].index(str(row[f"best, offset {source}"]))
             assert (values > (1.0 - SAME_FIT) * values[best]).all()
             model = study().models[best]
@@ -246,6 +246,6 @@ def test_the_relative_lambda_does_not_depend_on_the_unit_of_counts() -> None:
         assert one.relative_lambda == pytest.approx(other.relative_lambda, rel=EXACT)
         np.testing.assert_allclose(half * other.model.matrix, one.model.matrix, rtol=SAME_FIT, atol=1e-10)
     for source in KNOWN_BEFORE:
-        errors = [each.judgements[source].over().force_mean for each in (whole, halved, unscaled)]
+        errors = [each.errors[source].pooled().force_mean for each in (whole, halved, unscaled)]
         np.testing.assert_allclose(errors[1], errors[0], rtol=SAME_FIT)
         assert np.abs(errors[2] / errors[0] - 1.0).max() > 0.01  # negative control: lambda has the unit counts2

@@ -19,21 +19,21 @@ from numba.core import event
 _LOG = logging.getLogger(__name__)
 
 
-def source_digest(*folders: Path) -> str:
+def source_digest(*sources: Path) -> str:
     """Sum up the sources that a compiled function is made of.
 
     The copy on disk is looked up by the file of the function and by what the function closes over. A
     change in another file is noticed only if the function closes over this.
 
     Args:
-        folders: Folders of the sources.
+        sources: Files, or folders of which every module counts.
 
     Returns:
-        Digest of all their modules.
+        Digest of all of them.
     """
     digest = hashlib.sha256()
-    for folder in folders:
-        for file in sorted(folder.glob("*.py")):
+    for source in sources:
+        for file in sorted(source.glob("*.py")) if source.is_dir() else [source]:
             digest.update(file.read_bytes())
     return digest.hexdigest()
 

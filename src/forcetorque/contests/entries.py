@@ -54,12 +54,12 @@ _FILE_OF = {Method.WORKBENCH: "bench", Method.CALIBRATION: "calibration"}
 
 
 class RunTable(Table):
-    """One recording of the motion: its calibration intervals are fitted, its validation intervals judge."""
+    """One recording of the motion: its calibration intervals are fitted, its validation intervals are evaluated."""
 
     experiment: Path
     """Experiment file."""
     load_kg: NotNegative
-    """Mass that hung there, such as 5, 10, 15; the same load has the same number in all runs."""
+    """Mass of the carried load, such as 5, 10, 15; the same load has the same number in all runs."""
     started_h: Finite | None = None
     """When it began; h on a clock that all runs share; needed for drift."""
 
@@ -82,7 +82,7 @@ class ContestantTable(Table):
     fitted_on: Annotated[tuple[Path, ...], Field(min_length=1)] | None = None
     """Experiment files of the runs that it is fitted on; all that suit the method if left out."""
     fitted_loads_kg: tuple[NotNegative, ...] = ()
-    """Loads that a calibration file was fitted on: none of them may judge."""
+    """Loads that a calibration file was fitted on: they are not evaluated."""
     catalogue: Text | None = None
     """Name in the catalogue of sensors, for its full scale."""
     range: Annotated[int, Field(ge=1, strict=True)] | None = None
@@ -110,7 +110,7 @@ class ContestFile(Table):
     name: Text
     """Name of the contest."""
     offset: Literal[Offset.JUDGED_MEAN, Offset.FIRST_SECOND, Offset.FITTED] = Offset.JUDGED_MEAN
-    """Which offset all are judged with: the mean of each run, that of its first second, or their own."""
+    """Which offset all are evaluated with: the mean of each run, that of its first second, or their own."""
     phases: Annotated[int, Field(ge=10, strict=True)] = PHASES
     """Number of phases that the motion is divided into."""
     run: Annotated[tuple[RunTable, ...], Field(min_length=1)]
@@ -139,9 +139,9 @@ class ContestRun:
     name: str
     """Name, unique in the contest."""
     experiment: Experiment
-    """The recording; calibration intervals are fitted, validation intervals judge."""
+    """The recording; calibration intervals are fitted, validation intervals are evaluated."""
     load_kg: float
-    """Mass that hung there; kg."""
+    """Mass of the carried load; kg."""
     started_h: float = np.nan
     """When it began; h on a clock that all runs share; NaN where it is not stated."""
     _known: dict[str, SensorRun] = field(default_factory=dict, repr=False)
@@ -198,7 +198,7 @@ class Entries:
     contestants: tuple[Contestant, ...]
     """Contestants, at least two."""
     offset: Offset = Offset.JUDGED_MEAN
-    """Which offset all are judged with."""
+    """Which offset all are evaluated with."""
     phases: int = PHASES
     """Number of phases."""
 

@@ -53,7 +53,7 @@ def contest_figure(rows: Sequence[ContestLoadRow]) -> Figure:
     legend_below(
         figure,
         [(shown_name(name), look(k).key) for k, name in enumerate(names)],
-        title="root mean square error over the motion; bars: 95 % intervals; nobody was fitted on these loads",
+        title="root mean square error over the motion; bars: 95 % intervals; no contestant was fitted on these loads",
     )
     return figure
 

@@ -31,20 +31,20 @@ _FITTED = (Method.IN_SITU, Method.IN_SITU_WITHOUT_PRIOR, Method.KNOWN_MASSES, Me
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Reader:
-    """A contestant that can be judged."""
+    """A contestant that can be evaluated."""
 
     entry: Contestant
     """The contestant."""
     correction: Correction
     """How it is read."""
     judged: tuple[tuple[ContestRun, SensorRun], ...]
-    """Runs that judge it, with its sensor in them."""
+    """Validation runs, with its sensor in them."""
     fitted_loads_kg: tuple[float, ...]
     """Loads that it was fitted on; kg."""
 
 
 def contestant_reader(entry: Contestant, runs: Sequence[ContestRun], *, code_version: str, created: str) -> Reader:
-    """Make a contestant ready to be judged.
+    """Prepare a contestant for evaluation.
 
     Args:
         entry: The contestant.
@@ -53,7 +53,7 @@ def contestant_reader(entry: Contestant, runs: Sequence[ContestRun], *, code_ver
         created: Date and time, ISO 8601, for the same.
 
     Returns:
-        How it is read, and where it is judged.
+        How its samples are read, and its validation runs.
 
     Raises:
         ExperimentError: If no run has its sensor, several sensors go by its name, or its method lacks what it needs.
@@ -107,8 +107,8 @@ def _suits(method: Method, experiment: Experiment) -> bool:
 _NEEDED = {
     Method.IN_SITU: "on a robot that a URDF describes",
     Method.IN_SITU_WITHOUT_PRIOR: "on a robot that a URDF describes",
-    Method.KNOWN_MASSES: "under a [load] of stated mass whose motion an accelerometer tells",
-    Method.REFERENCE_SENSOR: "under a [load] whose wrench another sensor says, applied",
+    Method.KNOWN_MASSES: "under a [load] of stated mass whose motion an accelerometer measures",
+    Method.REFERENCE_SENSOR: "under a [load] whose wrench another sensor measures, applied",
 }
 
 
@@ -192,7 +192,7 @@ def _motion(run: SensorRun, interval: Interval) -> tuple[IntArray, Sequence[str]
         joints, positions = list(_GRAVITY), up / np.linalg.norm(up, axis=1, keepdims=True)
     whole = np.isfinite(positions).all(axis=1)
     if not whole.any():
-        raise ExperimentError(f"interval {interval.label!r}: expected a motion to tell phases by, got gaps only")
+        raise ExperimentError(f"interval {interval.label!r}: expected a motion that defines phases, got gaps only")
     return at_ns[inside][whole], joints, positions[whole]
 
 
@@ -201,12 +201,12 @@ _WRENCH = ("applied fx", "applied fy", "applied fz", "applied tx", "applied ty",
 
 
 def contestant_trials(reader: Reader, phases: Phases, offset: Offset) -> list[Trial]:
-    """Judge a contestant in all its runs.
+    """Compute the errors of a contestant in all its runs.
 
     Args:
         reader: The contestant.
         phases: Phases of the runs.
-        offset: Which offset it is judged with.
+        offset: Which offset it is evaluated with.
 
     Returns:
         Its runs, one for every validation interval.

@@ -161,7 +161,7 @@ def rms_intervals(squares: FloatArray) -> tuple[FloatArray, FloatArray, FloatArr
         squares: Squared errors at the phases of one load; shape (q, 6).
 
     Returns:
-        Root mean squares, lower and upper ends; shape (6,) each; infinite where too few stretches tell none.
+        Root mean squares, lower and upper ends; shape (6,) each; infinite where there are too few segments.
     """
     rows = []
     for column in squares.T:

@@ -61,7 +61,7 @@ class MotionPath:
         if len(corners) <= _LEAST_STEPS:
             raise RecordingError(
                 f"motion: expected {', '.join(names)} to move by more than {_LEAST_STEPS * STEP_RAD:g} rad, got "
-                f"{behind[-1]:.2g}; a contest needs a motion to tell phases by"
+                f"{behind[-1]:.2g}; a contest needs a motion that defines phases"
             )
         last = np.searchsorted(corners, np.arange(len(values)), side="right") - 1
         beyond = np.linalg.norm(values - points[last], axis=1)
@@ -115,7 +115,7 @@ def require_same_motion(paths: Mapping[str, MotionPath], *, phases: int) -> None
         if path.names != wanted.names:
             raise RecordingError(
                 f"{name}: expected the motion of {', '.join(wanted.names)} as in {first}, got {', '.join(path.names)}; "
-                "judge runs of one motion"
+                "compare runs of one motion"
             )
         away = np.abs(path.at(middles) - expected)
         nearest = np.take_along_axis(away, away.max(axis=2).argmin(axis=0)[None, :, None], axis=0)[0]
@@ -137,13 +137,13 @@ class Trial(ArrayRecord):
     """Means over the p phases of one run."""
 
     load_kg: float
-    """Mass that hung there; kg."""
+    """Mass of the carried load; kg."""
     error: FloatArray = field(metadata=array("p", 6))
     """Measured less reference, offset removed; shape (p, 6); N, N m; NaN where no sample is."""
     level: FloatArray = field(metadata=array(6))
     """Mean error without any offset removed: what runs differ by if the sensor drifts; shape (6,); N, N m."""
     reference: FloatArray = field(metadata=array("p", 6))
-    """What mechanics demands; shape (p, 6); N, N m; NaN where no sample is."""
+    """Expected wrenches; shape (p, 6); N, N m; NaN where no sample is."""
     time_s: float
     """Middle of the run, on a clock that all runs share; s; NaN where there is none."""
     temperature_degC: float = np.nan
@@ -166,10 +166,10 @@ def trial_by_phase(
     Args:
         phase: Phase of every sample, 0 to 1; shape (n,).
         error: Measured less reference, no offset removed; shape (n, 6); N, N m.
-        reference: What mechanics demands; shape (n, 6); N, N m.
+        reference: Expected wrenches; shape (n, 6); N, N m.
         removed: Offset to remove; shape (6,); N, N m; the mean over the phases if None.
         phases: Number of phases.
-        load_kg: Mass that hung there; kg.
+        load_kg: Mass of the carried load; kg.
         time_s: Middle of the run; s.
         temperature_degC: Mean temperature; degC.
 
@@ -196,7 +196,7 @@ def _means(place: np.ndarray[Any, np.dtype[np.int64]], values: FloatArray, phase
 
 
 def common_phases(contestants: Mapping[str, Sequence[Trial]]) -> BoolArray:
-    """Tell which phases every run of every contestant has.
+    """Find the phases that every run of every contestant has.
 
     Args:
         contestants: Runs by name of the contestant, all of equally many phases.
@@ -212,7 +212,7 @@ def common_phases(contestants: Mapping[str, Sequence[Trial]]) -> BoolArray:
     if common.mean() < _LEAST_SHARE:
         raise RecordingError(
             f"phases: expected samples of all runs in at least {_LEAST_SHARE:.0%} of {common.size} phases, got "
-            f"{common.mean():.0%}; ask for fewer phases, or record more slowly"
+            f"{common.mean():.0%}; set fewer phases, or record more slowly"
         )
     return common
 
@@ -246,7 +246,7 @@ def repeatability(loads: Mapping[float, Sequence[Trial]], common: BoolArray) -> 
         common: Phases that all runs have; shape (p,).
 
     Returns:
-        Standard deviation; shape (6,); N, N m; None where no load was hung twice.
+        Standard deviation; shape (6,); N, N m; None where no load was repeated.
     """
     repeated = [np.stack([t.error[common] for t in trials]) for trials in loads.values() if len(trials) > 1]
     if not repeated:
@@ -265,7 +265,7 @@ def changes(loads: Mapping[float, Sequence[Trial]]) -> dict[str, OffsetDrift]:
         loads: Runs by load.
 
     Returns:
-        Changes `per hour` and `per degC`, those that the runs can tell.
+        Changes `per hour` and `per degC`, as far as the runs determine them.
     """
     every = [trial for trials in loads.values() for trial in trials]
     columns = {}

@@ -40,11 +40,11 @@ class ContestantRow(Row):
     source: str
     """What it is read by, in words."""
     runs: int
-    """Runs that judged it."""
+    """Number of its validation runs."""
     fitted_loads_kg: tuple[float, ...]
     """Loads that it was fitted on; kg."""
     rank: Annotated[int, Shown("rank")]
-    """Rank by force and moment together: one more than the contestants that err less beyond doubt."""
+    """Rank by force and moment together: one more than the number of contestants with significantly smaller errors."""
     error_percent: Annotated[float, Shown("error", "% of the loads", digits=2)]
     """Root mean square error of force over the judged force and of moment over the judged moment, together; %."""
     force_error_N: Annotated[float, Shown("force", "N", digits=3)]
@@ -65,7 +65,7 @@ class ContestantRow(Row):
     rmse_percent_of_full_scale: WrenchValues | None
     """Root mean square error over the full scale; %."""
     drift_per_hour: WrenchValues | None
-    """Change of the mean error from run to run; N, N m per h; none where it cannot be told."""
+    """Change of the mean error from run to run; N, N m per h; none where the samples do not determine it."""
     drift_per_hour_half_width_95: WrenchValues | None
     """Half of its 95 % interval."""
     drift_per_degC: WrenchValues | None
@@ -91,11 +91,11 @@ class ContestLoadRow(Row):
     contestant: Annotated[str, Shown("contestant")]
     """Its name."""
     load_kg: Annotated[float, Shown("load", "kg", digits=2)]
-    """Mass that hung there."""
+    """Mass of the carried load."""
     rmse: Annotated[WrenchValues, ShownWrench(digits=4)]
     """Root mean square error over the phases; N, N m."""
     rmse_low: WrenchValues | None
-    """Lower end of its 95 % interval; none where too few stretches tell any."""
+    """Lower end of its 95 % interval; none where there are too few segments."""
     rmse_high: WrenchValues | None
     """Upper end."""
 
@@ -238,13 +238,13 @@ class Contest(Result):
     figure: str | None = None
     """File of the figure."""
     offset: str
-    """Which offset all were judged with."""
+    """Which offset all were evaluated with."""
     phases: int
     """Phases of the motion that all runs have."""
     loads_kg: tuple[float, ...]
     """Validation loads, on which no contestant was fitted; kg."""
     winner: str | None
-    """The one that errs less than every other beyond doubt, by force and moment together; else none."""
+    """The contestant with significantly smaller errors than every other, by force and moment together; else none."""
     contestants: tuple[ContestantRow, ...]
     """Contestants, the best first."""
     loads: tuple[ContestLoadRow, ...]
@@ -261,7 +261,7 @@ class Contest(Result):
             Tables and sentences.
         """
         loads = ", ".join(f"{load:g}" for load in self.loads_kg)
-        judged = f"loads of {loads} kg, on which nobody was fitted, in {self.phases} phases"
+        judged = f"loads of {loads} kg, on which no contestant was fitted, in {self.phases} phases"
         yield table_of(self.contestants, f"{self.contest}: {judged}; offset {self.offset}")
         yield from self._verdict()
         yield table_of(score_rows(self.contestants), "scores by component, all loads together")
@@ -276,9 +276,9 @@ class Contest(Result):
     def _verdict(self) -> Iterator[str]:
         best = [row.contestant for row in self.contestants if row.rank == 1]
         if self.winner is not None:
-            yield f"{self.winner} errs least, beyond doubt"
+            yield f"{self.winner} errs least, significantly"
         else:
-            yield f"nobody wins beyond doubt; in the first place: {'; '.join(best)}"
+            yield f"no contestant wins significantly; in the first place: {'; '.join(best)}"
         for pair in self.pairs:
             if pair.error_of == "wrench" and pair.judgement == "no difference":
                 yield f"{pair.contestant} and {pair.other} are equal: {pair.ratio:.2f}, {_ends(pair)}"
@@ -347,7 +347,7 @@ def contest(entries: Entries, *, code_version: str, created: str) -> Contest:
         loads=tuple(row for name in squares for row in load_rows(name, loads[name], squares[name])),
         pairs=tuple(pairs),
         left_out=tuple(left_out),
-        warnings=tuple(_doubts(rows)),
+        warnings=tuple(_warnings(rows)),
     )
 
 
@@ -364,13 +364,13 @@ def _readers(entries: Entries, *, code_version: str, created: str) -> tuple[list
         lacking = sorted(load for load in every if load not in _loads(reader))
         if lacking:
             readers.remove(reader)
-            why = f"no run judges it under {', '.join(f'{load:g}' for load in lacking)} kg, as others are"
+            why = f"no validation run has it under {', '.join(f'{load:g}' for load in lacking)} kg, as others are"
             left_out.append(LeftOutRow(contestant=reader.entry.name, method=reader.entry.method.value, why=why))
     if len(readers) < 2:
         reasons = "; ".join(f"{row.contestant}: {row.why}" for row in left_out)
         raise ExperimentError(
-            f"contest {entries.name!r}: expected at least two contestants that can be judged under the same loads, got "
-            f"{len(readers)}; {reasons}"
+            f"contest {entries.name!r}: expected at least two contestants that can be evaluated under the same loads, "
+            f"got {len(readers)}; {reasons}"
         )
     return readers, left_out
 
@@ -386,9 +386,9 @@ def _require_unfitted(readers: Sequence[Reader]) -> tuple[float, ...]:
             runs = [run.name for other in readers for run, _ in other.judged if abs(run.load_kg - load) < SAME_LOAD_KG]
             if runs:
                 raise ExperimentError(
-                    f"{runs[0]}: expected loads to judge that nobody was fitted on, got {load:g} kg, on which "
-                    f"{reader.entry.name!r} was; such a load favours it: judge with another weight, or fit on others "
-                    "(fitted_on)"
+                    f"{runs[0]}: expected validation loads that no contestant was fitted on, got {load:g} kg, on which "
+                    f"{reader.entry.name!r} was; such a load favours it: validate with another weight, or fit on "
+                    "others (fitted_on)"
                 )
     return _loads(readers[0])
 
@@ -403,9 +403,9 @@ def _scale(trials: Mapping[str, Sequence[Trial]], common: BoolArray) -> tuple[fl
     )
 
 
-def _doubts(rows: Sequence[ContestantRow]) -> Iterator[str]:
+def _warnings(rows: Sequence[ContestantRow]) -> Iterator[str]:
     if all(row.repeatability is None for row in rows):
-        yield "no load was hung twice: precision and drift cannot be told; repeat a run"
+        yield "no load was repeated: precision and drift are unobservable; repeat a run"
     without = [row.contestant for row in rows if row.full_scale is None]
     if without and len(without) < len(rows):
         yield f"no percent of full scale for {', '.join(without)}: state catalogue or full_scale"

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 CAPABILITY = Capability(
     needs=(
         "sensor",
-        "simulation",
         "payload",
         "calibration",
     ),
@@ -31,8 +30,8 @@ CAPABILITY = Capability(
         "forcetorque.evaluation.commands:validate",
     ),
     sections=(
-        "forcetorque.evaluation.load_cases.section:LOAD_CASES",
-        "forcetorque.evaluation.trials.section:TRIAL",
+        "forcetorque.evaluation.section:LOAD_CASES",
+        "forcetorque.evaluation.section:TRIAL",
     ),
 )
 

@@ -114,7 +114,7 @@ class CandidateErrors(JudgedRow):
     """Errors of one candidate with one offset; per axis in the order fx fy fz (N) tx ty tz (N m)."""
 
     samples: int
-    """Number of judged samples."""
+    """Number of validation samples."""
     rmse: Annotated[WrenchValues, ShownWrench(digits=3)]
     """Root mean square error per component; N, N m."""
     bias: Annotated[WrenchValues, ShownWrench(digits=3)]
@@ -126,7 +126,7 @@ class CandidateErrors(JudgedRow):
     force_error_standard_error_N: float | None
     """Standard error of that mean; None for one sample."""
     force_error_half_width_95_N: float | None
-    """Half-width of its 95 % interval; None where it cannot be told."""
+    """Half-width of its 95 % interval; None where the samples do not determine it."""
     force_error_largest_N: float
     """Largest norm of the force error."""
     moment_error_mean_Nm: Annotated[float, Shown("moment", "N m", digits=3, error="moment_error_half_width_95_Nm")]
@@ -134,13 +134,13 @@ class CandidateErrors(JudgedRow):
     moment_error_standard_error_Nm: float | None
     """Standard error of that mean; None for one sample."""
     moment_error_half_width_95_Nm: float | None
-    """Half-width of its 95 % interval; None where it cannot be told."""
+    """Half-width of its 95 % interval; None where the samples do not determine it."""
     moment_error_largest_Nm: float
     """Largest norm of the moment error."""
     independent: Annotated[float | None, Shown("independent", digits=0)]
     """How many independent samples the errors are worth, of the component worth the fewest; None where none changes."""
     excitation_N: Annotated[float, Shown("moved", "N", digits=1)]
-    """Standard deviation of the reference force over the judged samples, all three components together."""
+    """Standard deviation of the reference force over the validation samples, all three components together."""
     excitation_Nm: Annotated[float, Shown("moved", "N m", digits=2)]
     """The same of the reference moment."""
     load_N: float
@@ -185,9 +185,9 @@ class Evaluation(Result):
     comparisons: tuple[PriorComparison, ...] = ()
     """Calibrations against their priors, force and moment, all recordings pooled."""
     smoothing: tuple[str, ...] = ()
-    """Whether reading and reference were smoothed, in words; of several recordings one per way."""
+    """Whether measured and expected wrench were smoothed, as text; of several recordings one per way."""
     validity: tuple[ReadingsOutside, ...] = ()
-    """One per calibration: how far the judged readings lie outside what it was fitted on."""
+    """One per calibration: how far the validation samples lie outside what it was fitted on."""
     uses: tuple[UseVerdict, ...] = ()
     """One per calibration and load case: whether it may be used."""
 
@@ -234,47 +234,28 @@ class Evaluation(Result):
 
 
 @with_recording_notes
-def evaluate(runs: Runs, calibrations: Calibrations) -> Evaluation:
-    """Judge calibrations, and the priors that they came from, on data that was not fitted.
+def evaluate(runs: Runs, calibrations: Calibrations, *, load_cases: bool = True) -> Evaluation:
+    """Compute the errors of calibrations, and of their prior calibrations, on data that were not fitted.
 
     Args:
         runs: The sensor in one recording, or in several.
-        calibrations: Its calibrations by name, or one; without any the prior of the experiment is judged.
+        calibrations: Its calibrations by name, or one; without any the prior of the experiment is evaluated.
+        load_cases: Whether to give verdicts on the load cases as well.
 
     Returns:
-        For every candidate the errors with the offset of the fitted data and with the mean of the judged samples of
-        each recording removed; a prior that several calibrations share comes once. Judged one by one, calibrations
-        that need the same variables have the same errors as together. Errors of several recordings are pooled before
-        anything is averaged. And whether each may be used for the loads to come.
+        For every calibration under test the errors with the offset of the fitted data and with the mean of the
+        validation samples of each recording removed; a prior that several calibrations share comes once. Evaluated one
+        by one, calibrations that need the same variables have the same errors as together. Errors of several
+        recordings are pooled before anything is averaged. And whether each may be used at the load cases.
 
     Raises:
         SerialNumberError: If a calibration is of another sensor.
-        ExperimentError: If a judged interval was fitted, the robot now reads the sensor in another frame or sign, or a
-            load case cannot be had at the sensor.
-        FitError: If a load case changes a variable that a calibration does not know.
+        ExperimentError: If a validation interval was fitted, the robot now reads the sensor in another frame or sign,
+            or a load case is impossible at the sensor.
+        FitError: If a load case changes a variable that a calibration does not have.
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
-    campaign, judged = Campaign.of(runs), named(calibrations)
-    errors = validation_errors(campaign, judged)
-    return errors.model_copy(update={"uses": use_verdicts(campaign, judged)})
-
-
-def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
-    """Compute the errors of calibrations on validation data, without verdicts on load cases.
-
-    Args:
-        runs: The sensor in one recording, or in several.
-        calibrations: Its calibrations by name; without any the prior of the experiment is judged.
-
-    Returns:
-        What `evaluate` gives, without verdicts on uses.
-
-    Raises:
-        SerialNumberError: If a calibration is of another sensor.
-        ExperimentError: If a judged interval was fitted, or the robot now reads the sensor in another frame or sign.
-        ShapeError: If a matrix does not have one column per channel of the sensor.
-    """
-    campaign = Campaign.of(runs)
+    campaign, calibrations = Campaign.of(runs), named(calibrations)
     wrenches: dict[str, JudgedWrenches] = {}
     warnings: list[str] = []
     for run in campaign.runs_with(Use.VALIDATION):
@@ -312,6 +293,7 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
         comparisons=prior_comparisons(campaign.sensor.name, list(wrenches.values())),
         smoothing=tuple(dict.fromkeys(map(smoothing_text, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
+        uses=use_verdicts(campaign, calibrations) if load_cases else (),
         warnings=(*at_rest(verdicts), *sentences(validity), *warnings),
     )
 

@@ -55,7 +55,7 @@ def matrix_checks(matrix: FloatArray, offset: FloatArray, *, limit_counts: float
         raise SensorError("offset: expected finite numbers of N and N m")
     full_scale, reason = None, ""
     if matrix.shape[1] != 6:
-        reason = f"with {matrix.shape[1]} channels a load does not tell the counts; expected 6"
+        reason = f"with {matrix.shape[1]} channels a load does not determine the counts; expected 6"
     else:
         try:
             full_scale = reachable_full_scale(
@@ -92,7 +92,7 @@ def matrix_condition(matrix: FloatArray) -> float:
     """
     scale = all_channels_full_scale(matrix, limit_counts=1.0)
     if matrix.shape[1] < 6:
-        raise ShapeError(f"matrix: expected at least 6 channels, got {matrix.shape[1]}: they tell no six components")
+        raise ShapeError(f"matrix: expected at least 6 channels, got {matrix.shape[1]}; six components need six")
     if not scale.all():
         return float("inf")
     scaled = matrix / scale[:, None]

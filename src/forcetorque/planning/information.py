@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import SlowNoise, Timeline
 from forcetorque.experiment.calibration import assumptions as expected
@@ -32,7 +32,7 @@ UNKNOWN: Final = 1e5
 def unfitted_posterior(
     matrix: FloatArray, assumptions: Assumptions, variables: Sequence[LinearVariable] = ()
 ) -> Posterior:
-    """Say what the generative model takes for granted before any data.
+    """Compute the prior distribution of the generative model.
 
     Args:
         matrix: Prior matrix; shape (6, c); N/count, N m/count.
@@ -59,7 +59,7 @@ def unfitted_posterior(
         if None in own:
             raise FitError(
                 f"variable {variable.name!r}: expected prior_deviation, what one {variable.unit or 'unit'} of it may "
-                "do; before any recording nothing tells, and it is no temperature"
+                "do; it is unknown before any recording, and it is no temperature"
             )
         covariance[:, LOADS + k, LOADS + k] = (unit * np.array(own)) ** 2
     drift = np.maximum(ASSUMED_DRIFT, rows.accuracy)
@@ -89,7 +89,7 @@ def unfitted_posterior(
 
 
 def blank_posterior(noise: FloatArray, load: FloatArray) -> Posterior:
-    """Say that nothing is known of a sensor, not even a prior matrix.
+    """Make the posterior of a sensor of which nothing is known, not even a prior matrix.
 
     Args:
         noise: White noise of a reading, as wrench; shape (6,); N, N m.
@@ -131,20 +131,15 @@ _LEAST_NOISE = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Lesson:
-    """Loads of a recording as its means over a second see them; one power-up."""
+class PlannedLoads(ArrayRecord):
+    """Loads of a recording to come, as means over a second; one power cycle."""
 
-    time_s: FloatArray
+    time_s: FloatArray = field(metadata=array("n"))
     """Instants; shape (n,); s."""
-    wrench: FloatArray
+    wrench: FloatArray = field(metadata=array("n", 6))
     """Loads; shape (n, 6); N, N m."""
-    variables: FloatArray
+    variables: FloatArray = field(metadata=array("n", None))
     """Linear variables of the posterior, less their reference values; shape (n, v)."""
-
-    def __post_init__(self) -> None:
-        n = len(np.asarray(self.time_s))
-        for field, shape in (("time_s", (n,)), ("wrench", (n, 6)), ("variables", (n, None))):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
 
     @property
     def columns(self) -> FloatArray:
@@ -154,7 +149,7 @@ class Lesson:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Nuisance:
-    """Quadratic terms, which a fit has to tell from the matrix."""
+    """Quadratic terms, which a fit has to separate from the matrix."""
 
     load_to_full_scale: FloatArray
     """Share of full scale that a load makes of six independent readings; shape (6, 6)."""
@@ -230,20 +225,20 @@ class Knowledge:
             centre=None,
         )
 
-    def taught(self, lesson: Lesson) -> Knowledge:
+    def updated(self, loads: PlannedLoads) -> Knowledge:
         """Add a recording.
 
         Args:
-            lesson: The recording.
+            loads: Loads of the recording.
 
         Returns:
-            What would be known after it; its offset is that of the recording.
+            Knowledge after the recording; its offset is that of the recording.
         """
         posterior, used = self.posterior, 6 + len(self.posterior.variables)
-        centre = lesson.wrench.mean(axis=0) if self.centre is None else self.centre
-        line, columns = Timeline.of(lesson.time_s), lesson.columns
+        centre = loads.wrench.mean(axis=0) if self.centre is None else self.centre
+        line, columns = Timeline.of(loads.time_s), loads.columns
         if self.nuisance is not None:
-            columns = np.hstack([columns, self.nuisance.columns(lesson.wrench, centre)])
+            columns = np.hstack([columns, self.nuisance.columns(loads.wrench, centre)])
         mean = columns.mean(axis=0)
         products = {shape: _product(line, columns - mean, shape) for shape in set(map(_shape, posterior.noise))}
         repeated = posterior.covariance[:, :6, :6] - posterior.learnt_covariance

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Recordings that inform a joint calibration of all sensors most."""
+"""Recordings with the most information for a joint calibration of all sensors."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from pydantic import Field
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.calibration.joint.calibrate import JointData
 from forcetorque.calibration.joint.outcome import JointOutcome
-from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
+from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import predict, predict_prior
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -133,9 +132,9 @@ def plan_jointly(
     recordings: int = 3,
     progress: Callable[[str], None] = lambda _: None,
 ) -> JointPlan:
-    """Order recordings by what they teach all sensors of a robot at once.
+    """Order recordings by the information gained on all sensors of a robot at once.
 
-    What a recording teaches depends on its motion, and hardly on what the sensors read in it: recordings of another
+    The information of a recording depends on its motion, and hardly on its measurements: recordings of another
     day, or simulated ones of motions that are to be recorded, stand for those to come.
 
     Args:
@@ -155,7 +154,7 @@ def plan_jointly(
     cases = {name: operating_load_cases(campaign.runs) for name, campaign in data.campaigns.items()}
     if not any(cases.values()):
         raise ExperimentError(
-            "a plan needs loads of use: nothing with a mass hangs on any sensor; state a [[load_case]]"
+            "a plan needs loads of use: no distal link of any sensor has a mass; state a [[load_case]]"
         )
     chosen: list[_Outcome] = []
     while len(chosen) < min(recordings, len(data.recordings)):

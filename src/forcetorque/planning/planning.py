@@ -12,8 +12,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, known_names
-from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
+from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import PredictedError, predict_from_posterior
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -52,7 +51,7 @@ class Plan(Result):
     serial: str
     """Its serial number."""
     load_case: str
-    """The use whose error is lowered."""
+    """Load case whose error is lowered."""
     loads: str
     """Its loads, as text."""
     start: Literal["calibration", "prior"]
@@ -64,7 +63,7 @@ class Plan(Result):
     postures: tuple[PlannedPosture, ...]
     """Postures of all recordings."""
     limits: tuple[str, ...]
-    """What was taken for granted, and what was not checked."""
+    """Assumptions, and what was not checked."""
     folder: str | None = None
     """Where the trajectories were written."""
     proposals: tuple[Proposal, ...] = Field(default=(), exclude=True)
@@ -96,12 +95,12 @@ def plan(
     effort: Effort | None = None,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Plan:
-    """Plan recordings that lower the predicted error at the loads of a use most, one after the other.
+    """Plan recordings that lower the predicted error at a load case most, one after the other.
 
     Args:
         runs: The sensor, in one experiment or several.
         calibration: What is known of it; None for its prior matrix.
-        load_case: Name of the use; the one that is furthest from what is allowed if left out.
+        load_case: Name of the load case; the one that is furthest from what is allowed if left out.
         clearance_deg: What joints keep away from their limits; that of `[plan]` if left out; deg.
         recordings: How many recordings.
         seconds: About how long each may be; 60 if None; s.
@@ -156,12 +155,12 @@ def plan(
 
 
 def plan_sentence(runs: Runs, calibration: Calibration | None = None, *, load_case: str | None = None) -> str:
-    """Say in a sentence or two what to record next; quick, for assessments.
+    """Advise in a sentence or two what to record next; quick, for assessments.
 
     Args:
         runs: The sensor, in one experiment or several.
         calibration: What is known of it; None for its prior matrix.
-        load_case: Name of the use.
+        load_case: Name of the load case.
 
     Returns:
         What to record first and what it brings; without a clearance what to state to have it planned.
@@ -210,7 +209,7 @@ def _chosen(cases: Sequence[LoadCase], errors: Sequence[PredictedError], wanted:
     names = [case.name for case in cases]
     if not cases:
         raise ExperimentError(
-            "a plan needs loads of use: nothing with a mass hangs on the sensor; state a [[load_case]]"
+            "a plan needs loads of use: no distal link of the sensor has a mass; state a [[load_case]]"
         )
     if wanted is None:
         ratios = [_excess(case, error) for case, error in zip(cases, errors, strict=True)]

@@ -13,16 +13,16 @@ from forcetorque.base.errors import ExperimentError, RobotError
 from forcetorque.base.noise.means import means_over
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.planning.information import Knowledge, Lesson
+from forcetorque.planning.information import Knowledge, PlannedLoads
 from forcetorque.planning.search import Choices, Criterion, picked_orders, search
 from forcetorque.planning.section import PlanTable, PlanTool
 from forcetorque.recording.recording import Support, Use
 from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import JointType, RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import outboard_bodies
+from forcetorque.robot.tree import joint_range, outboard_bodies
 from forcetorque.simulation.modified_robot import with_load
-from forcetorque.simulation.motions.held_robot import Stand, joint_range, limb_of
+from forcetorque.simulation.motions.held_robot import Stand, limb_of
 from forcetorque.simulation.motions.trajectories import Waypoints, shortest_moves
 
 NOTHING = "none"
@@ -116,7 +116,7 @@ def workplaces(run: SensorRun, table: PlanTable, clearance_deg: float, supports:
     for tool in table.tool:
         if tool.name not in carried:
             raise ExperimentError(
-                f"plan: tool {tool.name!r}: what hangs on {tool.frame!r} does not load the sensor {name!r} from any "
+                f"plan: tool {tool.name!r}: a load on {tool.frame!r} does not load the sensor {name!r} from any "
                 "support; expected a link beyond the sensor"
             )
     if not places:
@@ -355,14 +355,14 @@ def propose(place: Workplace, known: Knowledge, demand: Demand, temperature: tup
     )
 
 
-def lesson_of(
+def planned_loads(
     place: Workplace, posterior: Posterior, trajectory: Waypoints, temperature: tuple[float, float] | None
-) -> Lesson:
-    """Find what the sensor will see of a motion.
+) -> PlannedLoads:
+    """Compute the loads on the sensor during a motion.
 
     Args:
-        place: Where it is made.
-        posterior: What is known, whose variables are those of the lesson.
+        place: Workplace of the motion.
+        posterior: Posterior of the sensor, whose variables are those of the loads.
         trajectory: The motion.
         temperature: Temperature at the start and at the end.
 
@@ -374,7 +374,7 @@ def lesson_of(
     share = sampled / max(trajectory.duration_s, 1.0)
     columns = np.hstack([place.loads(motion), _variables(posterior, temperature, share)])
     time, means, _ = means_over(sampled, columns)
-    return Lesson(time_s=time, wrench=means[:, :6], variables=means[:, 6:])
+    return PlannedLoads(time_s=time, wrench=means[:, :6], variables=means[:, 6:])
 
 
 def _best(
@@ -404,8 +404,8 @@ def _proposal(
 ) -> Proposal:
     moved = np.append(True, np.abs(np.diff(postures, axis=0)).max(axis=1) > 0.0)
     trajectory = place.stand.through(postures[moved], hold_s=demand.hold_s)
-    lesson = lesson_of(place, known.posterior, trajectory, temperature)
-    after = known.taught(lesson)
+    loads = planned_loads(place, known.posterior, trajectory, temperature)
+    after = known.updated(loads)
     return Proposal(
         place=place,
         temperature=temperature,

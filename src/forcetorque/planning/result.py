@@ -246,7 +246,7 @@ def _in_the_end(rows: Sequence[PlannedRecording]) -> str:
 
 
 def limits_of(*, calibrated: bool, posterior: Posterior) -> tuple[str, ...]:
-    """Say what was taken for granted, and what was not checked.
+    """List the assumptions, and what was not checked.
 
     Args:
         calibrated: Whether a calibration is known.
@@ -297,7 +297,7 @@ def _left(before: Posterior, after: Posterior, criterion: Criterion, places: Seq
             f"; {', '.join(stays)} {verb} with the prior: the loads within these limits span {rank} of 6 directions, a "
             "tool with its centre of mass elsewhere would load what is left"
         )
-    return f"; {', '.join(stays)} {verb} with the prior: a heavier tool, or more recordings, would tell"
+    return f"; {', '.join(stays)} {verb} with the prior: a heavier tool, or more recordings, would determine it"
 
 
 def _rank(places: Sequence[Workplace]) -> int:

@@ -35,7 +35,7 @@ class Aim(Protocol):
     """What postures are picked for."""
 
     def gains(self, posterior: Posterior, centre: FloatArray, readings: Readings) -> FloatArray:
-        """Say what every posture would lower the aim by.
+        """Compute by how much every posture would lower the aim.
 
         Args:
             posterior: What was known before.
@@ -74,7 +74,7 @@ class Criterion:
     """The use."""
 
     def row_weights(self, posterior: Posterior) -> FloatArray:
-        """Say what a square error of every row counts.
+        """Compute the weight of a square error of every row.
 
         Args:
             posterior: What is known of the sensor.
@@ -98,7 +98,7 @@ class Criterion:
         return float(self.row_weights(posterior) @ square)
 
     def shares(self, posterior: Posterior) -> FloatArray:
-        """Say how much each component of the load adds to it.
+        """Compute the share of each component of the load.
 
         Args:
             posterior: What is known of the sensor.
@@ -157,7 +157,7 @@ def pick(posterior: Posterior, aim: Aim, choices: Choices, *, haste: float) -> I
     """Pick postures greedily.
 
     The slow noise counts by what it moves on the way from one posture to the next; the exact worth of the whole is
-    another matter, see `Knowledge.taught`.
+    another matter, see `Knowledge.updated`.
 
     Args:
         posterior: What is known of the sensor.

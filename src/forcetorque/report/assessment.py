@@ -18,7 +18,7 @@ from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import Criterion
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks, check
-from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation, at_rest, validation_errors
+from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation, at_rest, evaluate
 from forcetorque.evaluation.load_cases.validation_evidence import (
     OFFSET_WORDS,
     Independence,
@@ -54,11 +54,11 @@ class VerdictLine(Row):
     """The sentence."""
 
 
-_Answer = TypeVar("_Answer")
+_Outcome = TypeVar("_Outcome")
 
 
 class Assessment(Row):
-    """Everything about one sensor; what could not be judged is empty and stands in `not_judged`."""
+    """Everything about one sensor; what could not be evaluated is empty and named in `not_judged`."""
 
     sensor: str
     """Sensor."""
@@ -87,15 +87,15 @@ class Assessment(Row):
     calibrations: dict[str, Calibration]
     """Calibrations of the sensor, with their uncertainty, excitation and choice of lambda, by file."""
     learnt: dict[str, tuple[LearntDirection, ...]] = Field(default_factory=dict)
-    """What the recordings taught each of those that are fitted by the generative model towards a prior, by file."""
+    """Information gained by those that are fitted by the generative model towards a prior, by file."""
     smoothing: tuple[str, ...] = ()
-    """Whether reading and reference were smoothed, in words."""
+    """Whether measured and expected wrench were smoothed, as text."""
     validity: tuple[ReadingsOutside, ...] = ()
     """How far the judged readings lie outside what each calibration was fitted on."""
     warnings: tuple[str, ...]
-    """What makes a verdict flatter or doubtful."""
+    """Warnings about the verdict."""
     not_judged: dict[str, str]
-    """Reason by what could not be judged."""
+    """Reason by what could not be evaluated."""
     left_out: tuple[str, ...] = ()
     """What gaps, short intervals and missing joints leave out of contact forces and joint torques, in words."""
     judged: JudgedWrenches | None = Field(default=None, exclude=True, repr=False)
@@ -120,9 +120,9 @@ class _Attempts:
 
     reasons: dict[str, str] = field(default_factory=dict)
 
-    def attempt(self, what: str, answer: Callable[[], _Answer]) -> _Answer | None:
+    def attempt(self, what: str, analysis: Callable[[], _Outcome]) -> _Outcome | None:
         try:
-            return answer()
+            return analysis()
         except ForceTorqueError as error:
             self.reasons[what] = str(error)
             return None
@@ -139,7 +139,7 @@ def assess(
     others: Mapping[str, Calibration] | None = None,
     demands: Demands | None = None,
 ) -> Assessment:
-    """Ask every question about a sensor, and say what the answers come to.
+    """Run every analysis of a sensor, and conclude a verdict.
 
     Args:
         run: The sensor.
@@ -148,7 +148,7 @@ def assess(
         demands: Limits and other sensors.
 
     Returns:
-        The answers, with the verdict.
+        The results, with the verdict.
     """
     tried, names = _Attempts(), short_names(calibrations)
     unseen = {
@@ -159,7 +159,7 @@ def assess(
     evaluation = contacts = torques = counts = judged = None
     # where every calibration has seen the judged data there is nothing to judge it on; without any, the prior is judged
     if unseen or not calibrations:
-        evaluation = tried.attempt("evaluation", partial(validation_errors, run, unseen))
+        evaluation = tried.attempt("evaluation", partial(evaluate, run, unseen, load_cases=False))
         contacts = tried.attempt("contact forces", partial(contact_forces, run, unseen))
         torques = tried.attempt("joint torques", partial(joint_torques, run, unseen))
     clouds = tried.attempt("spheres", partial(spheres, run, calibrations))
@@ -313,7 +313,7 @@ def interval_overviews(recording: Recording) -> tuple[IntervalOverview, ...]:
 
 
 def verdict(assessment: Assessment) -> tuple[VerdictLine, ...]:
-    """Say what the numbers of a sensor come to: acceptance, errors, and what makes them doubtful.
+    """Summarise the results of a sensor: acceptance, errors, and warnings.
 
     Args:
         assessment: The numbers.
@@ -327,7 +327,7 @@ def verdict(assessment: Assessment) -> tuple[VerdictLine, ...]:
 def _lines(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     yield from _acceptance(assessment)
     yield from _errors(assessment)
-    yield from _doubts(assessment)
+    yield from _fit_warnings(assessment)
     yield from _independence(assessment)
     for warning in assessment.warnings:
         yield "caution", warning
@@ -336,7 +336,7 @@ def _lines(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     yield from _saturation(assessment)
     yield from _sphere(assessment)
     for what, reason in assessment.not_judged.items():
-        yield "unknown", f"not judged: {what}: {reason}"
+        yield "unknown", f"not evaluated: {what}: {reason}"
     for words in assessment.left_out:
         yield "unknown", f"left out: {words}"
 
@@ -349,7 +349,7 @@ def _acceptance(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
         if failed:
             yield "bad", f"{name} is not accepted: {len(failed)} of {len(rows)} criteria fail: {', '.join(failed)}"
         else:
-            yield _unless_doubted("good", assessment, candidate), f"{name} is accepted: all {len(rows)} criteria hold"
+            yield _unless_warned("good", assessment, candidate), f"{name} is accepted: all {len(rows)} criteria hold"
 
 
 def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
@@ -359,7 +359,7 @@ def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
         start = f"{name} with {OFFSET_WORDS[row.offset]}, {row.samples} samples that were not fitted: "
         compared = [one for one in assessment.comparisons if (one.candidate, one.offset) == (row.candidate, row.offset)]
         if compared:
-            yield _unless_doubted(_tone(compared), assessment, row.candidate), prior_comparison_text(name, compared)
+            yield _unless_warned(_tone(compared), assessment, row.candidate), prior_comparison_text(name, compared)
         elif row.candidate in assessment.calibrations:
             yield "unknown", f"{start}{_plain(row)}; it has no prior to compare it with"
         elif not assessment.calibrations:
@@ -372,14 +372,14 @@ def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
         )
 
 
-def _doubts(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
+def _fit_warnings(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     names = short_names(list(assessment.calibrations))
     for file, calibration in assessment.calibrations.items():
-        for doubt in calibration.doubts:
-            yield "caution", f"{names[file]} was in doubt before it was fitted: {doubt}"
+        for warning in calibration.doubts:
+            yield "caution", f"{names[file]} has a warning from before it was fitted: {warning}"
 
 
-def _unless_doubted(tone: Tone, assessment: Assessment, candidate: str) -> Tone:
+def _unless_warned(tone: Tone, assessment: Assessment, candidate: str) -> Tone:
     """A reference that is wrong flatters the calibration that was fitted to it."""
     calibration = assessment.calibrations.get(candidate)
     return "caution" if tone == "good" and calibration is not None and calibration.doubts else tone

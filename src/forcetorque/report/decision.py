@@ -11,8 +11,8 @@ from typing import TypeVar
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.calibration.summary import LITTLE_LEARNT, learnt_directions, to_learn
 from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
-from forcetorque.evaluation.load_cases.section import LOAD_CASES
 from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts
+from forcetorque.evaluation.section import LOAD_CASES
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.sensor_run import SensorRun
@@ -44,12 +44,12 @@ def decide_uses(
     calibrations: Sequence[Mapping[str, Mapping[str, Calibration]]],
     demands: Demands,
 ) -> tuple[tuple[UseVerdict, ...], tuple[Undecided, ...]]:
-    """Judge every calibration over all recordings whose validation intervals it has not seen.
+    """Decide on every calibration over all recordings whose validation intervals were not fitted.
 
     Args:
         runs: For every experiment the runs of the judged sensors, by sensor.
         calibrations: For every experiment calibrations by name of their file, by sensor.
-        demands: Limits, whose load cases are judged too.
+        demands: Limits, whose load cases are evaluated too.
 
     Returns:
         Verdicts, and calibrations and sensors on which there is none.
@@ -69,7 +69,7 @@ def decide_uses(
             for file, one in groups.get(key[0], {}).items()
         }
         if not files:
-            refuse(key, None, "no calibration was given; without one nothing tells what its errors will be")
+            refuse(key, None, "no calibration was given; without one no error can be predicted")
         for file, calibration in files.items():
             try:
                 campaign = Campaign(_unseen(own, file, calibration))
@@ -81,7 +81,7 @@ def decide_uses(
 
 
 def sensor_keys(uses: Sequence[UseVerdict], undecided: Sequence[Undecided]) -> list[SensorKey]:
-    """Name the sensors of which something is said.
+    """List the sensors that have a verdict or a reason for none.
 
     Args:
         uses: Verdicts.
@@ -95,7 +95,7 @@ def sensor_keys(uses: Sequence[UseVerdict], undecided: Sequence[Undecided]) -> l
 
 
 def sensor_key(run: SensorRun) -> SensorKey:
-    """Tell sensors apart.
+    """Identify a sensor.
 
     Args:
         run: A sensor in a recording.
@@ -131,37 +131,37 @@ def _accepted(runs: Sequence[SensorRun], file: str, calibration: Calibration) ->
         yield run
 
 
-_Said = TypeVar("_Said", bound=Hashable)
+_Text = TypeVar("_Text", bound=Hashable)
 
 
-def gathered(said: Iterable[tuple[str, _Said]]) -> list[tuple[tuple[str, ...], _Said]]:
-    """Put together what is said of several in the same words.
+def grouped_by_text(pairs: Iterable[tuple[str, _Text]]) -> list[tuple[tuple[str, ...], _Text]]:
+    """Group names with the same text.
 
     Args:
-        said: Name of whom something is about, and what is said.
+        pairs: Pairs of a name and a text.
 
     Returns:
-        Names, each once, and what is said of them; in the order in which it first comes.
+        Names, each once, with their text; in the order of first occurrence.
     """
-    about: dict[_Said, dict[str, None]] = {}
-    for name, what in said:
-        about.setdefault(what, {})[name] = None
-    return [(tuple(names), what) for what, names in about.items()]
+    names_of: dict[_Text, dict[str, None]] = {}
+    for name, text in pairs:
+        names_of.setdefault(text, {})[name] = None
+    return [(tuple(names), text) for text, names in names_of.items()]
 
 
-def said_once(sentences: Iterable[tuple[str, str]], everyone: Collection[str]) -> list[str]:
-    """Say every sentence once.
+def texts_with_names(sentences: Iterable[tuple[str, str]], everyone: Collection[str]) -> list[str]:
+    """List every text once.
 
     Args:
-        sentences: Name of whom a sentence is about, and the sentence.
-        everyone: Names of all of whom something might be said.
+        sentences: Pairs of a name and a text.
+        everyone: All names.
 
     Returns:
-        A sentence by itself if it is about everyone, else behind the names.
+        A text by itself if it holds for all names, else behind its names.
     """
     return [
         sentence if set(names) == set(everyone) else f"{', '.join(names)}: {sentence}"
-        for names, sentence in gathered(sentences)
+        for names, sentence in grouped_by_text(sentences)
     ]
 
 
@@ -183,7 +183,7 @@ def next_steps(
     calibrations: Mapping[str, Calibration],
     runs: Mapping[str, SensorRun],
 ) -> NextSteps:
-    """Say what to do next about a sensor.
+    """List the next steps for a sensor.
 
     Args:
         key: Name of the sensor, and serial number.
@@ -198,10 +198,10 @@ def next_steps(
     names = short_names(list(calibrations))
     steps = [
         *_today(uses, names),
-        *said_once(
+        *texts_with_names(
             ((names[verdict.candidate], step) for verdict in uses for step in _remedies(verdict)), names.values()
         ),
-        *said_once(_to_record(uses, calibrations, names), names.values()),
+        *texts_with_names(_to_record(uses, calibrations, names), names.values()),
         *_plan(_to_plan(uses, [*runs.values()]), calibrations, runs, names),
         *_begin(undecided, key[0], [*runs], names),
         *_state_use(uses),
@@ -211,10 +211,11 @@ def next_steps(
 
 def _today(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[str]:
     """What to do with the calibrations as they are, those and those uses together of which it is the same."""
-    by_calibration = gathered(
+    by_calibration = grouped_by_text(
         (f"“{verdict.load_case}”", (names[verdict.candidate], _as_it_is(verdict))) for verdict in uses
     )
-    for calibrations, (cases, words) in gathered((name, (cases, words)) for cases, (name, words) in by_calibration):
+    by_cases = ((name, (cases, words)) for cases, (name, words) in by_calibration)
+    for calibrations, (cases, words) in grouped_by_text(by_cases):
         yield words.format(calibration=" and ".join(calibrations), use=" and ".join(cases))
 
 
@@ -237,8 +238,8 @@ def _instead(verdict: UseVerdict) -> str:
         return " Nothing is known of another matrix that could take its place."
     if all(row.allowed is None or most <= row.allowed for row, most in pairs):
         return (
-            " The matrix that it came from (the prior) may be used there if the errors that it shows on judged "
-            "intervals bear it out: its predicted errors are small enough."
+            " The matrix that it came from (the prior) may be used there if the errors that it shows on "
+            "validation intervals confirm it: its predicted errors are small enough."
         )
     judged = [(row, most) for row, most in pairs if row.allowed is not None] or pairs
     worse = all(most >= row.after_at_most for row, most in judged)
@@ -265,7 +266,7 @@ def _to_record(
         advice = None if rows is None else to_learn(rows)
         if advice is not None:
             little = ", ".join(row.direction for row in rows or () if row.learnt < LITTLE_LEARNT)
-            yield names[verdict.candidate], f"The recordings taught little of loads along {little}: {advice}."
+            yield names[verdict.candidate], f"The recordings gave little information on loads along {little}: {advice}."
 
 
 def _predicts_too_much(verdict: UseVerdict) -> bool:
@@ -291,14 +292,14 @@ def _plan(
     runs: Mapping[str, SensorRun],
     names: Mapping[str, str],
 ) -> Iterator[str]:
-    """What to record first for the use that a calibration is farthest from, and the command that says what then."""
+    """The first recording for the load case that a calibration is farthest from, and the command for the others."""
     tables = [run.experiment.section(PLAN) for run in runs.values()]
     if any(table is not None and table.clearance_deg is not None for table in tables):
         first = [
             (names[file], _first_recording(calibrations[file], min(verdicts, key=_chance), [*runs.values()]))
             for file, verdicts in wanted.items()
         ]
-        yield from said_once(first, names.values())
+        yield from texts_with_names(first, names.values())
         needed = ""
     else:
         needed = "; it needs clearance_deg, what joints keep away from their limits, in [plan] of the experiment file"
@@ -333,9 +334,9 @@ def _begin(
 
 
 def _state_use(uses: Sequence[UseVerdict]) -> Iterator[str]:
-    """Nobody can decide on loads that nobody stated."""
+    """Ask for the load case where the default is used."""
     for loads in dict.fromkeys(verdict.loads for verdict in uses if not verdict.stated):
         yield (
-            f"Check that this is your use. Nobody stated one, so {loads}, was taken for granted; state your loads, and "
-            "the error that you allow, as [[load_case]] in the experiment file, and write this report again."
+            f"Check that this is your use. The experiment file specifies none, so {loads}, was assumed; specify your "
+            "loads, and the error that you allow, as [[load_case]] in the experiment file, and write this report again."
         )

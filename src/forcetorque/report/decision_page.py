@@ -10,7 +10,7 @@ from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import UseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.report.assessment import Assessment, VerdictLine
-from forcetorque.report.decision import NextSteps, Undecided, gathered, said_once
+from forcetorque.report.decision import NextSteps, Undecided, grouped_by_text, texts_with_names
 from forcetorque.report.experiment_assessment import ExperimentAssessment
 from forcetorque.results.document.content import Block, Figure, List, Picture, Place, Section, Tone, Verdict
 from forcetorque.results.figures import two_digits
@@ -21,7 +21,7 @@ _WORDS = (
     "load that moved, do not speak against it.",
     "do not use: that probability is 10 % or less, or such data speak against it.",
     "not enough data: neither of the two.",
-    "What is allowed is stated with the load case; where it is not, it is a twentieth of the loads.",
+    "The allowed error is specified with the load case; by default it is a twentieth of the loads.",
 )
 """What the words of a verdict mean."""
 _MOST_SENTENCES = 4
@@ -91,7 +91,7 @@ def _against(
     assessed: Sequence[VerdictLine],
 ) -> Iterator[Verdict | List]:
     """All that speaks against what the sentences above predict: measured errors, what is bad, and other warnings."""
-    for text in said_once(_beyond_predicted(uses, names), names.values()):
+    for text in texts_with_names(_beyond_predicted(uses, names), names.values()):
         yield Verdict(tone=Tone.CAUTION, word="measured", text=f"{text}.")
     # doubts about fitted data are reasons of every verdict
     reasoned = [doubt for one in calibrations.values() for doubt in one.doubts] if uses else []
@@ -105,7 +105,7 @@ def _against(
         for reason in verdict.reasons[first:]
         if reason.against is not None and reason.remedy is not None
     ]
-    warnings = [*said_once(reasons, names.values()), *(line.text for line in lines if line.tone == "caution")]
+    warnings = [*texts_with_names(reasons, names.values()), *(line.text for line in lines if line.tone == "caution")]
     if warnings:
         yield List(points=tuple(dict.fromkeys(f"warning: {text}" for text in warnings)))
 
@@ -173,7 +173,7 @@ def _other_reasons(uses: Sequence[UseVerdict], names: Mapping[str, str], against
         for reason in verdict.reasons[first:]
         if reason.against is None and not any(reason.text in text for text in shown)
     )
-    points = said_once(reasons, names.values())
+    points = texts_with_names(reasons, names.values())
     return [List(points=tuple(points))] if points else []
 
 
@@ -213,8 +213,8 @@ TITLE = "Better than the prior?"
 """Title of the section."""
 
 
-def judgement_section(experiments: Sequence[ExperimentAssessment]) -> Section:
-    """Put together what the judged data say of every calibration against its prior.
+def prior_comparison_section(experiments: Sequence[ExperimentAssessment]) -> Section:
+    """Compare every calibration with its prior on the validation data.
 
     Args:
         experiments: What is said about every experiment.
@@ -227,7 +227,7 @@ def judgement_section(experiments: Sequence[ExperimentAssessment]) -> Section:
         for experiment in experiments
         for sensor in experiment.sensors
     }
-    sentences = gathered(
+    sentences = grouped_by_text(
         pair
         for name, assessment in assessments.items()
         for pair in _sentences(name if len(assessments) > 1 else "", assessment)

@@ -52,16 +52,16 @@ def assess_skin(patches: PatchExperiment | None) -> tuple[tuple[SkinWrench, ...]
     Returns:
         Contacts of every patch that has a table, and sentences about the others.
     """
-    answers, left_out = [], []
+    contacts, left_out = [], []
     for patch in () if patches is None else patches.patches:
         if patches is None or patch.table is None:
             left_out.append(f"{patch.name}: [[patch]] states no table, which `forcetorque skin calibrate` makes")
             continue
         try:
-            answers.append(skin_wrench(patches, patch.table, patch=patch.name))
+            contacts.append(skin_wrench(patches, patch.table, patch=patch.name))
         except ForceTorqueError as error:
             left_out.append(f"{patch.name}: {error}")
-    return tuple(answers), tuple(left_out)
+    return tuple(contacts), tuple(left_out)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -77,7 +77,7 @@ class TorqueAssessment:
 
 
 def assess_torques(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> TorqueAssessment:
-    """Tell joint torques where something but force-torque sensors tells them too.
+    """Assess joint torques where other sources than force-torque sensors measure them too.
 
     Args:
         experiment: The experiment.
@@ -150,7 +150,7 @@ def assess_experiment(
     runs: Mapping[str, SensorRun] | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> ExperimentAssessment:
-    """Ask every question about the sensors of an experiment.
+    """Run every analysis of the sensors of an experiment.
 
     Args:
         experiment: The experiment.
@@ -158,11 +158,11 @@ def assess_experiment(
             none has.
         file: Name of its file.
         demands: Limits and other sensors.
-        runs: The sensors to judge by name, where other questions share what they have computed; made if left out.
+        runs: The sensors by name, to share what other analyses computed of them; made if left out.
         progress: Called with what is done next.
 
     Returns:
-        The answers.
+        The contacts.
     """
     sensors = []
     for sensor in experiment.sensors:

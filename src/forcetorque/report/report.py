@@ -212,7 +212,7 @@ def report(
     viewer: Callable[[int], Section] | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> Report:
-    """Say everything about the sensors of experiments.
+    """Assess the sensors of experiments and make the report.
 
     Args:
         experiments: Name of the file, and experiment.

@@ -29,7 +29,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.inspection.inspect import finding_table
 from forcetorque.report import record_tables as tables
 from forcetorque.report.assessment import Assessment
-from forcetorque.report.decision_page import judgement_section
+from forcetorque.report.decision_page import prior_comparison_section
 from forcetorque.report.experiment_assessment import ExperimentAssessment
 from forcetorque.results.document.content import Block, Document, Figure, List, Page, Picture, Section, Text
 from forcetorque.results.table import Table, short_names, table_of, without_vague
@@ -39,8 +39,8 @@ from forcetorque.skin.report_blocks import skin_section
 from forcetorque.viewer.page import MOST_SAMPLES, page_of
 from forcetorque.viewer.scene_builder import scene_of
 
-Question = tuple[str, Callable[[Assessment], Iterator[Block]]]
-"""Title of a section, and what makes its blocks."""
+SensorSection = tuple[str, Callable[[Assessment], Iterator[Block]]]
+"""Title of a section, and the function that makes its blocks."""
 
 
 def _errors(sensor: Assessment) -> Iterator[Block]:
@@ -146,10 +146,10 @@ def _acceptance(sensor: Assessment) -> Iterator[Block]:
             yield criteria_table(criteria, f"Criteria of the acceptance file: {name}")
 
 
-ERRORS: Final[Question] = ("Errors on data that was not fitted", _errors)
-"""The first question."""
-QUESTIONS: Final[tuple[Question, ...]] = (
-    ("What the recordings taught", learnt_blocks),
+ERRORS: Final[SensorSection] = ("Errors on data that was not fitted", _errors)
+"""The first section about the sensors."""
+SENSOR_SECTIONS: Final[tuple[SensorSection, ...]] = (
+    ("Information gained from the recordings", learnt_blocks),
     ("Uncertainty", uncertainty_blocks),
     ("Choice of lambda", lambda_blocks),
     ("Excitation", excitation_blocks),
@@ -159,7 +159,7 @@ QUESTIONS: Final[tuple[Question, ...]] = (
     ("What the sensor can do", _static),
     ("Acceptance", _acceptance),
 )
-"""The questions after whether it is better than the prior."""
+"""The sections about the sensors after the comparison with the prior."""
 
 
 def report_document(
@@ -172,7 +172,7 @@ def report_document(
     results: Mapping[str, Mapping[str, Any]],
     viewers: Sequence[Section],
 ) -> Document:
-    """Put numbers and figures into the order in which they are asked for.
+    """Arrange numbers and figures in sections.
 
     Args:
         experiments: What is said about every experiment.
@@ -186,8 +186,8 @@ def report_document(
     Returns:
         The document: the pages, then all that they rest on, folded.
     """
-    parts = [_question(*ERRORS, experiments), judgement_section(experiments)]
-    parts += [_question(name, make, experiments) for name, make in QUESTIONS]
+    parts = [_over_sensors(*ERRORS, experiments), prior_comparison_section(experiments)]
+    parts += [_over_sensors(name, make, experiments) for name, make in SENSOR_SECTIONS]
     parts += [_parts(experiment) for experiment in experiments]
     parts += [skin_section(experiment) for experiment in experiments]
     parts += [torque_section(experiment) for experiment in experiments]
@@ -226,7 +226,7 @@ def result_figures(content: Mapping[str, Any]) -> Iterator[Block]:
         rows = [ContestLoadRow.model_validate(row) for row in content["loads"]]
         yield Figure(
             picture=Picture(lambda: contest_figure(rows)),
-            caption="Errors of every contestant over the loads, on which nobody was fitted, with 95 % intervals.",
+            caption="Errors of every contestant over the loads, on which none was fitted, with 95 % intervals.",
             description="Six plots over the load, one per component, with a curve for each contestant.",
         )
     elif content["schema"] == Response.model_fields["schema_name"].default and (content["curve"] or content["decays"]):
@@ -243,22 +243,22 @@ def _counted(count: int, noun: str) -> str:
     return f"{count} {noun if count == 1 else several}"
 
 
-def _question(
+def _over_sensors(
     title: str, make: Callable[[Assessment], Iterator[Block]], experiments: Sequence[ExperimentAssessment]
 ) -> Section:
-    """One question to all sensors: a part for each if there are several."""
+    """A section over all sensors: a part for each if there are several."""
     several = len(experiments) > 1
-    answers = {
+    blocks_of = {
         f"{sensor.sensor} ({sensor.serial})" + (f", {experiment.experiment}" if several else ""): tuple(
             _drawn(make(sensor))
         )
         for experiment in experiments
         for sensor in experiment.sensors
     }
-    if len(answers) == 1:
-        return Section(title=title, blocks=next(iter(answers.values())))
+    if len(blocks_of) == 1:
+        return Section(title=title, blocks=next(iter(blocks_of.values())))
     return Section(
-        title=title, sections=tuple(Section(title=name, blocks=blocks) for name, blocks in answers.items() if blocks)
+        title=title, sections=tuple(Section(title=name, blocks=blocks) for name, blocks in blocks_of.items() if blocks)
     )
 
 
@@ -268,9 +268,9 @@ def _parts(experiment: ExperimentAssessment) -> Section:
     if not residuals:
         return Section(title=title)
     words = (
-        "What the sensors around a part read, added up, is what moves its bodies, whatever the rest of the robot "
-        "touches. What is left, by the first calibration of each sensor on data that was not fitted: root mean square; "
-        "offsets are those of the session where it was fitted, else the best."
+        "The sum of the wrenches at the sensors around a link group moves its bodies, independently of contacts "
+        "elsewhere on the robot. The residual, by the first calibration of each sensor on data that was not fitted: "
+        "root mean square; offsets are those of the session where it was fitted, else the best."
     )
     figure = Figure(
         picture=Picture(lambda: joint_figure(residuals)),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of any kind, told apart by the schema that they state."""
+"""Files of any kind, sorted by the schema that they state."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class ReportSources:
 
 
 def sort_sources(paths: Sequence[Path]) -> ReportSources:
-    """Tell files apart by the schema that they state.
+    """Sort files by the schema that they state.
 
     Args:
         paths: The files.

@@ -103,7 +103,7 @@ def _clouds(sensor: SensorStudy) -> dict[str, FloatArray]:
 def _lambda_force_figure(sensor: SensorStudy, offset: Offset) -> Figure:
 
     study = sensor.study
-    pooled, best = study.judgements[offset].over(), study.choices[offset].by_magnitude
+    pooled, best = study.errors[offset].pooled(), study.choices[offset].by_magnitude
     curves: dict[str, dict[str, list[float]]] = {}
     for candidate, value in zip(study.fits.candidates, pooled.force_mean, strict=False):
         curves.setdefault(candidate.data_set, {}).setdefault(candidate.kind.name, []).append(float(value))

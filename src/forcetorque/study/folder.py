@@ -31,7 +31,7 @@ def write_study_folder(
 
     Args:
         folder: Folder to make; it is there as a whole or not at all.
-        studies: Studies of sensors, asked for one after the other, so that none need wait in memory.
+        studies: Studies of sensors, computed one after the other, so that only one is in memory.
         experiments: Experiment files that were studied.
         progress: Called with what is done next.
 

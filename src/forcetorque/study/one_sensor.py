@@ -12,7 +12,6 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError, known_names
 from forcetorque.calibration.thesis.calibrate import estimation_of, sphere_centre, sphere_labels
 from forcetorque.calibration.thesis.regression import Regression, require_determined
-from forcetorque.evaluation.candidate_errors import PushError, evaluator_of_work, push_error
 from forcetorque.experiment.calibration.estimation_type import (
     ESTIMATION_TYPES,
     Estimation,
@@ -24,13 +23,13 @@ from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset, ValidationSet
 from forcetorque.study.candidate import SWEEP_LAMBDAS, Candidate, GenerativeCandidate, relative_lambda
+from forcetorque.study.candidate_errors import BlockErrors, PushError, evaluator_of_work, push_error
 from forcetorque.study.selection import (
-    Judgement,
     SessionScore,
     best_by_axis,
     best_by_magnitude,
     choosable,
-    judge,
+    evaluate_models,
     push_deviations,
     scored_across_sessions,
 )
@@ -192,7 +191,7 @@ class Study:
     """Generative fits of the combinations that allow one."""
     workbench: WrenchModel | None
     """The prior matrix, judged with an offset from the judged interval in both modes; None for a new sensor."""
-    judgements: Mapping[Offset, Judgement]
+    errors: Mapping[Offset, BlockErrors]
     """Errors by offset mode, of the candidates in their order, then of the workbench matrix."""
     choices: Mapping[Offset, Choice]
     """The best by offset mode."""
@@ -209,7 +208,7 @@ class Study:
 
     @property
     def models(self) -> tuple[WrenchModel, ...]:
-        """Models in the order of the judgements."""
+        """Models in the order of the errors."""
         fitted = tuple(candidate.model for candidate in self.candidates)
         return fitted if self.workbench is None else (*fitted, self.workbench)
 
@@ -225,7 +224,7 @@ class Study:
         return self.candidates[index].name if index < len(self.candidates) else WORKBENCH
 
     def push_error(self, index: int) -> PushError | None:
-        """Judge a model by pushes that were not recorded.
+        """Compute the errors of a model for pushes that were not recorded.
 
         Args:
             index: Its index.
@@ -255,13 +254,13 @@ def run_study(
     Args:
         calibration: Calibration data in the order of the files.
         combinations: Labels of the data that are fitted together, by the name of the combination.
-        validation: Data to judge on.
+        validation: Validation data.
         prior: Matrix to stay close to, the workbench's; shape (6, c); None for a sensor without one.
         variables: What the columns of `variables` in the data are.
         kinds: Estimation types.
         lambdas: Lambdas of (5.4); counts2; those of the thesis' tables, six times as printed there, if left out.
         sphere: Labels of the data that draw the sphere of the sphere types.
-        generative: Generative fits of the combinations, to be judged beside the others.
+        generative: Generative fits of the combinations, to be evaluated beside the others.
         truth: True matrix, of a simulated sensor; shape (6, c); None if it is not known.
         progress: Called with a line for people at every step.
 
@@ -269,7 +268,7 @@ def run_study(
         The study.
 
     Raises:
-        FitError: If there is nothing to judge on, nothing can be fitted, or the data determine none of the fits.
+        FitError: If there is nothing to evaluate on, nothing can be fitted, or the data determine none of the fits.
     """
     if not validation:
         raise FitError('expected at least one interval with use = "validation", got none')
@@ -299,29 +298,29 @@ def run_study(
     session_offsets = {k: c.offsets for k, c in enumerate(candidates) if isinstance(c, GenerativeCandidate)}
     determined = np.array([candidate.determined for candidate in candidates])
     evaluator = evaluator_of_work(len(KNOWN_BEFORE) * len(models), sum(len(one.time_s) for one in validation))
-    judgements, choices = {}, {}
+    errors, choices = {}, {}
     for source in KNOWN_BEFORE:
         say(f"judging {len(models)} matrices on {len(validation)} intervals, offset {source}")
         sources = [source] * len(candidates) + [Offset.FIRST_SECOND] * (workbench is not None)
-        judgements[source] = judge(
+        errors[source] = evaluate_models(
             models, sources, validation, session_offsets=session_offsets, evaluator=evaluator, progress=say
         )
-        choices[source] = _choice(judgements[source], determined)
+        choices[source] = _choice(errors[source], determined)
     return Study(
         fits=fits,
         generative=tuple(generative),
         workbench=workbench,
-        judgements=judgements,
+        errors=errors,
         choices=choices,
         push_deviations=push_deviations(candidates, generative),
         truth=truth,
     )
 
 
-def _choice(judgement: Judgement, determined: BoolArray) -> Choice:
-    candidates = choosable(judgement.over(), determined)
+def _choice(errors: BlockErrors, determined: BoolArray) -> Choice:
+    candidates = choosable(errors.pooled(), determined)
     return Choice(
         by_magnitude=best_by_magnitude(candidates),
         by_axis=best_by_axis(candidates),
-        across_sessions=tuple(scored_across_sessions(judgement, determined)),
+        across_sessions=tuple(scored_across_sessions(errors, determined)),
     )

@@ -10,13 +10,13 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.evaluation.candidate_errors import LEVER_M, PUSH_N, PushError, push_error
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.results.number_text import number, with_error
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues, table_of
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate import CONVENTION
+from forcetorque.study.candidate_errors import LEVER_M, PUSH_N, PushError, push_error
 from forcetorque.study.one_sensor import WORKBENCH, Study
 from forcetorque.study.selection import FAR_SD
 from forcetorque.study.study import SensorStudy
@@ -124,7 +124,7 @@ _WORSE = 1.05
 
 
 def unfitted_load(study: Study, rows: Sequence[int]) -> UnfittedLoad:
-    """Judge a model that takes its six rows from models of a study.
+    """Evaluate a model that takes its six rows from models of a study.
 
     Args:
         study: The study.
@@ -178,8 +178,8 @@ def _far(study: Study, rows: Sequence[int]) -> Iterator[str]:
     beyond = [name for name, value in deviations.items() if value > FAR_SD]
     if beyond:
         yield (
-            f"a push of {PUSH_N:g} N reads {max(deviations.values()):.1f} standard deviations away from what prior and "
-            f"data tell together ({', '.join(beyond)}): a load that was not fitted may be read wrong; "
+            f"a push of {PUSH_N:g} N reads {max(deviations.values()):.1f} standard deviations away from the estimate "
+            f"of prior and data together ({', '.join(beyond)}): a load that was not fitted may be measured wrong; "
             f"{_instead(study, rows)}"
         )
 
@@ -231,7 +231,7 @@ class StudiedSensor(Row):
     generative: int
     """Number of generative fits, one per combination that allows it."""
     validation_samples: int
-    """Samples that they were judged on."""
+    """Number of validation samples."""
     combinations: tuple[FittedCombination, ...]
     """What was fitted together."""
     left_out: tuple[str, ...]
@@ -253,7 +253,7 @@ class StudiedSensor(Row):
         """
         yield (
             f"{self.sensor} ({self.serial}): {self.candidates} matrices of {len(self.combinations)} data sets and "
-            f"{self.generative} generative fits, judged on {self.validation_samples} samples that were not fitted"
+            f"{self.generative} generative fits, evaluated on {self.validation_samples} samples that were not fitted"
         )
         yield self._best()
         yield self._by_axis()
@@ -357,7 +357,7 @@ class Studies(Result):
 
 
 def studied_sensor(study: SensorStudy) -> StudiedSensor:
-    """Say what the study of a sensor comes to.
+    """Summarise the study of a sensor.
 
     Args:
         study: The study.
@@ -366,14 +366,14 @@ def studied_sensor(study: SensorStudy) -> StudiedSensor:
         The choice; no files are written.
     """
     core, identity = study.study, study.data.identity
-    judged = core.judgements[Offset.FIRST_SECOND]
+    judged = core.errors[Offset.FIRST_SECOND]
     return StudiedSensor(
         sensor=identity.name,
         serial=identity.serial,
         folder=None,
         candidates=len(core.fits.candidates),
         generative=len(core.generative),
-        validation_samples=int(judged.errors.count.sum()),
+        validation_samples=int(judged.count.sum()),
         combinations=tuple(
             FittedCombination(
                 name=combination.name,
@@ -393,19 +393,19 @@ def studied_sensor(study: SensorStudy) -> StudiedSensor:
 
 
 def study_warnings(study: SensorStudy) -> tuple[str, ...]:
-    """Say what makes the choice doubtful.
+    """List the warnings about the choice.
 
     Args:
         study: The study.
 
     Returns:
-        A sentence per session that is fitted and judged, one per type that a combination cannot give, one per choice
+        A text per session that is fitted and validated, one per type that a combination cannot give, one per choice
         that makes the sensor worse, or may, at loads that were not fitted, and what experiment files add to their logs.
     """
     fitted = {interval.session for interval in study.data.calibration}
     shared = sorted({interval.session for interval in study.data.validation} & fitted)
     return (
-        *(f"session {name!r} is fitted and judged: its score is not what another session gives" for name in shared),
+        *(f"session {name!r} is fitted and validated: its score is not that of another session" for name in shared),
         *(f"left out: {sentence}" for sentence in study.left_out),
         *unfitted_warnings(study),
         *study.data.added,
@@ -413,7 +413,7 @@ def study_warnings(study: SensorStudy) -> tuple[str, ...]:
 
 
 def _mode(study: Study, offset: Offset) -> ModeChoice:
-    choice, pooled = study.choices[offset], study.judgements[offset].over()
+    choice, pooled = study.choices[offset], study.errors[offset].pooled()
     return ModeChoice(
         offset=offset,
         best=_chosen(study, offset, choice.by_magnitude),
@@ -443,7 +443,7 @@ def _mode(study: Study, offset: Offset) -> ModeChoice:
 
 
 def _chosen(study: Study, offset: Offset, index: int) -> ChosenCandidate:
-    pooled, spread = study.judgements[offset].over(), study.judgements[offset].part().standard_error()
+    pooled, spread = study.errors[offset].pooled(), study.errors[offset].standard_error()
     # a generative fit, and the workbench, have no lambda
     candidate = study.fits.candidates[index] if index < len(study.fits.candidates) else None
     return ChosenCandidate(

@@ -3,59 +3,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
-from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors, pushes
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.validation_offset import Offset, ValidationSet, mean_offset
 from forcetorque.robot.mechanics.estimate import Evaluator
 from forcetorque.study.candidate import Candidate, GenerativeCandidate
+from forcetorque.study.candidate_errors import BlockErrors, PooledErrors, candidate_errors, pushes
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Judgement:
-    """Errors of k models on every validation set, in one offset mode."""
-
-    errors: CandidateErrors
-    """Errors in blocks of time, set after set."""
-    sessions: tuple[str, ...]
-    """Session of every block."""
-
-    def over(self, sessions: Collection[str] | None = None) -> PooledErrors:
-        """Pool the errors of some sessions.
-
-        Args:
-            sessions: The sessions; all if None.
-
-        Returns:
-            Mean errors of every model over all their samples.
-        """
-        return self.part(sessions).pooled()
-
-    def part(self, sessions: Collection[str] | None = None) -> CandidateErrors:
-        """Give the blocks of some sessions.
-
-        Args:
-            sessions: The sessions; all if None.
-
-        Returns:
-            Errors of every model in these blocks.
-        """
-        mask = np.array([sessions is None or session in sessions for session in self.sessions])
-        return CandidateErrors(
-            count=self.errors.count[mask],
-            mean_absolute=self.errors.mean_absolute[:, mask],
-            force_mean=self.errors.force_mean[:, mask],
-            moment_mean=self.errors.moment_mean[:, mask],
-        )
-
-
-def judge(
+def evaluate_models(
     models: Sequence[WrenchModel],
     sources: Sequence[Offset],
     sets: Sequence[ValidationSet],
@@ -63,13 +25,13 @@ def judge(
     session_offsets: Mapping[int, Mapping[str, FloatArray]] | None = None,
     evaluator: Evaluator | None = None,
     progress: Callable[[str], None] | None = None,
-) -> Judgement:
-    """Judge models on validation sets; samples that can give an offset are judged in neither mode.
+) -> BlockErrors:
+    """Evaluate models on validation sets; the samples that give an offset are evaluated in neither mode.
 
     Args:
         models: The models; each has no variable, or all those of the sets.
         sources: Which offset each of them is judged with.
-        sets: What they are judged on, at least one.
+        sets: Validation sets, at least one.
         session_offsets: Offsets by session of those models that have several, by their index; a set of another session
             is judged with that of the model.
         evaluator: Who computes; by the amount of work of every set if None.
@@ -101,13 +63,11 @@ def judge(
         )
         errors.append(part)
         sessions += [one.session] * len(part.count)
-    return Judgement(
-        errors=CandidateErrors(
-            count=np.concatenate([part.count for part in errors]),
-            mean_absolute=np.concatenate([part.mean_absolute for part in errors], axis=1),
-            force_mean=np.concatenate([part.force_mean for part in errors], axis=1),
-            moment_mean=np.concatenate([part.moment_mean for part in errors], axis=1),
-        ),
+    return BlockErrors(
+        count=np.concatenate([part.count for part in errors]),
+        mean_absolute=np.concatenate([part.mean_absolute for part in errors], axis=1),
+        force_mean=np.concatenate([part.force_mean for part in errors], axis=1),
+        moment_mean=np.concatenate([part.moment_mean for part in errors], axis=1),
         sessions=tuple(sessions),
     )
 
@@ -236,21 +196,21 @@ class SessionScore(ArrayRecord):
     """Mean norm of the force that the prior matrix gives on this session; N; None without prior."""
 
 
-def scored_across_sessions(judgement: Judgement, determined: BoolArray) -> list[SessionScore]:
+def scored_across_sessions(errors: BlockErrors, determined: BoolArray) -> list[SessionScore]:
     """Choose on all sessions but one and score on that one, for every session in turn.
 
     Args:
-        judgement: Errors of the models.
+        errors: Errors of the models.
         determined: Whether each candidate may be chosen; shape (k,). Models that follow, the prior, are not chosen.
 
     Returns:
         One score per session; none if there is only one session.
     """
-    sessions = list(dict.fromkeys(judgement.sessions))
+    sessions = list(dict.fromkeys(errors.sessions))
     scores = []
     for session in sessions if len(sessions) > 1 else ():
-        others = choosable(judgement.over([other for other in sessions if other != session]), determined)
-        part = judgement.part([session])
+        others = choosable(errors.pooled([other for other in sessions if other != session]), determined)
+        part = errors.of_sessions([session])
         here = part.pooled()
         chosen, rows = best_by_magnitude(others), best_by_axis(others)
         scores.append(
@@ -287,13 +247,13 @@ def choosable(errors: PooledErrors, determined: BoolArray) -> PooledErrors:
 
 
 FAR_SD: Final = 3.0
-"""Standard deviations beyond which a candidate has left what prior and data tell together."""
+"""Standard deviations beyond which a candidate contradicts the estimate from prior and data."""
 
 
 def push_deviations(
     candidates: Sequence[Candidate | GenerativeCandidate], generative: Sequence[GenerativeCandidate]
 ) -> FloatArray:
-    """Tell how far the candidates read pushes from what the generative fit of the same data reads.
+    """Compare the wrenches of candidates for pushes with those of the generative fit of the same data.
 
     Args:
         candidates: The k candidates.

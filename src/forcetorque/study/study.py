@@ -53,7 +53,7 @@ class CalibrationMaker:
             The calibration.
         """
         best = self.study.choices[offset].by_magnitude
-        value = self.study.judgements[offset].over().force_mean[best]
+        value = self.study.errors[offset].pooled().force_mean[best]
         rule = f"smallest mean contact force, offset {offset}: {value:.4g} N by {self.study.name(best)}"
         return self._of(self.study.candidates[best], rule)
 
@@ -226,7 +226,7 @@ def study_sensor(
     created: str,
     progress: Callable[[str], None] | None = None,
 ) -> SensorStudy:
-    """Fit and judge every candidate, and make calibrations of the best.
+    """Fit and evaluate every candidate, and make calibrations of the best.
 
     Args:
         data: Samples of the sensor.
@@ -244,14 +244,14 @@ def study_sensor(
 
     Raises:
         ExperimentError: If all types need variables that the sensor has not, or combinations cannot be made.
-        FitError: If there is nothing to judge on, or nothing can be fitted.
+        FitError: If there is nothing to evaluate on, or nothing can be fitted.
     """
     has_variables = bool(data.sensor.variables)
     chosen_kinds = [kind for kind in kinds if has_variables or not kind.with_variables]
     if kinds and not chosen_kinds:
         raise ExperimentError(
             f"{', '.join(kind.name for kind in kinds)} need a linear variable such as temperature, and the experiment "
-            "files state none; give [[sensor.variable]], or ask for a type without"
+            "files have none; add [[sensor.variable]], or choose a type without"
         )
     drawing = data.sphere if sphere is None else tuple(sphere)
     named = combinations_of(data.calibration) if data_sets is None else _resolved(data.calibration, data_sets)

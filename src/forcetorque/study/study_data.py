@@ -45,7 +45,7 @@ class StudyData:
     calibration: tuple[CampaignInterval, ...]
     """Intervals to fit, in the order of the files."""
     validation: tuple[CampaignInterval, ...]
-    """Intervals to judge on."""
+    """Intervals to validate on."""
     sphere: tuple[str, ...] | None
     """Labels of the intervals that draw the sphere of the sphere types, from the files."""
     experiments: tuple[str, ...]
@@ -63,12 +63,8 @@ class StudyData:
         return tuple(dict.fromkeys(words for recording in self.recordings.values() for words in recording.added))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Share:
-    """What one file holds of a sensor."""
-
-    recording: CampaignRecording
-    parts: list[IntervalSamples]
+_RecordingSamples = tuple[CampaignRecording, list[IntervalSamples]]
+"""A recording of a sensor, and its samples by interval."""
 
 
 def read_study_data(
@@ -86,37 +82,39 @@ def read_study_data(
 
     Raises:
         ExperimentError: If there is no file, a file lacks a sensor, a sensor is not the same in all files, or samples
-            that are fitted are judged too.
+            that are fitted are evaluated too.
     """
     if not paths:
         raise ExperimentError("expected at least one experiment file to study, got none")
     refuse_a_file_twice(paths)
-    shares: dict[str, list[_Share]] = {}
+    recordings: dict[str, list[_RecordingSamples]] = {}
     for path in paths:
         if progress is not None:
             progress(f"reading {path}")
         # the recording goes when its samples are taken: a study may be of more files than memory holds
         experiment = load_experiment(path)
         with stated_in(str(path)):
-            wanted = [experiment.sensor(name) for name in (shares if shares and sensors is None else sensors or ())]
-        # a sensor may be asked for by several names
+            wanted = [
+                experiment.sensor(name) for name in (recordings if recordings and sensors is None else sensors or ())
+            ]
+        # several names may be aliases of one sensor
         for sensor in {sensor.name: sensor for sensor in wanted or experiment.sensors}.values():
             with stated_in(f"{path}: sensor {sensor.name!r}"):
-                shares.setdefault(sensor.name, []).append(_share(SensorRun(experiment, sensor)))
-    return [_joined(of_sensor) for of_sensor in shares.values()]
+                recordings.setdefault(sensor.name, []).append(_recording_samples(SensorRun(experiment, sensor)))
+    return [_joined(of_sensor) for of_sensor in recordings.values()]
 
 
-def _share(run: SensorRun) -> _Share:
+def _recording_samples(run: SensorRun) -> _RecordingSamples:
     variables = [variable.linear.name for variable in run.sensor.variables]
     used = [use for use in (Use.CALIBRATION, Use.VALIDATION) if run.has(use)]
     parts = [part for use in used for part in run.samples(use, variables=variables)]
-    return _Share(recording=CampaignRecording.of(run), parts=parts)
+    return CampaignRecording.of(run), parts
 
 
-def _joined(shares: Sequence[_Share]) -> StudyData:
-    recordings = [share.recording for share in shares]
+def _joined(samples: Sequence[_RecordingSamples]) -> StudyData:
+    recordings = [recording for recording, _ in samples]
     names, first = CampaignNames(recordings), recordings[0]
-    intervals = [interval for share in shares for interval in names.intervals(share.recording, share.parts)]
+    intervals = [interval for recording, parts in samples for interval in names.intervals(recording, parts)]
     calibration = tuple(i for i in intervals if i.part.interval.use is Use.CALIBRATION)
     validation = tuple(i for i in intervals if i.part.interval.use is Use.VALIDATION)
     _refuse_judging_what_was_fitted(first.sensor.name, calibration, validation)
@@ -153,8 +151,8 @@ def _refuse_judging_what_was_fitted(
             )
             if (fitted.part.raw[one] == judged.part.raw[other]).all(axis=1).any():
                 raise ExperimentError(
-                    f"sensor {sensor!r}: samples of the calibration interval {fitted.label!r} are judged in "
-                    f"{judged.label!r} too; judge on data that is not fitted"
+                    f"sensor {sensor!r}: samples of the calibration interval {fitted.label!r} are validated in "
+                    f"{judged.label!r} too; validate on data that is not fitted"
                 )
 
 
@@ -163,7 +161,7 @@ class GenerativeFits:
     """What the generative model makes of the combinations."""
 
     candidates: tuple[GenerativeCandidate, ...]
-    """Fits to be judged."""
+    """Fits to be evaluated."""
     calibrations: Mapping[str, Calibration]
     """The same as artefacts, by combination."""
     left_out: tuple[str, ...]

@@ -77,7 +77,7 @@ def mean_forces(study: Study, source: Offset) -> list[Row]:
         One row per combination and type, a column per lambda, headed in both ways, then their mean; N. The generative
         fits, which have no lambda, and the workbench are last.
     """
-    force = study.judgements[source].over().force_mean
+    force = study.errors[source].pooled().force_mean
     rows: dict[tuple[str, str], Row] = {}
     for candidate, value in zip(study.fits.candidates, force, strict=False):
         row = rows.setdefault((candidate.data_set, candidate.kind.name), _labelled(candidate))
@@ -102,7 +102,7 @@ def best_by_axis_table(study: Study) -> list[Row]:
         One row per component; mean absolute value in N, N m.
     """
     table = []
-    pooled = {source: study.judgements[source].over().mean_absolute for source in KNOWN_BEFORE}
+    pooled = {source: study.errors[source].pooled().mean_absolute for source in KNOWN_BEFORE}
     for axis, component in enumerate(WRENCH_COMPONENTS):
         row: Row = {"axis": component}
         for source in KNOWN_BEFORE:
@@ -126,8 +126,8 @@ def candidate_rows(study: Study) -> list[Row]:
         true matrix is known, the error of pushes that were not recorded; and how many standard deviations of the
         generative fit of the same data set they are read from what that reads.
     """
-    pooled = {source: study.judgements[source].over() for source in KNOWN_BEFORE}
-    spread = {source: study.judgements[source].part().standard_error() for source in KNOWN_BEFORE}
+    pooled = {source: study.errors[source].pooled() for source in KNOWN_BEFORE}
+    spread = {source: study.errors[source].standard_error() for source in KNOWN_BEFORE}
     table = []
     for index in range(len(study.models)):
         row: Row = {"data_set": WORKBENCH}

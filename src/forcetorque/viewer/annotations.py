@@ -30,7 +30,7 @@ class _Sent(BaseModel):
 
 
 class SavedSample(_Sent):
-    """A sample that somebody saved."""
+    """A sample that was saved in the page."""
 
     sample: Annotated[int, Field(ge=0)]
     """Its number."""
@@ -45,7 +45,7 @@ class SavedSample(_Sent):
 
 
 class SavedInterval(_Sent):
-    """An interval that somebody marked."""
+    """An interval that was marked in the page."""
 
     label: Label
     """Its label."""

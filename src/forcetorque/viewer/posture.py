@@ -214,7 +214,7 @@ def root_poses(
             world_R_support = np.eye(3)
         else:
             if isinstance(support, MovingSupport):
-                notes.append(f"support {support.frame!r} moves: it is kept in its place, and upright as its IMU says")
+                notes.append(f"support {support.frame!r} moves: it is kept in its place, and upright by its IMU")
         values[chosen] = _standing(model, posture, support.frame, world_R_support, chosen)
         turn[chosen] = number
     return RootPoses(values=_without_jumps(values, turn), notes=tuple(dict.fromkeys(notes)))

@@ -11,7 +11,6 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
-from forcetorque.evaluation.candidate_errors import pushes
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.recording.recording import Interval, Support, Use
@@ -23,6 +22,7 @@ from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.trace import Trace, trace_movement
+from forcetorque.study.candidate_errors import pushes
 from tests.calibration.push_error import LIMIT_COUNTS
 from tests.scenes.robots import example_robot
 

@@ -167,7 +167,7 @@ def test_what_cannot_be_judged_is_one_line_with_the_file(arm: Path, run: Run) ->
     """Exit code 2, the acceptance file, the sensor, the table and the reason."""
     spec = _write("[offset]\nper_degree = { fz = 1.0 }\n")
     error = run("accept", PARQUET, "--spec", spec, "-c", "fitted.json").error()
-    assert error.startswith("error: limits.toml: sensor 'arm_ft': [offset] cannot be judged: per_degree: expected")
+    assert error.startswith("error: limits.toml: sensor 'arm_ft': [offset] cannot be evaluated: per_degree: expected")
     spec = _write("[evaluate]\nforce_error_mean_N = 1.0\n")
     assert "none was given of 'arm_ft'" in run("accept", PARQUET, "--spec", spec).error()
     missing = run("accept", PARQUET, "--spec", spec, "--population", "nowhere").error()
@@ -244,6 +244,6 @@ def test_joints_of_another_unit_are_not_judged(arm: Path, run: Run) -> None:
     write_recording(arm / "recording", replace(recording, streams=streams))
     error = run("accept", PARQUET, "--spec", _write(), "-c", "fitted.json").error()
     assert re.search(
-        r"\[evaluate\] cannot be judged: joint '\w+': expected positions about the limits of the URDF", error
+        r"\[evaluate\] cannot be evaluated: joint '\w+': expected positions about the limits of the URDF", error
     )
     assert "which fits them in degrees" in error

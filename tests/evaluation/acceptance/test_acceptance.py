@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Acceptance: every limit against the number that its command gives, on both sides of it, and what cannot be judged."""
+"""Acceptance: every limit against the number that its command gives, on both sides of it, and what is not measured."""
 
 from __future__ import annotations
 
@@ -194,7 +194,8 @@ def test_what_was_learnt_is_judged_of_generative_fits_alone(drifting: Experiment
         (row,) = _criteria(drifting, _spec(learnt={"tz": shares[5] * factor}), (name, calibration)).values()
         assert (row.criterion, row.passed) == ("learnt.tz", passed)
     by_thesis = _fitted(drifting, regularisation=5.0)
-    with pytest.raises(ForceTorqueError, match=r"\[learnt\] cannot be judged: calibration 'new' is not a generative"):
+    message = r"\[learnt\] cannot be evaluated: calibration 'new' is not a generative"
+    with pytest.raises(ForceTorqueError, match=message):
         accept(_run(drifting), _spec(learnt={"tz": 0.1}), by_thesis)
 
 
@@ -214,7 +215,7 @@ def test_an_offset_that_gaps_do_not_give_cannot_be_judged(arm: Path) -> None:
     as_fitted = _spec(validate={"force_mean_N": 1e9, "offset": "fitted"})
     assert [each.passed for each in accept(_run(gap), as_fitted).criteria] == [True]
     with pytest.raises(
-        ExperimentError, match=r"\[validate\] cannot be judged: contact force by prior over 'judge', off"
+        ExperimentError, match=r"\[validate\] cannot be evaluated: contact force by prior over 'judge', off"
     ):
         accept(_run(gap), _spec(validate={"force_mean_N": 1e9, "offset": "first-second"}))
 
@@ -322,11 +323,11 @@ def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
 @pytest.mark.parametrize(
     ("table", "key", "reason"),
     [
-        ("evaluate", "rmse", "judges a calibration, none was given of 'arm_ft'"),
-        ("improvement", "force_error_ratio", "judges a calibration"),
-        ("uncertainty", "offset", "judges a calibration"),
-        ("excitation", "directions", "judges a calibration"),
-        ("learnt", "fz", "judges a calibration"),
+        ("evaluate", "rmse", "evaluates a calibration, none was given of 'arm_ft'"),
+        ("improvement", "force_error_ratio", "evaluates a calibration"),
+        ("uncertainty", "offset", "evaluates a calibration"),
+        ("excitation", "directions", "evaluates a calibration"),
+        ("learnt", "fz", "evaluates a calibration"),
         ("population", "robust_z", "no matrices of other sensors were given; name them by --population"),
         ("recording", "lost_share", "stream 'arm_ft' has no sequence numbers"),
         ("offset", "per_degree", "expected a variable of the sensor in degC"),
@@ -335,7 +336,7 @@ def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
 def test_what_cannot_be_judged_is_an_error_that_names_it(arm: Path, table: str, key: str, reason: str) -> None:
     """Sensor, table and reason; the same limit is no obstacle where it is not stated."""
     experiment = load_experiment(arm / PARQUET)
-    with pytest.raises(ForceTorqueError, match=rf"^sensor 'arm_ft': \[{table}\] cannot be judged: .*{reason}"):
+    with pytest.raises(ForceTorqueError, match=rf"^sensor 'arm_ft': \[{table}\] cannot be evaluated: .*{reason}"):
         accept(_run(experiment), _spec(**{table: {key: LIMITS[table][key]}}))
     assert len(accept(_run(experiment), _spec(matrix={"condition": 5.0})).criteria) == 1
 
@@ -349,11 +350,11 @@ def test_missing_intervals_and_counts_are_errors(arm: Path) -> None:
         ("validate", 'expected an interval with use = "validation"'),
         ("offset", "at least 2 recordings, got 1"),
     ):
-        with pytest.raises(ForceTorqueError, match=rf"\[{table}\] cannot be judged: .*{reason}"):
+        with pytest.raises(ForceTorqueError, match=rf"\[{table}\] cannot be evaluated: .*{reason}"):
             _criteria(experiment, _spec(**{table: LIMITS[table]}), _fitted(experiment))
     edit(arm / YARP, 'prior = "matrix_SIM001.txt"', 'prior = "identity"')
     unknown = load_experiment(arm / YARP)
-    with pytest.raises(ExperimentError, match=r"\[matrix\] cannot be judged: the matrix is not for counts"):
+    with pytest.raises(ExperimentError, match=r"\[matrix\] cannot be evaluated: the matrix is not for counts"):
         _criteria(unknown, _spec(matrix={"condition": 5.0}), None)
 
 

@@ -16,7 +16,7 @@ import pytest
 from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor, data_doubts
 from forcetorque.evaluation.evaluation import evaluate
-from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
+from forcetorque.evaluation.load_cases.load_case import operating_load_cases
 from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.experiment.calibration.estimation_type import EstimationType, estimation_type
 from forcetorque.experiment.loading import load_experiment
@@ -73,7 +73,7 @@ def test_a_tool_on_an_arm_without_mass_beyond_its_sensor_says_what_the_sensor_is
 ) -> None:
     """Pushes as strong as the tool is heavy: the URDF has nothing there, and without a use there is no verdict."""
     (case,) = operating_load_cases([_run(arm[0] / "weight.toml")])
-    assert case.words.startswith("pushes of 21.6 N, as much as hangs on the sensor")
+    assert case.words.startswith("pushes of 21.6 N, the weight of the distal links")
 
 
 def test_a_weighed_tool_weighs_the_other(weighed: WeighedLoad) -> None:

@@ -13,8 +13,7 @@ from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatErr
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
-from forcetorque.evaluation.load_cases.operating_loads import operating_load_cases
-from forcetorque.evaluation.load_cases.section import LOAD_CASES
+from forcetorque.evaluation.load_cases.load_case import operating_load_cases
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
     ValidationSegment,
@@ -24,6 +23,7 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     validation_excitation,
 )
 from forcetorque.evaluation.load_cases.verdict import LoadCaseAssessment, UseVerdict, use_verdicts
+from forcetorque.evaluation.section import LOAD_CASES
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -130,7 +130,7 @@ def test_without_a_load_case_the_default_is_stated(arm: Path) -> None:
     run = _run(arm, "")
     (case,) = operating_load_cases([run])
     assert not case.is_stated
-    assert "as much as hangs on the sensor" in case.words
+    assert "the weight of the distal links" in case.words
     verdict = _verdict(run, _fit(run))
     assert case.words in verdict.sentence
     assert not verdict.stated

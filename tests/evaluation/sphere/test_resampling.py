@@ -10,13 +10,13 @@ import pytest
 from scipy.stats import t as student
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.evaluation.sphere.cloud import sums_of_products
-from forcetorque.evaluation.sphere.resampling import (
+from forcetorque.evaluation.sphere.cloud import (
     BLOCKS,
     Resampled,
     half_selections,
     resampled,
     split,
+    sums_of_products,
     whole,
     window_selections,
 )

@@ -15,7 +15,7 @@ import forcetorque.evaluation.validation.contact_wrenches as module
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError, ForceTorqueError, RobotError, ShapeError
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.evaluation.validation.contact_wrenches import ContactForces, contact_forces
+from forcetorque.evaluation.validation.contact_wrenches import EstimatedContactWrenches, estimate_contact_wrenches
 from forcetorque.experiment.calibrations_under_test import errors_from_zero
 from forcetorque.experiment.free_sub_model import ContactForceValidation, OtherSensors
 from forcetorque.recording.alignment import interpolate
@@ -73,10 +73,10 @@ class Free:
         error = np.random.default_rng(seed).normal(scale=5.0, size=(len(self.joints), 6))
         return self.expected[self.validation.sensor] + error
 
-    def forces(self, **readings: FloatArray) -> ContactForces:
+    def forces(self, **readings: FloatArray) -> EstimatedContactWrenches:
         """Validate, with perfect readings of the other sensors."""
         measured = Wrenches.of(self.expected)
-        return contact_forces(self.validation, self.joints, self.root, readings, measured=measured)
+        return estimate_contact_wrenches(self.validation, self.joints, self.root, readings, measured=measured)
 
     def direction(self) -> float:
         """1 where the reading is what the far side does to the near side, else -1."""
@@ -190,7 +190,7 @@ def test_every_candidate_is_as_if_the_estimator_had_run_for_it(name: str, mode: 
         for sensor, values in free.expected.items()
     }
     candidates = np.stack([free.reading(seed) for seed in range(5)])
-    found = contact_forces(validation, free.joints, free.root, candidates, measured=Wrenches.of(others))
+    found = estimate_contact_wrenches(validation, free.joints, free.root, candidates, measured=Wrenches.of(others))
     assert found.candidates == ("0", "1", "2", "3", "4")
     question = Question(tree=validation.tree, measured=tuple(validation.tree.cuts), contacts=(contact,), equations=())
     scale = max(np.abs(values).max() for values in others.values())
@@ -238,7 +238,7 @@ def test_what_touches_the_sub_model_after_all_is_found(mode: OtherSensors) -> No
     robot = touched([shin])
     validation = ContactForceValidation(tree=robot.tree, sensor="l_leg_ft", contact=shin, other_sensors=mode)
     reading = {"perfect": robot.measured.of_name("l_leg_ft")}
-    found = contact_forces(validation, robot.joints, robot.root, reading, measured=robot.measured)
+    found = estimate_contact_wrenches(validation, robot.joints, robot.root, reading, measured=robot.measured)
     _require_same(found.at_contact("perfect"), robot.truth[shin.name], scale=100.0)
 
 
@@ -250,7 +250,7 @@ def test_a_contact_elsewhere_harms_the_mode_model_only() -> None:
     found = {}
     for mode in OtherSensors:
         validation = ContactForceValidation(tree=robot.tree, sensor="l_leg_ft", other_sensors=mode)
-        forces = contact_forces(validation, robot.joints, robot.root, reading, measured=robot.measured)
+        forces = estimate_contact_wrenches(validation, robot.joints, robot.root, reading, measured=robot.measured)
         found[mode] = forces.of("perfect")
     _require_same(found[MEASURED], np.zeros_like(found[MEASURED]), scale=100.0)
     assert np.abs(found[MODEL]).max() > VISIBLE
@@ -265,7 +265,7 @@ def test_an_error_of_another_sensor_is_in_the_mode_measured_only() -> None:
         for wrong in (True, False):
             measured = Wrenches.of(free.expected | {"l_foot_ft": free.expected["l_foot_ft"] + wrong * error})
             readings = {"bad": free.reading(1)}
-            forces = contact_forces(free.validation, free.joints, free.root, readings, measured=measured)
+            forces = estimate_contact_wrenches(free.validation, free.joints, free.root, readings, measured=measured)
             found[mode, wrong] = forces.of("bad")
     np.testing.assert_array_equal(found[MODEL, True], found[MODEL, False])
     _require_same(found[MEASURED, False], found[MODEL, False], scale=500.0)
@@ -284,7 +284,7 @@ def test_a_sensor_that_is_left_out_is_no_cut() -> None:
     assert validation.others == ()
     assert tree.frames["l_sole"][0] in validation.part.bodies
     free = Free.of(validation, model, joints, root)
-    found = contact_forces(validation, joints, root, {"bad": free.reading(1)})
+    found = estimate_contact_wrenches(validation, joints, root, {"bad": free.reading(1)})
     _require_same(found.of("bad"), free.reading(1) - free.expected["l_leg_ft"], scale=500.0)
 
 
@@ -308,33 +308,33 @@ def test_only_the_required_joints_are_looked_at() -> None:
 GAP = 4
 
 
-def _gap_in_reading(free: Free) -> ContactForces:
+def _gap_in_reading(free: Free) -> EstimatedContactWrenches:
     reading = free.reading(1)
     reading[GAP, 2] = np.nan  # one component
     return free.forces(bad=reading)
 
 
-def _gap_in_joint(free: Free) -> ContactForces:
+def _gap_in_joint(free: Free) -> EstimatedContactWrenches:
     position = np.array(free.joints.position)
     position[GAP, free.joints.names.index("l_knee")] = np.nan
     joints = replace(free.joints, position=position)
     return replace(free, joints=joints).forces(bad=free.reading(1))
 
 
-def _gap_in_root(free: Free) -> ContactForces:
+def _gap_in_root(free: Free) -> EstimatedContactWrenches:
     omega = np.array(free.root.angular_velocity)
     omega[GAP] = np.nan
     return replace(free, root=replace(free.root, angular_velocity=omega)).forces(bad=free.reading(1))
 
 
-def _gap_in_other_sensor(free: Free) -> ContactForces:
+def _gap_in_other_sensor(free: Free) -> EstimatedContactWrenches:
     foot = np.array(free.expected["l_foot_ft"])
     foot[GAP, 0] = np.nan
     return replace(free, expected=free.expected | {"l_foot_ft": foot}).forces(bad=free.reading(1))
 
 
 @pytest.mark.parametrize("spoil", [_gap_in_reading, _gap_in_joint, _gap_in_root, _gap_in_other_sensor])
-def test_a_gap_stays_in_its_sample(spoil: Callable[[Free], ContactForces]) -> None:
+def test_a_gap_stays_in_its_sample(spoil: Callable[[Free], EstimatedContactWrenches]) -> None:
     """All of that sample is missing, and the others are what they were."""
     free = _case("leg", other_sensors=MEASURED)
     whole, found = free.forces(bad=free.reading(1)).of("bad"), spoil(free).of("bad")
@@ -361,9 +361,9 @@ def _ask(**fields: object) -> Callable[[Free], object]:
 def _answer(
     readings: object, *, mode: OtherSensors = MODEL, measured: Wrenches | None = None
 ) -> Callable[[Free], object]:
-    def answer(free: Free) -> ContactForces:
+    def answer(free: Free) -> EstimatedContactWrenches:
         validation = replace(free.validation, other_sensors=mode)
-        return contact_forces(validation, free.joints, free.root, readings, measured=measured)  # type: ignore[arg-type]
+        return estimate_contact_wrenches(validation, free.joints, free.root, readings, measured=measured)  # type: ignore[arg-type]
 
     return answer
 
@@ -482,11 +482,11 @@ def test_a_wrong_matrix_shows_in_a_simulated_recording(
         sensor: distorted_by_mounting(specimen.matrix, relative=0.05, rng=rng) for sensor, specimen in specimens.items()
     }
 
-    def forces(foot: FloatArray) -> ContactForces:
+    def forces(foot: FloatArray) -> EstimatedContactWrenches:
         leg = {"true": specimens["r_leg_ft"].matrix, "wrong": wrong["r_leg_ft"]}
         readings = {name: counts["r_leg_ft"] @ c.T + specimens["r_leg_ft"].offset for name, c in leg.items()}
         measured = Wrenches.of({"r_foot_ft": counts["r_foot_ft"] @ foot.T + specimens["r_foot_ft"].offset})
-        return contact_forces(validation, joints, root, readings, measured=measured)
+        return estimate_contact_wrenches(validation, joints, root, readings, measured=measured)
 
     found, lame = forces(specimens["r_foot_ft"].matrix), forces(wrong["r_foot_ft"])
     added = counts["r_leg_ft"] @ (wrong["r_leg_ft"] - specimens["r_leg_ft"].matrix).T

@@ -207,7 +207,8 @@ def test_an_interval_that_ends_within_its_first_second_is_named(arm: Path) -> No
         np.testing.assert_array_equal(one.mean_absolute, other.mean_absolute)
         assert one.force_mean_N == other.force_mean_N
     only = replace(both, recording=both.recording.with_intervals(both.recording.intervals[::2]))
-    with pytest.raises(ExperimentError, match="nothing can be judged: interval 'blink': it ends within its first 1 s"):
+    message = "nothing can be evaluated: interval 'blink': it ends within its first 1 s"
+    with pytest.raises(ExperimentError, match=message):
         contact_forces(SensorRun(only, only.sensors[0]), {})
 
 

@@ -127,7 +127,7 @@ def accept(
     others: Mapping[str, Calibration] | None = None,
     population: Mapping[str, FloatArray] | None = None,
 ) -> Acceptance:
-    """Judge a sensor and its calibration, or its prior, by every limit of an acceptance file.
+    """Compare a sensor and its calibration, or its prior, with every limit of an acceptance file.
 
     Args:
         runs: The sensor in one recording, or in several: their errors are pooled; of what is measured in each by itself

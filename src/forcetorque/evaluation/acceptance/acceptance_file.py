@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.base.toml_file import Positive, Table, Text, read_toml
-from forcetorque.evaluation.load_cases.section import LoadCaseTable
+from forcetorque.evaluation.section import LoadCaseTable
 from forcetorque.experiment.free_sub_model import OtherSensors
 
 Component = Literal["fx", "fy", "fz", "tx", "ty", "tz"]
@@ -68,7 +68,7 @@ def _refuse_old_word(instead: str) -> BeforeValidator:
 
 
 _ErrorOffset = Annotated[
-    Literal["fitted", "judged-mean"], _refuse_old_word('"judged-mean" for the mean of the judged samples')
+    Literal["fitted", "judged-mean"], _refuse_old_word('"judged-mean" for the mean of the validation samples')
 ]
 _ContactOffset = Annotated[
     Literal["first-second", "fitted"], _refuse_old_word('"first-second" for that of the first second of every interval')

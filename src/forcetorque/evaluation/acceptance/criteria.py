@@ -18,10 +18,10 @@ from forcetorque.calibration.summary import learnt_directions
 from forcetorque.evaluation.acceptance import acceptance_file as limits
 from forcetorque.evaluation.acceptance.acceptance_file import Component
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
-from forcetorque.evaluation.evaluation import CandidateErrors, validation_errors
-from forcetorque.evaluation.load_cases.section import LoadCaseTable
+from forcetorque.evaluation.evaluation import CandidateErrors, evaluate
 from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.evaluation.matrix_checks import most_unusual
+from forcetorque.evaluation.section import LoadCaseTable
 from forcetorque.evaluation.validation.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
@@ -181,7 +181,7 @@ class Judged:
         """
         if self.calibration is None:
             raise ExperimentError(
-                f"it judges a calibration, none was given of {self.checks.sensor!r}; give it by --calibration, from "
+                f"it evaluates a calibration, none was given of {self.checks.sensor!r}; give it by --calibration, from "
                 "Python calibration"
             )
         return self.calibration
@@ -233,7 +233,7 @@ def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Ite
         ExperimentError: If there are limits for a workbench.
     """
     if spec.workbench is not None:
-        raise ExperimentError("[workbench] cannot be judged on a robot; see forcetorque workbench --spec")
+        raise ExperimentError("[workbench] cannot be evaluated on a robot; see forcetorque workbench --spec")
     for table, criteria in _TABLES.items():
         stated = getattr(spec, "validate_" if table == "validate" else table)
         if not stated:
@@ -245,7 +245,7 @@ def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Ite
                 yield from criteria(subjects[0], stated)
         except ForceTorqueError as error:
             name = subjects[0].run.sensor.name
-            raise type(error)(f"sensor {name!r}: [{table}] cannot be judged: {error}") from error
+            raise type(error)(f"sensor {name!r}: [{table}] cannot be evaluated: {error}") from error
 
 
 def _worst(
@@ -267,7 +267,7 @@ def _worst(
 
 def _evaluated(subject: Subject, offset: str) -> tuple[CandidateErrors, CandidateErrors]:
     """Errors of the prior, or again of the calibration where there is none, and of the calibration."""
-    verdicts = validation_errors(subject.campaign, dict([subject.fitted()])).verdicts
+    verdicts = evaluate(subject.campaign, dict([subject.fitted()]), load_cases=False).verdicts
     rows = [row for row in verdicts if row.offset == offset]
     return rows[0], rows[-1]
 
@@ -418,7 +418,7 @@ def _learnt(subject: Judged, stated: limits.Learnt) -> Iterator[Criterion]:
     name, fitted = subject.fitted()
     directions = learnt_directions(fitted)
     if directions is None:
-        raise ExperimentError(f"calibration {name!r} is not a generative fit towards a prior, which alone tells it")
+        raise ExperimentError(f"calibration {name!r} is not a generative fit with a prior matrix; [learnt] needs one")
     for row in directions:
         limit = getattr(stated, row.direction)
         n = fitted.provenance.samples

@@ -28,7 +28,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.results.table import FloatOrNull, Row, WrenchValues
 
-_Answer = TypeVar("_Answer")
+_Measured = TypeVar("_Measured")
 
 
 class IntervalOffset(Row):
@@ -123,7 +123,7 @@ def check(
     used = _used_intervals(run)
     reasons: dict[str, str] = {}
 
-    def attempt(what: str, measure: Callable[[], _Answer]) -> _Answer | None:
+    def attempt(what: str, measure: Callable[[], _Measured]) -> _Measured | None:
         try:
             return measure()
         except ForceTorqueError as error:

@@ -15,7 +15,7 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.figures.excitation import outline
 from forcetorque.evaluation.sphere.fit_results import Ellipsoid, EllipsoidFit
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
-from forcetorque.evaluation.trials.trials import TrialGroup
+from forcetorque.evaluation.trials.trials import TrialGroup, mean_of_trials
 from forcetorque.results.figures import (
     PLANES,
     REFERENCE_COLOUR,
@@ -320,9 +320,11 @@ def _height(group: TrialGroup) -> float:
 def _lines(group: TrialGroup, *, with_reference: bool) -> list[_Line]:
     fits = [(trial.gravity, trial.fit(with_reference=with_reference)) for trial in group.trials]
     lines = [_line("trial", fit, gravity) for gravity, fit in fits if fit is not None]
-    mean, pooled = group.mean(with_reference=with_reference), group.pooled_fit(with_reference=with_reference)
-    if len(group.trials) > 1 and mean is not None:
-        lines.append(_Line(kind="mean", index=mean.mean, low=mean.low, high=mean.high, known=True))
+    indices = group.identifiable_indices(with_reference=with_reference)
+    pooled = group.pooled_fit(with_reference=with_reference)
+    if len(group.trials) > 1 and indices:
+        mean, low, high = mean_of_trials(indices)
+        lines.append(_Line(kind="mean", index=mean, low=low, high=high, known=True))
     if pooled is not None:
         lines.append(_line("pooled", pooled, group.first.gravity))
     return lines

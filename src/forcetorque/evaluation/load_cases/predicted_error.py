@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What error a sensor will make at the loads of a use, as its posterior knows it: before the calibration and after.
+"""Predicted error of a sensor at a load case by its posterior: before the calibration and after.
 
 The error of a reading under a load w is linear in the unknowns u of the posterior: `T (u - mean of u) x` after, with
 x = [w, variables, offset of the session], and with the mean kept in and T = 1 for the prior matrix. Its mean square
-over the loads of a use is `d S d^T` for every component, d a row of the unknowns and S the mean of x x^T: draws of u
+over the loads is `d S d^T` for every component, d a row of the unknowns and S the mean of x x^T: draws of u
 give its distribution exactly.
 """
 
@@ -18,7 +18,8 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.evaluation.load_cases.load_case import LoadCase, LoadCaseOffset
+from forcetorque.evaluation.load_cases.load_case import LoadCase
+from forcetorque.evaluation.section import LoadCaseOffset
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 
@@ -39,7 +40,7 @@ temperature; noise of a measurement that is averaged over a second."""
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ErrorMagnitude:
-    """Root mean square error over the loads of a use, of force or moment."""
+    """Root mean square error over the loads of a load case, of force or moment."""
 
     typical: float
     """Median."""
@@ -57,7 +58,7 @@ class ErrorMagnitude:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PredictedError:
-    """Predicted error of readings at the loads of a use."""
+    """Predicted error of readings at a load case."""
 
     force: ErrorMagnitude
     """Of the force; N."""
@@ -79,52 +80,52 @@ class PredictedError:
 
 
 def predict(calibration: Calibration, case: LoadCase) -> PredictedError:
-    """Predict the error of a calibration at the loads of a use.
+    """Predict the error of a calibration at a load case.
 
     Args:
         calibration: A calibration of the generative model.
-        case: The use.
+        case: The load case.
 
     Returns:
         The error, noise of a reading included.
 
     Raises:
-        FitError: If the calibration has no posterior, or not the variables of the use.
+        FitError: If the calibration has no posterior, or not the variables of the load case.
     """
     return predict_from_posterior(_posterior(calibration), case)
 
 
 def predict_from_posterior(posterior: Posterior, case: LoadCase) -> PredictedError:
-    """Predict the error at the loads of a use by what is known of a sensor.
+    """Predict the error at a load case by the posterior of a sensor.
 
     Args:
         posterior: What is known.
-        case: The use.
+        case: The load case.
 
     Returns:
         The error, noise of a reading included.
 
     Raises:
-        FitError: If the posterior has not the variables of the use.
+        FitError: If the posterior has not the variables of the load case.
     """
     unknowns = posterior.to_wrench @ _draws(posterior)
     return _error(unknowns, posterior, posterior.to_wrench, load_second_moment(posterior, case))
 
 
 def predict_prior(calibration: Calibration, case: LoadCase) -> PredictedError | None:
-    """Say what error the prior matrix makes at the loads of a use, by all that the recordings tell of it.
+    """Predict the error of the prior matrix at a load case, by all information of the recordings.
 
     Its offset is that which the same recordings give it, and it knows of no variables.
 
     Args:
         calibration: A calibration of the generative model.
-        case: The use.
+        case: The load case.
 
     Returns:
         The error; None without a prior.
 
     Raises:
-        FitError: If the calibration has no posterior, or not the variables of the use.
+        FitError: If the calibration has no posterior, or not the variables of the load case.
     """
     posterior = _posterior(calibration)
     if calibration.prior is None:
@@ -161,17 +162,17 @@ def _offset_place(posterior: Posterior) -> int:
 
 
 def load_second_moment(posterior: Posterior, case: LoadCase) -> FloatArray:
-    """Average the products of what the unknowns of a row are multiplied by over the loads of a use.
+    """Average the products of the factors of the unknowns of a row over the loads of a load case.
 
     Args:
         posterior: What the unknowns are of.
-        case: The use.
+        case: The load case.
 
     Returns:
         Mean products; shape (p, p).
 
     Raises:
-        FitError: If the posterior has not the variables of the use.
+        FitError: If the posterior has not the variables of the load case.
     """
     absent = [name for name in case.changes if name not in posterior.variables]
     if absent:

@@ -27,7 +27,7 @@ from forcetorque.results.table import Row, Shown, ShownWrench
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeasuredError:
-    """Error of one quantity, force or moment, on judged data."""
+    """Error of one quantity, force or moment, on validation data."""
 
     constant: float
     """Norm of the mean error in the session in which it is largest; N or N m."""
@@ -36,12 +36,12 @@ class MeasuredError:
     rest: float
     """Root mean square of what is left without the means; N or N m."""
     rest_at_least: float
-    """Lower end of its 95 % interval; 0 where the data are too few to tell."""
+    """Lower end of its 95 % interval; 0 where there are too few data."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Evidence:
-    """What one candidate measured on judged data, against what mechanics demands there."""
+    """What one candidate measured on validation data, against what mechanics demands there."""
 
     force: MeasuredError
     """Of the force; N."""
@@ -55,7 +55,7 @@ class Evidence:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ValidationSegment:
-    """What one candidate measured in a recording, or in as much of it as belongs to one session."""
+    """Measured wrenches of one calibration in a recording, or in the samples of one power cycle."""
 
     session: str
     """Name of the session."""
@@ -64,11 +64,11 @@ class ValidationSegment:
     measured: FloatArray
     """What was measured; shape (n, 6); N, N m."""
     reference: FloatArray
-    """What mechanics demands; shape (n, 6); N, N m."""
+    """Expected wrenches; shape (n, 6); N, N m."""
 
 
 def evidence(stretches: Sequence[ValidationSegment]) -> Evidence:
-    """Sum up the errors of one candidate in any number of recordings.
+    """Compute the errors of one calibration in any number of recordings.
 
     Args:
         stretches: What it measured in each, at least one.
@@ -120,11 +120,11 @@ def _measured(constants: Sequence[tuple[float, float]], square: FloatArray, squa
 
 
 def evidence_by_calibration(campaign: Campaign, calibrations: Mapping[str, Calibration]) -> dict[str, Evidence]:
-    """Sum up what every calibration measures on the validation intervals of all recordings.
+    """Compute the errors of every calibration on the validation intervals of all recordings.
 
     Args:
         campaign: The sensor in any number of recordings.
-        calibrations: Its calibrations by name, which have not seen these intervals.
+        calibrations: Its calibrations by name, which were not fitted on these intervals.
 
     Returns:
         Evidence by name of the calibration; none where no recording has such an interval.
@@ -207,11 +207,11 @@ def static_loads_text(force: MovedAndLoad, moment: MovedAndLoad) -> str | None:
     of = ", ".join(f"{moved:.2g} {unit} of {load:.2g} {unit}" for moved, load, unit in static.values())
     what = "loads" if len(static) == len(kinds) else next(iter(static))
     wrong = "a wrong matrix" if what == "loads" else f"a matrix that is wrong for {what}"
-    return f"the {what} hardly moved in the judged samples ({of}): {wrong} would show nothing"
+    return f"the {what} hardly moved in the validation samples ({of}): {wrong} would show nothing"
 
 
 def hardly_moved(moved: float, load: float) -> bool:
-    """Tell whether a load moved so little that a wrong matrix would show nothing.
+    """Check whether a load moved too little to show a wrong matrix.
 
     Args:
         moved: Standard deviation of the load.
@@ -242,7 +242,7 @@ Quantity = Literal["force", "moment"]
 OFFSET_WORDS = {
     Offset.FITTED: "its own offset",
     Offset.FIRST_SECOND: "the offset of the first second",
-    Offset.JUDGED_MEAN: "the mean of the judged samples taken off",
+    Offset.JUDGED_MEAN: "the mean of the validation samples removed",
     Offset.NONE: "no offset removed",
 }
 """The offsets in sentences."""
@@ -257,13 +257,13 @@ class ErrorComparison(Row):
     candidate: Annotated[str, Shown("candidate", file=True)]
     """The calibration file, or the prior."""
     offset: Annotated[Offset, Shown("offset")]
-    """Which offset they are judged with."""
+    """Which offset they are evaluated with."""
     quantity: Annotated[Quantity, Shown("error of")]
     """What the errors are of."""
     unit: Annotated[Literal["N", "N m"], Shown("unit")]
     """Unit of the errors."""
     samples: int
-    """Number of judged samples."""
+    """Number of validation samples."""
     mean: Annotated[float, Shown("mean", digits=3)]
     """Mean norm of the error with the candidate."""
     ratio: Annotated[float, Shown("ratio", digits=2)]
@@ -275,17 +275,17 @@ class ErrorComparison(Row):
     stretches: Annotated[int, Shown("stretches")]
     """Independent stretches of time that the interval comes from."""
     judgement: Annotated[Judgement, Shown("judgement")]
-    """What the interval says of the candidate."""
+    """Conclusion of the interval about the calibration."""
 
     def against(self, other_mean: float, other: str) -> str:
-        """Say what the test says.
+        """Format the comparison.
 
         Args:
             other_mean: Mean norm of the error with the other; N or N m.
             other: The other, in words.
 
         Returns:
-            Both means, the judgement, and its interval where it says something.
+            Both means, the judgement, and its interval where there is one.
         """
         digits = 2 if self.quantity == "force" else 3
         means = f"{self.mean:.{digits}f} {self.unit} against {other_mean:.{digits}f} {self.unit} with {other}"
@@ -320,7 +320,7 @@ class Independence(Row):
     candidate: Annotated[str, Shown("candidate", file=True)]
     """The calibration file, or the prior."""
     samples: Annotated[int, Shown("samples")]
-    """Number of judged samples."""
+    """Number of validation samples."""
     independent: Annotated[tuple[float | None, ...], ShownWrench(digits=0, counts=True)]
     """Effective number of independent samples per component; none where the error does not change."""
 
@@ -339,7 +339,7 @@ class PriorComparison(ErrorComparison):
 
 
 def prior_comparison_text(name: str, rows: Sequence[PriorComparison]) -> str:
-    """Say how a calibration does against its prior, the same wherever it is said.
+    """Compare a calibration with its prior in a text.
 
     Args:
         name: The calibration.

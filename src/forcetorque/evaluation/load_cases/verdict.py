@@ -11,8 +11,7 @@ import numpy as np
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.paired_comparison import ALIKE
 from forcetorque.base.wrench import FORCE, MOMENT
-from forcetorque.evaluation.load_cases.load_case import LoadCase, LoadCaseOffset
-from forcetorque.evaluation.load_cases.operating_loads import Refuse, operating_load_cases, raise_rejection
+from forcetorque.evaluation.load_cases.load_case import LoadCase, Refuse, operating_load_cases, raise_rejection
 from forcetorque.evaluation.load_cases.predicted_error import (
     CONFIDENCE,
     ErrorMagnitude,
@@ -21,7 +20,6 @@ from forcetorque.evaluation.load_cases.predicted_error import (
     predict,
     predict_prior,
 )
-from forcetorque.evaluation.load_cases.section import LoadCaseTable
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
     MeasuredError,
@@ -31,6 +29,7 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     static_loads_text,
     validation_excitation,
 )
+from forcetorque.evaluation.section import LoadCaseOffset, LoadCaseTable
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
@@ -52,15 +51,15 @@ class Reason(Row):
     """Why a verdict is what it is."""
 
     against: Literal["use", "data"] | None
-    """Whether it forbids the use, or says that data are lacking; None where it speaks for the use or only informs."""
+    """`use` if it forbids the use, `data` if data are lacking; None if it supports the use or only informs."""
     text: str
     """The reason, in words."""
     remedy: str | None = None
-    """What to do about it; None where the reason says it itself, or where nothing is to be done."""
+    """What to do about it; None where the reason contains it, or where nothing is to be done."""
 
 
 class LoadCaseError(Row):
-    """Predicted root mean square error of readings, averaged over a second, at the loads of a use."""
+    """Predicted root mean square error of readings, averaged over a second, at a load case."""
 
     quantity: Annotated[Literal["force", "moment"], Shown("error of")]
     """What the error is of."""
@@ -113,13 +112,13 @@ class UseVerdict(Row):
     offset: Literal["fitted", "tared"]
     """What offset readings are taken with."""
     stated: bool
-    """Whether anybody stated the use; else it is the default."""
+    """Whether a file specifies the load case; else it is the default."""
     decision: Decision
     """What to do."""
     sentence: str
     """The verdict in one sentence."""
     reasons: tuple[Reason, ...]
-    """What speaks against it and for it, the weightiest first."""
+    """Reasons against it and for it, the most important first."""
     within: float | None
     """Predicted probability that the error is no more than allowed; None where nothing predicts it."""
     errors: tuple[LoadCaseError, ...]
@@ -149,17 +148,17 @@ LOOK_FOR_CAUSE: Final = (
     "and losses; masses that the robot's model lacks, and a sensor that warms up, look like it too."
 )
 """About an error on data that were not fitted which nothing predicts."""
-MEND_DATA: Final = "Put right in the recording or the experiment file what the doubt names, and calibrate again."
-"""About fitted data that were in doubt."""
-JUDGE: Final = (
+CORRECT_DATA: Final = "Correct in the recording or the experiment file what the warning names, and calibrate again."
+"""About fitted data with warnings."""
+ADD_VALIDATION: Final = (
     'State an interval with use = "validation" in the experiment file, on which the calibration was not fitted and in '
     "which the load moves."
 )
 """About a calibration that no data test."""
-JUDGE_WHAT_MOVES: Final = (
-    "Judge it on data in which the load moves by more than that: a validation interval with other postures or loads."
+VALIDATE_MOVING_LOADS: Final = (
+    "Evaluate it on data in which the load moves by more than that: a validation interval with other postures or loads."
 )
-"""About judged data that test little."""
+"""About validation data that test little."""
 TARE: Final = 'Tare the sensor before use, and state offset = "tared" in [[load_case]].'
 """About a constant error."""
 FIT_GENERATIVE: Final = "Calibrate by the generative model, whose calibrations know their errors at any load."
@@ -174,7 +173,7 @@ _BY_SOURCE: Final[dict[ErrorSource, str]] = {
 
 
 def error_reduction_advice(after: PredictedError, allowed: tuple[float, float]) -> str:
-    """Say what lowers a predicted error, by what makes most of it where it is farthest beyond what is allowed.
+    """Advise how to lower a predicted error, by its largest source where it exceeds the allowed error most.
 
     Args:
         after: The predicted error.
@@ -190,10 +189,10 @@ def error_reduction_advice(after: PredictedError, allowed: tuple[float, float]) 
     return f"Most of the {quantity} error comes from {_BY_SOURCE[max(shares, key=shares.__getitem__)]}"
 
 
-HOPELESS: Final = 0.1
+UNLIKELY: Final = 0.1
 """Predicted probability of an error within what is allowed up to which the verdict is `do not use`."""
 FEWEST_S: Final = 5
-"""Seconds of judged data below which they test nothing."""
+"""Seconds of validation data below which they test nothing."""
 CONSTANT_SHARE: Final = 0.01
 """Constant error that is allowed by default, as a share of the loads."""
 _QUANTITIES: Final[tuple[tuple[Literal["force", "moment"], Literal["N", "N m"], slice], ...]] = (
@@ -216,7 +215,7 @@ class LoadCaseAssessment:
         """Take what a verdict rests on.
 
         Args:
-            case: The use.
+            case: The load case.
             calibration: The calibration.
             measured: What it measured on data that were not fitted; None where there are none.
             worse: Comparisons in which these data find it worse than its prior.
@@ -241,7 +240,7 @@ class LoadCaseAssessment:
         """Decide.
 
         Returns:
-            The decision, and its reasons, the weightiest first.
+            The decision, and its reasons, the most important first.
         """
         reasons = tuple(sorted(self._reasons(), key=lambda reason: ("use", "data", None).index(reason.against)))
         decisions: dict[str | None, Decision] = {"use": "do not use", "data": "not enough data", None: "use"}
@@ -250,8 +249,8 @@ class LoadCaseAssessment:
     def _reasons(self) -> Iterator[Reason]:
         yield from self._predicted()
         yield from self._measured()
-        for doubt in self.calibration.doubts:
-            yield Reason(against="data", text=f"the fitted data were in doubt: {doubt}", remedy=MEND_DATA)
+        for warning in self.calibration.doubts:
+            yield Reason(against="data", text=f"warning about the fitted data: {warning}", remedy=CORRECT_DATA)
         yield from self._worse()
 
     def _worse(self) -> Iterator[Reason]:
@@ -269,8 +268,8 @@ class LoadCaseAssessment:
     def _predicted(self) -> Iterator[Reason]:
         if self.after is None:
             text = (
-                f"a calibration of type {self.calibration.estimation_type} knows no error at other loads than those "
-                "that were judged; fit it by the generative model"
+                f"a calibration of type {self.calibration.estimation_type} predicts errors at the loads of the "
+                "validation data only; fit it by the generative model"
             )
             yield Reason(against="data", text=text, remedy=FIT_GENERATIVE)
             return
@@ -279,7 +278,7 @@ class LoadCaseAssessment:
         remedy = error_reduction_advice(self.after, self.case.requirement)
         if share >= CONFIDENCE:
             yield Reason(against=None, text=words)
-        elif share <= HOPELESS:
+        elif share <= UNLIKELY:
             yield Reason(against="use", text=words, remedy=remedy)
         else:
             chance = f"{words}; the chance that it is within that is {100.0 * share:.0f} %"
@@ -337,11 +336,11 @@ class LoadCaseAssessment:
     def _measured(self) -> Iterator[Reason]:
         if self.measured is None:
             text = "no data that were not fitted test it; state a validation interval"
-            yield Reason(against="data", text=text, remedy=JUDGE)
+            yield Reason(against="data", text=text, remedy=ADD_VALIDATION)
             return
         if len(self.measured.reference) < FEWEST_S:
             text = f"the data that were not fitted last {len(self.measured.reference)} s only, too short to test it"
-            yield Reason(against="data", text=text, remedy=JUDGE)
+            yield Reason(against="data", text=text, remedy=ADD_VALIDATION)
         loads = (self.case.force_N, self.case.moment_Nm)
         expected = self._expected_there()
         for (quantity, unit, _), allowed, load in zip(_QUANTITIES, self.case.requirement, loads, strict=True):
@@ -361,7 +360,7 @@ class LoadCaseAssessment:
             *validation_excitation(self.measured.reference, [self.calibration], moved=self.measured.moved)
         )
         if static is not None:
-            yield Reason(against="data", text=f"{static}; judge data that move", remedy=JUDGE_WHAT_MOVES)
+            yield Reason(against="data", text=f"{static}; evaluate it on data that move", remedy=VALIDATE_MOVING_LOADS)
 
     def _constant(
         self, error: MeasuredError, quantity: str, unit: str, allowed: float, load: float
@@ -414,14 +413,14 @@ def use_verdicts(
     *,
     refuse: Refuse = raise_rejection,
 ) -> tuple[UseVerdict, ...]:
-    """Say of every calibration whether it may be used for the loads to come.
+    """Decide for every calibration and load case whether it may be used.
 
-    It may where the predicted error is within what is allowed with 95 %, and data that were not fitted moved and do
-    not speak against it. It may not where that has a probability of at most 10 %, or the judged data say so.
+    It may where the predicted error is within the allowed one with 95 %, and the loads of the validation data moved and
+    their errors agree. It may not where that has a probability of at most 10 %, or the validation data contradict it.
 
     Args:
         runs: The sensor in one recording, or in several.
-        calibrations: Its calibrations by name, or one, which have not seen the validation intervals.
+        calibrations: Its calibrations by name, or one, which were not fitted on the validation intervals.
         more: Load cases beside those of the experiments, such as those of an acceptance file.
         refuse: Called with what is wrong with a load case, on which there is then no verdict; raises it if left out.
 
@@ -429,7 +428,7 @@ def use_verdicts(
         A verdict for every calibration and load case.
 
     Raises:
-        ExperimentError: If a load case cannot be had at the sensor, or a calibration has seen a judged interval.
+        ExperimentError: If a load case cannot be had at the sensor, or a validation interval was fitted.
         SerialNumberError: If a calibration is of another sensor.
         FitError: If a load case changes a variable that the calibration does not know.
     """
@@ -442,10 +441,10 @@ def use_verdicts(
     worse = [row for row in compared if row.judgement == "worse"]
     verdicts = []
     for name, calibration in judged.items():
-        informing = tuple(dict.fromkeys(_informing(campaign, name, calibration)))
+        notes = tuple(dict.fromkeys(_notes(campaign, name, calibration)))
         for case in operating_load_cases(campaign.runs, more, matrix=calibration.matrix, refuse=refuse):
             try:
-                judge = LoadCaseAssessment(
+                assessment = LoadCaseAssessment(
                     case,
                     calibration,
                     measured.get(name),
@@ -454,27 +453,27 @@ def use_verdicts(
             except FitError as error:
                 refuse(error)
             else:
-                verdicts.append(_verdict(campaign, name, judge, informing))
+                verdicts.append(_verdict(campaign, name, assessment, notes))
     return tuple(verdicts)
 
 
-def _informing(campaign: Campaign, name: str, calibration: Calibration) -> Iterator[Reason]:
-    """What no judged data can show: that what judges is not independent of what is judged."""
+def _notes(campaign: Campaign, name: str, calibration: Calibration) -> Iterator[Reason]:
+    """Facts that validation data cannot show: that they are not independent of the calibration."""
     for run in campaign.runs:
         circular = circular_loads(run)
         chosen = doubts_about_choice(run, name, calibration) if run.has(Use.VALIDATION) else ()
         for sentence in (*circular, *chosen):
-            if sentence not in calibration.doubts:  # of which the judge speaks
+            if sentence not in calibration.doubts:  # which are reasons of the verdict
                 yield Reason(against=None, text=sentence)
 
 
 _COMPARED: Final = {LoadCaseOffset.FITTED: Offset.FITTED, LoadCaseOffset.TARED: Offset.JUDGED_MEAN}
-"""With which offset judged data compare a calibration and its prior for a use."""
+"""Offset with which validation data compare a calibration and its prior for a load case."""
 
 
-def _verdict(campaign: Campaign, name: str, judge: LoadCaseAssessment, informing: tuple[Reason, ...]) -> UseVerdict:
-    decision, reasons = judge.verdict()
-    case = judge.case
+def _verdict(campaign: Campaign, name: str, assessment: LoadCaseAssessment, notes: tuple[Reason, ...]) -> UseVerdict:
+    decision, reasons = assessment.verdict()
+    case = assessment.case
     return UseVerdict(
         sensor=campaign.sensor.name,
         serial=campaign.sensor.serial,
@@ -485,7 +484,7 @@ def _verdict(campaign: Campaign, name: str, judge: LoadCaseAssessment, informing
         stated=case.is_stated,
         decision=decision,
         sentence=f"{decision} for {case.words}: {reasons[0].text}",
-        reasons=(*reasons, *informing),
-        within=judge.within,
-        errors=tuple(judge.errors()),
+        reasons=(*reasons, *notes),
+        within=assessment.within,
+        errors=tuple(assessment.errors()),
     )

@@ -15,7 +15,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.evaluation.sphere.algebraic_fit import inverse_lengths
-from forcetorque.evaluation.sphere.cloud import reach, sums_of_products
+from forcetorque.evaluation.sphere.cloud import FEWEST_SAMPLES, Resampled, reach, resampled, sums_of_products, whole
 from forcetorque.evaluation.sphere.fit_results import (
     EllipsoidFit,
     beyond_measured_extent,
@@ -28,7 +28,6 @@ from forcetorque.evaluation.sphere.fit_results import (
     relative_margin,
 )
 from forcetorque.evaluation.sphere.model_free_fit import is_flat
-from forcetorque.evaluation.sphere.resampling import FEWEST, Resampled, resampled, whole
 from forcetorque.results.table import AxisValues, Row
 
 _ROUNDING = 1e-14
@@ -215,8 +214,8 @@ def fit_moment(
 
 
 def _against(count: int, margin: float, tolerance: float) -> tuple[str, ...]:
-    if count < FEWEST:
-        return (f"{count} samples are too few to leave any out; take at least {FEWEST}",)
+    if count < FEWEST_SAMPLES:
+        return (f"{count} samples are too few to leave any out; take at least {FEWEST_SAMPLES}",)
     if not margin <= tolerance:
         return (f"without one tenth of the recording after the other, a radius is known to {percent(margin)} only",)
     return ()

@@ -17,7 +17,15 @@ from forcetorque.evaluation.sphere.algebraic_fit import (
     inverse_lengths,
     least_squares_spheres,
 )
-from forcetorque.evaluation.sphere.cloud import QuadricMoments, extent, reach
+from forcetorque.evaluation.sphere.cloud import (
+    FEWEST_SAMPLES,
+    QuadricMoments,
+    Resampled,
+    extent,
+    reach,
+    resampled,
+    whole,
+)
 from forcetorque.evaluation.sphere.fit_results import (
     Ellipsoid,
     EllipsoidFit,
@@ -33,7 +41,6 @@ from forcetorque.evaluation.sphere.fit_results import (
     relative_margin,
 )
 from forcetorque.evaluation.sphere.geometric_fit import refine_ellipsoid, refine_sphere
-from forcetorque.evaluation.sphere.resampling import FEWEST, Resampled, resampled, whole
 
 Ends = tuple[FloatArray, FloatArray]
 """Lower and upper ends of intervals."""
@@ -86,8 +93,8 @@ def fit_radius(cloud: FloatArray, *, unit: str, tolerance: float) -> RadiusFit:
     radius = float(geometric.parameters[3]) if geometric.converged else np.inf
     low, high = _hull([fit.halved for fit in fits], np.array([1.0 / radius]))
     why = []
-    if len(cloud) < FEWEST:
-        why.append(f"{len(cloud)} samples are too few to leave any out; take at least {FEWEST}")
+    if len(cloud) < FEWEST_SAMPLES:
+        why.append(f"{len(cloud)} samples are too few to leave any out; take at least {FEWEST_SAMPLES}")
     if not (np.isfinite(high[0]) and 0.5 * (high[0] - low[0]) <= tolerance * radius):
         why.append(f"halves of the recording give radii from {low[0]:.3g} to {high[0]:.3g} {unit}")
     if why:
@@ -198,8 +205,8 @@ def _against(
     count: int, direct: Resampled, weighted: Resampled, geometric: FloatArray, which: slice, tolerance: float
 ) -> tuple[str, ...]:
     """What speaks against some of the lengths: see the rule in `findings`."""
-    if count < FEWEST:
-        return (f"{count} samples are too few to leave any out; take at least {FEWEST}",)
+    if count < FEWEST_SAMPLES:
+        return (f"{count} samples are too few to leave any out; take at least {FEWEST_SAMPLES}",)
     inverse = np.stack([fit[which] for fit in (direct.whole, weighted.whole, geometric)])
     if not (inverse > 0.0).all():
         return ("the cloud fits an open surface as well",)

@@ -8,7 +8,7 @@ from typing import Self
 
 from forcetorque.evaluation.sphere.fit_results import CloudForm, EllipsoidFit
 from forcetorque.evaluation.sphere.result import EllipsoidRow
-from forcetorque.evaluation.trials.trials import DriftRow, TrialGroup, TrialSphere
+from forcetorque.evaluation.trials.trials import DriftRow, TrialGroup, TrialSphere, mean_of_trials
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import AxisValues, Row
 
@@ -161,19 +161,20 @@ def _ranks(groups: Sequence[TrialGroup], *, with_reference: bool) -> list[int | 
 
 
 def _group_fit(group: TrialGroup, rank: int | None, *, with_reference: bool) -> GroupFitRow:
-    mean, drift = group.mean(with_reference=with_reference), group.drift(with_reference=with_reference)
+    indices = group.identifiable_indices(with_reference=with_reference)
+    mean, low, high = mean_of_trials(indices) if indices else (None, None, None)
     fit, centres = group.pooled_fit(with_reference=with_reference), None
     if group.pooled is not None:
         centres = group.pooled.mapped_centres if with_reference else group.pooled.free_centres
     return GroupFitRow(
-        known=0 if mean is None else mean.count,
-        mean_index_kg=None if mean is None else mean.mean,
-        mean_low_kg=None if mean is None else mean.low,
-        mean_high_kg=None if mean is None else finite_or_none(mean.high),
+        known=len(indices),
+        mean_index_kg=mean,
+        mean_low_kg=low,
+        mean_high_kg=None if high is None else finite_or_none(high),
         pooled=None if fit is None else _pooled_row(fit, group),
         pooled_centre_N=None if centres is None else tuple(centres),
         rank=rank,
-        drift=drift,
+        drift=group.drift(with_reference=with_reference),
     )
 
 

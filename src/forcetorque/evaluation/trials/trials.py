@@ -11,12 +11,12 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, MissingFileError, known_names
+from forcetorque.evaluation.section import TRIAL
+from forcetorque.evaluation.sphere.cloud import BLOCKS
 from forcetorque.evaluation.sphere.fit_results import EllipsoidFit
 from forcetorque.evaluation.sphere.pooled_fit import PooledSphere, pool_trials
-from forcetorque.evaluation.sphere.resampling import BLOCKS
 from forcetorque.evaluation.sphere.result import FailureRow, bounded
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
-from forcetorque.evaluation.trials.section import TRIAL
 from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.applicability import calibrations_of
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -34,31 +34,18 @@ _JUDGED = 7
 """Numbers that a drift is told by: index, three intersections, three coordinates of the centre."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TrialMean:
-    """Plain mean of the indices of trials, the `Average Std` of thesis Tables 4.3 and 4.4."""
-
-    count: int
-    """Number of trials."""
-    mean: float
-    """Their mean, in the unit of the indices."""
-    low: float
-    """Lower end of its 95 % interval from the scatter between trials, by Student's t, not below 0; 0 with one trial."""
-    high: float
-    """Upper end; infinite with one trial."""
-
-
-def mean_of_trials(indices: Sequence[float]) -> TrialMean:
-    """Average the indices of trials, each as much as the others.
+def mean_of_trials(indices: Sequence[float]) -> tuple[float, float, float]:
+    """Average the indices of trials with equal weights: the `Average Std` of thesis Tables 4.3 and 4.4.
 
     Args:
         indices: Performance indices; any unit.
 
     Returns:
-        Their mean, with what it is worth.
+        Their mean, and the ends of its 95 % interval from the scatter between trials, by Student's t: the lower end is
+        not below 0; one trial gives 0 and infinity.
 
     Raises:
-        ForceTorqueError: If there is none, or one is no number.
+        ForceTorqueError: If there is no index, or one is not finite.
     """
     from scipy.special import stdtrit  # here because importing it takes longer than most commands
 
@@ -67,9 +54,9 @@ def mean_of_trials(indices: Sequence[float]) -> TrialMean:
         raise ForceTorqueError(f"indices: expected at least one number, all finite, got {list(indices)}")
     mean, count = float(values.mean()), len(values)
     if count == 1:
-        return TrialMean(count=1, mean=mean, low=0.0, high=np.inf)
+        return mean, 0.0, np.inf
     margin = float(stdtrit(count - 1, _UPPER) * values.std(ddof=1) / np.sqrt(count))
-    return TrialMean(count=count, mean=mean, low=max(0.0, mean - margin), high=mean + margin)
+    return mean, max(0.0, mean - margin), mean + margin
 
 
 class DriftRow(Row):
@@ -352,18 +339,17 @@ class TrialGroup:
             return None
         return self.pooled.mapped if with_reference else self.pooled.free
 
-    def mean(self, *, with_reference: bool) -> TrialMean | None:
-        """Average the indices of the trials that are identifiable.
+    def identifiable_indices(self, *, with_reference: bool) -> list[float]:
+        """Compute the indices of the trials that are identifiable.
 
         Args:
             with_reference: Whether they are those with the model.
 
         Returns:
-            Plain mean; kg; None where no trial is identifiable.
+            Indices in the order of the trials; kg.
         """
         fits = [(trial.gravity, trial.fit(with_reference=with_reference)) for trial in self.trials]
-        known = [fit.index / gravity for gravity, fit in fits if fit is not None and fit.identifiable]
-        return mean_of_trials(known) if known else None
+        return [fit.index / gravity for gravity, fit in fits if fit is not None and fit.identifiable]
 
     def drift(self, *, with_reference: bool) -> DriftRow | None:
         """Compare the first trial with the last.

@@ -55,7 +55,7 @@ class BestCandidate(Row):
     sensor: str
     """Sensor."""
     offset: Offset
-    """Which offset the candidates are judged with."""
+    """Which offset the calibrations are evaluated with."""
     by_magnitude: str
     """Candidate with the smallest mean norm of the force; whether it is the best, `judgement` says."""
     by_axis: tuple[str, ...]
@@ -100,7 +100,7 @@ def best_candidate(
 
     Args:
         sensor: Name of the sensor.
-        offset: The offset that they are judged with.
+        offset: The offset that they are evaluated with.
         candidates: Keys of their wrenches, each with a sample without a gap.
         pooled: Contact wrenches of all recordings.
         recordings: Those of every recording.
@@ -190,13 +190,13 @@ class ContactForceErrors(Row):
     prior: str | None
     """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
     samples: Annotated[int, Shown("samples")]
-    """Number of judged samples."""
+    """Number of validation samples."""
     force_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_mean_half_width_95_N")]
     """Mean norm of the force."""
     force_mean_error_N: float | None
     """Standard error of that mean; none for one sample."""
     force_mean_half_width_95_N: float | None
-    """Half-width of its 95 % interval; none where it cannot be told."""
+    """Half-width of its 95 % interval; none where the samples do not determine it."""
     moment_mean_Nm: Annotated[float, Shown("moment", "N m", digits=3)]
     """Mean norm of the moment."""
     mean_absolute: Annotated[WrenchValues, ShownWrench(digits=3)]
@@ -247,12 +247,12 @@ def contact_forces(
     sub_model: str | None = None,
     contact: str | None = None,
 ) -> ContactForces:
-    """Judge candidates of a sensor by the contact wrench of a sub-model that nothing touches.
+    """Evaluate calibrations of a sensor by the contact wrench of a sub-model that nothing touches.
 
     Args:
-        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are judged.
-        calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
-            there is none.
+        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are used.
+        calibrations: Calibrations of that sensor by name; their priors are evaluated too, or that of the experiment
+            where there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
         other_sensors: Whether the other sensors read what the model expects or what they measured.
         sub_model: The sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
@@ -263,7 +263,7 @@ def contact_forces(
         intervals that are not in them.
 
     Raises:
-        ExperimentError: If there is nothing to judge, or an interval has no support.
+        ExperimentError: If there is nothing to evaluate, or an interval has no support.
     """
     campaign = Campaign.of(runs)
     choice = SubModelChoice(others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
@@ -272,7 +272,7 @@ def contact_forces(
 
 
 def contact_forces_of(sensor: ExperimentSensor, recordings: Mapping[str, ContactWrenches]) -> ContactForces:
-    """Judge candidates of a sensor by given contact wrenches.
+    """Evaluate calibrations of a sensor by given contact wrenches.
 
     Args:
         sensor: The sensor.
@@ -282,12 +282,12 @@ def contact_forces_of(sensor: ExperimentSensor, recordings: Mapping[str, Contact
         The same as `contact_forces`.
 
     Raises:
-        ExperimentError: If there is nothing to judge.
+        ExperimentError: If there is nothing to evaluate.
     """
     contacts = pooled_contacts(recordings)
     verdicts = tuple(contact_force_rows(sensor, contacts))
     if not verdicts:
-        raise ExperimentError(f"nothing can be judged: {'; '.join(contacts.left_out)}")
+        raise ExperimentError(f"nothing can be evaluated: {'; '.join(contacts.left_out)}")
     return ContactForces(
         verdicts=verdicts,
         best=tuple(_best(sensor, contacts, list(recordings.values()))),

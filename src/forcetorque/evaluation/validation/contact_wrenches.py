@@ -27,7 +27,7 @@ from forcetorque.robot.motion import JointMotion, RootMotion
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ContactForces(ArrayRecord):
+class EstimatedContactWrenches(ArrayRecord):
     """Contact wrenches of a sub-model that nothing touches, by each of k candidates over n samples."""
 
     validation: ContactForceValidation
@@ -71,14 +71,14 @@ class ContactForces(ArrayRecord):
         return self.validation.direction * in_direction
 
 
-def contact_forces(
+def estimate_contact_wrenches(
     validation: ContactForceValidation,
     joints: JointMotion,
     root: RootMotion,
     readings: Mapping[str, Any] | FloatArray,
     *,
     measured: Wrenches | None = None,
-) -> ContactForces:
+) -> EstimatedContactWrenches:
     """Estimate the contact wrench of a sub-model that nothing touches, with candidates for one of its sensors.
 
     NaN in a sample is a gap: it makes NaN of that sample and of no other.
@@ -112,7 +112,7 @@ def contact_forces(
             _refuse_infinite(name, reading)
             wrench[~whole] = np.nan  # a wrench at another point mixes all components
     wrenches.setflags(write=False)  # held as it is, not copied
-    return ContactForces(
+    return EstimatedContactWrenches(
         validation=validation,
         candidates=tuple(candidates),
         at_sensor=wrenches,
@@ -194,7 +194,7 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
     """Read a sensor by every candidate, and carry the contact wrench of the free sub-model to the sensor.
 
     Args:
-        free: The sub-model; the validation intervals are judged.
+        free: The sub-model; the validation intervals are used.
         calibrations: Calibrations of the sensor by name.
 
     Returns:
@@ -279,5 +279,7 @@ def _over(
     measured = free.measured(sub_model.others if free.corrections else (), interval)
     # by their places, because a calibration may be called `prior` too
     readings = {str(k): free.run.measured(interval, candidate.correction) for k, candidate in enumerate(candidates)}
-    forces = contact_forces(sub_model, joints, root, readings, measured=Wrenches.of(measured) if measured else None)
+    forces = estimate_contact_wrenches(
+        sub_model, joints, root, readings, measured=Wrenches.of(measured) if measured else None
+    )
     return [forces.of(place) for place in readings], forces.free_reading

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -21,6 +21,8 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset, gap_words, nothing_left
 from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since
 from forcetorque.recording.recording import Interval, Use
+from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.table import Row, Shown
 from forcetorque.robot.dynamics import body_poses
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimates import Estimates
@@ -127,25 +129,24 @@ def torque_map(
     return TorqueMap(sensor=sensor, joints=tuple(signs), rows=rows)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TorqueErrors:
+class TorqueErrors(Row):
     """Statistics of n errors of one joint's torque, pooled before anything is averaged; N m, N where prismatic."""
 
-    count: int
-    """Number of samples."""
-    rmse: float
+    samples: Annotated[int, Shown("samples")]
+    """Number of samples without a gap."""
+    rmse: Annotated[float, Shown("RMSE", digits=3, error="rmse_half_width_95")]
     """Root mean square error."""
-    rmse_error: float
-    """Standard error of that root; NaN for one sample."""
-    rmse_half_width: float
-    """Half-width of its 95 % interval; infinite where it cannot be told."""
-    mean: float
+    rmse_error: float | None
+    """Standard error of that root; None for one sample."""
+    rmse_half_width_95: float | None
+    """Half-width of its 95 % interval; None where the samples do not determine it."""
+    mean: Annotated[float, Shown("mean", digits=3, error="mean_half_width_95")]
     """Mean error."""
-    mean_error: float
-    """Standard error of that mean; NaN for one sample."""
-    mean_half_width: float
-    """Half-width of its 95 % interval; infinite where it cannot be told."""
-    largest: float
+    mean_error: float | None
+    """Standard error of that mean; None for one sample."""
+    mean_half_width_95: float | None
+    """Half-width of its 95 % interval; None where the samples do not determine it."""
+    largest: Annotated[float, Shown("largest", digits=3)]
     """Largest absolute error."""
 
 
@@ -176,13 +177,13 @@ def torque_errors(errors: Any, time_s: Any) -> TorqueErrors:
     (error, square_error), (half, square_half) = known.standard_error, known.half_width
     slope = 0.5 / rmse if rmse > 0.0 else 0.0  # d sqrt(m) = dm / (2 sqrt(m))
     return TorqueErrors(
-        count=len(whole),
+        samples=len(whole),
         rmse=rmse,
-        rmse_error=slope * float(square_error) if rmse > 0.0 else 0.0,
-        rmse_half_width=slope * float(square_half) if rmse > 0.0 else 0.0,
+        rmse_error=finite_or_none(slope * float(square_error)) if rmse > 0.0 else 0.0,
+        rmse_half_width_95=finite_or_none(slope * float(square_half)) if rmse > 0.0 else 0.0,
         mean=float(whole.mean()),
-        mean_error=float(error),
-        mean_half_width=float(half),
+        mean_error=finite_or_none(float(error)),
+        mean_half_width_95=finite_or_none(float(half)),
         largest=float(np.abs(whole).max()),
     )
 
@@ -305,7 +306,7 @@ def torque_error_samples(free: FreeSubModel, calibrations: Mapping[str, Calibrat
     """Estimate the torques of the joints that depend on a sensor by every candidate, and compare with the model.
 
     Args:
-        free: The free sub-model of the sensor; the validation intervals are judged.
+        free: The free sub-model of the sensor; the validation intervals are used.
         calibrations: Calibrations of the sensor by name.
 
     Returns:

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from forcetorque.evaluation.validation.joint_torque_errors import (
+    TorqueErrors,
     TorqueErrorSamples,
     pooled_torque_errors,
     torque_error_samples,
@@ -19,35 +20,23 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import JudgedRow
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
-from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import Shown, Table, table_of
 from forcetorque.robot.model import JointType
 
 
-class JointTorqueErrors(JudgedRow):
-    """Error of the torque that is estimated for one joint, where one candidate reads the sensor."""
+class EstimatedJointRow(JudgedRow):
+    """The joint of an estimated torque, and the calibration that reads the sensor."""
 
     joint: Annotated[str, Shown("joint")]
     """A joint whose torque depends on the sensor."""
     unit: Annotated[Literal["N m", "N"], Shown("unit")]
     """Unit of its torque: N for a prismatic joint."""
-    samples: Annotated[int, Shown("samples")]
-    """Number of judged samples."""
-    rmse: Annotated[float, Shown("RMSE", digits=3, error="rmse_half_width_95")]
-    """Root mean square of estimated torque less that of the rigid-body model."""
-    rmse_error: float | None
-    """Standard error of that root; none for one sample."""
-    rmse_half_width_95: float | None
-    """Half-width of its 95 % interval; none where it cannot be told."""
-    mean: Annotated[float, Shown("mean", digits=3, error="mean_half_width_95")]
-    """Mean of estimated torque less that of the model."""
-    mean_error: float | None
-    """Standard error of that mean; none for one sample."""
-    mean_half_width_95: float | None
-    """Half-width of its 95 % interval; none where it cannot be told."""
-    largest: Annotated[float, Shown("largest", digits=3)]
-    """Largest magnitude of estimated torque less that of the model."""
+
+
+class JointTorqueErrors(TorqueErrors, EstimatedJointRow):
+    """Estimated torque of one joint less that of the rigid-body model, by one calibration under test."""
+
     logged_samples: int | None
     """Number of samples with a logged torque; null where none can be compared."""
     logged_rmse: Annotated[float | None, Shown("RMSE from logged", digits=3, error="logged_rmse_half_width_95")]
@@ -55,7 +44,7 @@ class JointTorqueErrors(JudgedRow):
     logged_rmse_error: float | None
     """Standard error of that root; none for one sample."""
     logged_rmse_half_width_95: float | None
-    """Half-width of its 95 % interval; none where it cannot be told."""
+    """Half-width of its 95 % interval; none where the samples do not determine it."""
 
 
 class RecordingJointTorques(JointTorqueErrors):
@@ -95,16 +84,16 @@ def joint_torques(
     sub_model: str | None = None,
     contact: str | None = None,
 ) -> JointTorques:
-    """Judge candidates of a sensor by the joint torques that are estimated from it.
+    """Evaluate calibrations of a sensor by the joint torques that are estimated from it.
 
     The contacts are those of `estimate_experiment`: the support, and a full wrench at the sensor at the base of every
     other sub-model; `contact` moves that of the free one. The model's torques are those of the support as the only
     contact.
 
     Args:
-        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are judged.
-        calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
-            there is none.
+        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are used.
+        calibrations: Calibrations of that sensor by name; their priors are evaluated too, or that of the experiment
+            where there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
         other_sensors: Whether the other sensors read what the model expects or what they measured.
         sub_model: The free sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
@@ -123,7 +112,7 @@ def joint_torques(
 
 
 def joint_torques_of(campaign: Campaign, torques: TorqueErrorSamples) -> JointTorques:
-    """Judge candidates of a sensor by given errors of joint torques.
+    """Evaluate calibrations of a sensor by given errors of joint torques.
 
     Args:
         campaign: The sensor.
@@ -181,16 +170,9 @@ def _rows(campaign: Campaign, torques: TorqueErrorSamples) -> Iterator[JointTorq
             prior=candidate.prior,
             joint=key.joint,
             unit="N" if prismatic else "N m",
-            samples=errors.count,
-            rmse=errors.rmse,
-            rmse_error=finite_or_none(errors.rmse_error),
-            rmse_half_width_95=finite_or_none(errors.rmse_half_width),
-            mean=errors.mean,
-            mean_error=finite_or_none(errors.mean_error),
-            mean_half_width_95=finite_or_none(errors.mean_half_width),
-            largest=errors.largest,
-            logged_samples=None if logged is None else logged.count,
+            **dict(errors),
+            logged_samples=None if logged is None else logged.samples,
             logged_rmse=None if logged is None else logged.rmse,
-            logged_rmse_error=None if logged is None else finite_or_none(logged.rmse_error),
-            logged_rmse_half_width_95=None if logged is None else finite_or_none(logged.rmse_half_width),
+            logged_rmse_error=None if logged is None else logged.rmse_error,
+            logged_rmse_half_width_95=None if logged is None else logged.rmse_half_width_95,
         )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Judge a sensor where nothing touches: by the contact force that it reports, and by joint torques from it."""
+"""Evaluate a sensor where nothing touches: by the contact force that it reports, and by joint torques from it."""
 
 from __future__ import annotations
 
@@ -69,9 +69,9 @@ class Validation(Result):
     left_out: tuple[str, ...]
     """Torques that the log does not allow to estimate, and what gaps and short intervals leave out, in words."""
     smoothing: tuple[str, ...] = ()
-    """Whether reading and reference were smoothed, in words; of several recordings one per way."""
+    """Whether measured and expected wrench were smoothed, as text; of several recordings one per way."""
     validity: tuple[ReadingsOutside, ...] = ()
-    """One per calibration: how far the judged readings lie outside what it was fitted on."""
+    """One per calibration: how far the validation samples lie outside what it was fitted on."""
 
     uses: tuple[UseVerdict, ...] = ()
     """One per calibration and load case: whether it may be used."""
@@ -125,11 +125,11 @@ def validate(
     sub_model: str | None = None,
     contact: str | None = None,
 ) -> Validation:
-    """Judge candidates of a sensor by contact force and joint torques where nothing touches.
+    """Evaluate calibrations of a sensor by contact force and joint torques where nothing touches.
 
     Args:
-        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are judged.
-        calibrations: Calibrations of that sensor by name, or one; their priors are judged too, or that of the
+        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are used.
+        calibrations: Calibrations of that sensor by name, or one; their priors are evaluated too, or that of the
             experiment where there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
         other_sensors: Whether the other sensors read what the model expects or what they measured.
@@ -141,19 +141,19 @@ def validate(
         What `contact_forces` and `joint_torques` give, from one motion of the robot.
 
     Raises:
-        ExperimentError: If there is nothing to judge, or an interval has no support.
+        ExperimentError: If there is nothing to evaluate, or an interval has no support.
     """
-    campaign, judged_by = Campaign.of(runs), named(calibrations)
+    campaign, tested = Campaign.of(runs), named(calibrations)
     choice = SubModelChoice(others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
-    answers = choice.in_campaign(campaign, lambda free: _torques_and_contacts(free, judged_by))
-    torques = {name: answer[0] for name, answer in answers.items()}
-    contacts = {name: answer[1] for name, answer in answers.items()}
-    judged = joint_torques_of(campaign, pooled_torque_errors(torques))
+    results = choice.in_campaign(campaign, lambda free: _torques_and_contacts(free, tested))
+    torques = {name: result[0] for name, result in results.items()}
+    contacts = {name: result[1] for name, result in results.items()}
+    joint_torques = joint_torques_of(campaign, pooled_torque_errors(torques))
     forces = contact_forces_of(campaign.sensor, contacts)
     name = campaign.sensor.name
-    validity, unknown = _validity(campaign, judged_by)
-    uses, undecided = _uses(campaign, judged_by)
-    reasons = (*forces.left_out, *judged.left_out, *unknown, *undecided)
+    validity, unknown = _validity(campaign, tested)
+    uses, undecided = _uses(campaign, tested)
+    reasons = (*forces.left_out, *joint_torques.left_out, *unknown, *undecided)
     left_out = tuple(dict.fromkeys(f"{name}: {words}" for words in reasons))
     several = len(campaign.runs) > 1
     return Validation(
@@ -161,7 +161,7 @@ def validate(
         other_sensors=other_sensors.value,
         contact_forces=forces.verdicts,
         best=forces.best,
-        joint_torques=judged.verdicts,
+        joint_torques=joint_torques.verdicts,
         recordings=tuple(_forces_apart(campaign, contacts)) if several else (),
         recording_torques=tuple(_torques_apart(campaign, torques)) if several else (),
         left_out=left_out,

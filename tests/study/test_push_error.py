@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.evaluation.candidate_errors import LEVER_M, PUSH_N, push_error, pushes
+from forcetorque.study.candidate_errors import LEVER_M, PUSH_N, push_error, pushes
 
 TRUTH = 0.02 * (np.eye(6) + 0.2 * np.random.default_rng(1).normal(size=(6, 6)))
 EXACT = 1e-12

@@ -86,15 +86,15 @@ def compiled_error_sums(columns: int) -> Callable[..., None]:
     Returns:
         A function of samples, their centre, candidates, and the sums that it adds to, shape (k, 8).
     """
-    source = source_digest(Path(__file__).parent)
+    source = source_digest(Path(__file__))
 
     @njit(cache=True, nogil=True, **_MATHS)
-    def judge(raw, variables, reference, columns_centre, reference_centre, matrices, constants, sums):
-        source  # noqa: B018 - closed over: a change in any of the files compiles it anew
+    def sum_errors(raw, variables, reference, columns_centre, reference_centre, matrices, constants, sums):
+        source  # noqa: B018 - closed over: a change in this file compiles it anew
         rows = np.empty((columns + 6) * STRIDE)
         for first in range(0, len(raw), LANES):
             count = min(LANES, len(raw) - first)
             load(raw, variables, reference, columns_centre, reference_centre, first, count, rows)
             add_errors(columns, rows, count, matrices, constants, sums)
 
-    return judge
+    return sum_errors

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The `[[load_case]]` section of experiment and acceptance files, checked against the robot."""
+"""The `[[load_case]]` and `[trial]` sections of an experiment file: loads to come, and which trial it is."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -14,9 +15,18 @@ from pydantic_core import PydanticCustomError
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.toml_file import NotNegative, Positive, Table, Text
-from forcetorque.evaluation.load_cases.load_case import LoadCaseOffset
 from forcetorque.experiment.section import Loading, Section
 from forcetorque.robot.model import RobotModel
+
+
+class LoadCaseOffset(StrEnum):
+    """What offset the readings of a use are taken with."""
+
+    FITTED = "fitted"
+    """That of the calibration: the sensor is used without being switched off."""
+    TARED = "tared"
+    """One that is taken anew just before use, under the load of the fitted data; readings are changes from there."""
+
 
 _KINDS: Final = {
     "force_N": {"frame", "radius_m", "direction"},
@@ -87,7 +97,7 @@ class LoadCaseTable(Table):
             raise PydanticCustomError("load_direction", "direction needs a frame, and may not be zero")
 
 
-def _checked(tables: tuple[LoadCaseTable, ...], loading: Loading) -> tuple[LoadCaseTable, ...]:
+def _checked_load_cases(tables: tuple[LoadCaseTable, ...], loading: Loading) -> tuple[LoadCaseTable, ...]:
     return require_load_cases(tables, loading.file, loading.model)
 
 
@@ -130,8 +140,32 @@ LOAD_CASES: Section[tuple[LoadCaseTable, ...], tuple[LoadCaseTable, ...]] = Sect
     type=tuple[LoadCaseTable, ...],
     default=(),
     description="What the sensors are to be used for.",
-    read=_checked,
+    read=_checked_load_cases,
     empty=(),
     of_robot=False,
     of_plan=True,
+)
+
+
+class Trial(Table):
+    """What the recording is to a comparison with others of the same sensor."""
+
+    condition: Text | None = None
+    """What was done to the sensor, in any words, such as the torque of its screws."""
+    number: Annotated[int, Field(ge=1, strict=True)] | None = None
+    """Which trial of its condition it is, from 1; by the order of the files if left out."""
+
+
+def _unchanged_trial(table: Trial, loading: Loading) -> Trial:
+    return table
+
+
+TRIAL: Section[Trial, Trial] = Section(
+    key="trial",
+    type=Trial,
+    default=Trial(),
+    description="Condition and number, for `forcetorque compare`.",
+    read=_unchanged_trial,
+    empty=Trial(),
+    of_robot=False,
 )

@@ -13,9 +13,9 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
-from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors
 from forcetorque.experiment.calibrations_under_test import wrench_errors
 from forcetorque.robot.mechanics.estimate import Evaluator
+from forcetorque.study.candidate_errors import BlockErrors, PooledErrors, candidate_errors
 
 EPS = float(np.finfo(np.float64).eps)
 
@@ -42,7 +42,7 @@ class Problem:
     variables: FloatArray
     coefficients: FloatArray
 
-    def judge(self, evaluator: Evaluator, **options: object) -> CandidateErrors:
+    def judge(self, evaluator: Evaluator, **options: object) -> BlockErrors:
         """Judge all candidates."""
         options = {"variables": self.variables, "coefficients": self.coefficients} | options
         return candidate_errors(self.raw, self.reference, self.matrices, self.offsets, evaluator=evaluator, **options)  # type: ignore[arg-type]
@@ -75,7 +75,7 @@ def _problem(samples: int, candidates: int, channels: int = 6, variables: int = 
     )
 
 
-def _largest_difference(one: CandidateErrors | PooledErrors, other: CandidateErrors | PooledErrors) -> float:
+def _largest_difference(one: BlockErrors | PooledErrors, other: BlockErrors | PooledErrors) -> float:
     return max(float(np.abs(getattr(one, field) - getattr(other, field)).max()) for field in FIELDS)
 
 
@@ -101,7 +101,7 @@ def _scatter_of_blocks(values: FloatArray) -> float:
     return float(np.std(means, ddof=1) / np.sqrt(len(means))) if len(means) > 1 else np.nan
 
 
-def _assert_as_one_at_a_time(problem: Problem, errors: CandidateErrors) -> None:
+def _assert_as_one_at_a_time(problem: Problem, errors: BlockErrors) -> None:
     pooled, scatter = errors.pooled(), errors.standard_error()
     assert len(problem.matrices) == len(pooled.force_mean) > 0
     for k in range(len(problem.matrices)):
@@ -245,7 +245,7 @@ def test_threads_change_nothing_and_progress_is_told() -> None:
 def test_little_work_does_not_load_the_compiler() -> None:
     """It would take longer than the work; asked for, it is there."""
     code = (
-        "import sys, numpy as np; from forcetorque.evaluation.candidate_errors import candidate_errors as judge\n"
+        "import sys, numpy as np; from forcetorque.study.candidate_errors import candidate_errors as judge\n"
         "problem = np.ones((9, 6)), np.ones((9, 6)), np.ones((2, 6, 6)), np.ones((2, 6))\n"
         "judge(*problem); assert 'numba' not in sys.modules\n"
         "judge(*problem, evaluator='compiled'); assert 'numba' in sys.modules"
@@ -256,8 +256,8 @@ def test_little_work_does_not_load_the_compiler() -> None:
 def test_much_work_is_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
     """Beyond some number of samples times candidates the compiled evaluator is chosen."""
     problem = _problem(100, 2)
-    monkeypatch.setattr(sys.modules["forcetorque.evaluation.candidate_errors"], "_FEW", 200)
-    monkeypatch.setattr(sys.modules["forcetorque.evaluation.candidate_errors"], "_run_readable", None)
+    monkeypatch.setattr(sys.modules["forcetorque.study.candidate_errors"], "_FEW", 200)
+    monkeypatch.setattr(sys.modules["forcetorque.study.candidate_errors"], "_run_readable", None)
     chosen = candidate_errors(problem.raw, problem.reference, problem.matrices, problem.offsets)
     assert chosen.force_mean.shape == (2, 10)
 

@@ -10,12 +10,13 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.evaluation.load_cases.load_case import LoadCase, LoadCaseOffset, pushes_around_sensor
+from forcetorque.evaluation.load_cases.load_case import LoadCase, pushes_around_sensor
 from forcetorque.evaluation.load_cases.predicted_error import load_second_moment, predict_from_posterior
+from forcetorque.evaluation.section import LoadCaseOffset
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
-from forcetorque.planning.information import Knowledge, Lesson, Nuisance, unfitted_posterior
+from forcetorque.planning.information import Knowledge, Nuisance, PlannedLoads, unfitted_posterior
 from forcetorque.planning.search import Choices, Criterion, pick
 
 RNG = np.random.default_rng(5)
@@ -32,16 +33,16 @@ def before() -> Posterior:
     )
 
 
-def _lesson(loads: FloatArray, warmer: float = 3.0) -> Lesson:
+def _planned_loads(loads: FloatArray, warmer: float = 3.0) -> PlannedLoads:
     n = len(loads)
-    return Lesson(time_s=np.arange(n) + 0.5, wrench=loads, variables=warmer * np.arange(n)[:, None] / n)
+    return PlannedLoads(time_s=np.arange(n) + 0.5, wrench=loads, variables=warmer * np.arange(n)[:, None] / n)
 
 
-def _written_out(before: Posterior, lesson: Lesson, row: int) -> FloatArray:
+def _written_out(before: Posterior, loads: PlannedLoads, row: int) -> FloatArray:
     """Covariance of matrix, temperature and offset of a row, by inverses of whole matrices."""
-    noise, time = before.noise[row], lesson.time_s
+    noise, time = before.noise[row], loads.time_s
     slow = noise.ratio * np.exp(-np.abs(time[:, None] - time) / noise.time_constant_s)
-    design = np.column_stack([lesson.columns, np.ones(len(time))])
+    design = np.column_stack([loads.columns, np.ones(len(time))])
     information = design.T @ np.linalg.solve(noise.white**2 * (np.eye(len(time)) + slow), design)
     prior = before.covariance[row, :7, :7].copy()
     prior[:6, :6] = before.learnt_covariance[row]
@@ -52,13 +53,13 @@ def _written_out(before: Posterior, lesson: Lesson, row: int) -> FloatArray:
 
 def test_a_lesson_teaches_what_the_covariance_written_out_says(before: Posterior) -> None:
     """Matrix, temperature and offset, each with its covariance; repeatability is added about the mean load."""
-    lesson = _lesson(LOADS)
-    after = Knowledge.of(before).taught(lesson).posterior
+    loads = _planned_loads(LOADS)
+    after = Knowledge.of(before).updated(loads).posterior
     repeated = before.covariance[:, :6, :6] - before.learnt_covariance
-    mean = lesson.wrench.mean(axis=0)
+    mean = loads.wrench.mean(axis=0)
     turned = np.vstack([np.eye(6), np.zeros((1, 6)), -mean])
     for row in range(6):
-        expected = _written_out(before, lesson, row)
+        expected = _written_out(before, loads, row)
         np.testing.assert_allclose(after.learnt_covariance[row], expected[:6, :6], rtol=1e-6, atol=1e-12)
         expected = expected + turned @ repeated[row] @ turned.T
         size = np.sqrt(np.diag(expected))
@@ -73,24 +74,24 @@ def test_two_lessons_in_one_order_or_the_other(before: Posterior, with_terms: bo
     """The second adds to the first, in either order; the mean load is that of both; quadratic terms cost."""
     nuisance = Nuisance.of(MATRIX, Assumptions.of_counts(6, 32767.0), with_prior=True) if with_terms else None
     start = replace(Knowledge.of(before, nuisance=nuisance), centre=np.zeros(6))
-    first, second = _lesson(LOADS[:25]), _lesson(LOADS[25:])
-    one, other = start.taught(first).taught(second), start.taught(second).taught(first)
+    first, second = _planned_loads(LOADS[:25]), _planned_loads(LOADS[25:])
+    one, other = start.updated(first).updated(second), start.updated(second).updated(first)
     np.testing.assert_allclose(
         one.posterior.learnt_covariance, other.posterior.learnt_covariance, rtol=1e-6, atol=1e-13
     )
     np.testing.assert_allclose(one.posterior.load_centre, LOADS.mean(axis=0))
-    plain = Knowledge.of(before).taught(first).taught(second).posterior.learnt_covariance
+    plain = Knowledge.of(before).updated(first).updated(second).posterior.learnt_covariance
     less = np.einsum("kii->ki", one.posterior.learnt_covariance) >= np.einsum("kii->ki", plain) * (1.0 - 1e-6)
     assert less.all()
 
 
 def test_postures_all_alike_teach_nothing_of_the_matrix(before: Posterior) -> None:
     """Negative control: one load for as long as one likes is an offset; loads that differ narrow what is known."""
-    alike = Knowledge.of(before).taught(_lesson(np.tile(LOADS[0], (40, 1)), warmer=0.0)).posterior
+    alike = Knowledge.of(before).updated(_planned_loads(np.tile(LOADS[0], (40, 1)), warmer=0.0)).posterior
     np.testing.assert_allclose(alike.learnt_covariance, before.learnt_covariance, rtol=1e-9)
     error, told = (
         predict_from_posterior(alike, CASE),
-        predict_from_posterior(Knowledge.of(before).taught(_lesson(LOADS)).posterior, CASE),
+        predict_from_posterior(Knowledge.of(before).updated(_planned_loads(LOADS)).posterior, CASE),
     )
     known = predict_from_posterior(before, CASE)
     assert error.force.typical == pytest.approx(known.force.typical, rel=0.05)
@@ -99,7 +100,7 @@ def test_postures_all_alike_teach_nothing_of_the_matrix(before: Posterior) -> No
 
 def test_the_criterion_is_the_expected_square_over_what_is_allowed(before: Posterior) -> None:
     """Force and moment, each over its own, as draws of the predicted error say; noise of a reading aside."""
-    after = Knowledge.of(before).taught(_lesson(LOADS)).posterior
+    after = Knowledge.of(before).updated(_planned_loads(LOADS)).posterior
     error, (force, moment) = predict_from_posterior(after, CASE), CASE.requirement
     drawn = (error.force.draws**2).mean() / force**2 + (error.moment.draws**2).mean() / moment**2
     noise = [error.force.sources["noise"] / force, error.moment.sources["noise"] / moment]
@@ -115,8 +116,8 @@ def test_an_error_that_is_not_judged_does_not_count(before: Posterior) -> None:
 
 
 def _worth(before: Posterior, order: FloatArray) -> float:
-    lesson = _lesson(np.repeat(LOADS[order], 3, axis=0), warmer=0.0)
-    return Criterion(case=CASE).value(Knowledge.of(before).taught(lesson).posterior)
+    loads = _planned_loads(np.repeat(LOADS[order], 3, axis=0), warmer=0.0)
+    return Criterion(case=CASE).value(Knowledge.of(before).updated(loads).posterior)
 
 
 def test_picked_postures_teach_more_than_most_random_ones(before: Posterior) -> None:
@@ -141,8 +142,8 @@ def test_a_posture_that_takes_too_long_is_not_picked(before: Posterior) -> None:
 
 def test_temperature_is_learnt_only_where_it_moves(before: Posterior) -> None:
     """A recording at one temperature has an offset of its own and says nothing; one that warms up does."""
-    place, steady, warming = 6, _lesson(LOADS, warmer=0.0), _lesson(LOADS, warmer=10.0)
-    known = [Knowledge.of(before).taught(one).posterior.covariance[:, place, place] for one in (steady, warming)]
+    place, steady, warming = 6, _planned_loads(LOADS, warmer=0.0), _planned_loads(LOADS, warmer=10.0)
+    known = [Knowledge.of(before).updated(one).posterior.covariance[:, place, place] for one in (steady, warming)]
     np.testing.assert_allclose(known[0], before.covariance[:, place, place])
     assert (known[1] < 0.3 * known[0]).all()
 
@@ -150,7 +151,7 @@ def test_temperature_is_learnt_only_where_it_moves(before: Posterior) -> None:
 def test_the_offset_of_a_use_is_that_of_the_last_recording(before: Posterior) -> None:
     """Its place in the moment of the use is the last one, whatever sessions there were."""
     fitted = LoadCase(name="stand", words="", wrench=CASE.wrench)
-    after = Knowledge.of(before).taught(_lesson(LOADS)).posterior
+    after = Knowledge.of(before).updated(_planned_loads(LOADS)).posterior
     assert load_second_moment(after, fitted)[-1, -1] == 1.0
     assert load_second_moment(after, CASE)[-1, -1] == 0.0
 
@@ -162,7 +163,7 @@ def test_warmth_in_use_is_expected_before_any_recording_too(before: Posterior) -
     )
     first, second = (
         predict_from_posterior(before, warm),
-        predict_from_posterior(Knowledge.of(before).taught(_lesson(LOADS)).posterior, warm),
+        predict_from_posterior(Knowledge.of(before).updated(_planned_loads(LOADS)).posterior, warm),
     )
     assert first.force.sources["variables"] > 2.0 * second.force.sources["variables"]
     assert first.force.typical > predict_from_posterior(before, CASE).force.typical
