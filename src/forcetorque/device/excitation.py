@@ -149,7 +149,7 @@ def uncertain(poses: list[Poses], sensor: str, tolerances: Tolerances) -> Uncert
     Returns:
         The loads; errors of the device are the same with every load.
     """
-    return UncertainLoads.together([one.uncertain(sensor, tolerances) for one in poses])
+    return UncertainLoads.join([one.uncertain(sensor, tolerances) for one in poses])
 
 
 def remedies(device: Device, load_kg: float) -> dict[str, Remedy]:

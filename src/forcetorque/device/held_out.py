@@ -16,7 +16,7 @@ from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.excitation import RANK_TOLERANCE, load_sizes
 from forcetorque.workbench.loads import BenchLoads
-from forcetorque.workbench.simulated_benches import simulate_specimen
+from forcetorque.workbench.simulated_benches import simulate_bench
 
 HELD_OUT_FORCE_N: Final = 100.0
 """Standard deviation of every component of a held-out force; N."""
@@ -103,7 +103,7 @@ def bench_error(loads: BenchLoads, placement: Placement, seed: int) -> HeldOutEr
     """
     rng = np.random.default_rng(seed)
     noise = NOISE_COUNTS / np.sqrt(SAMPLES / len(loads))
-    specimen = simulate_specimen(loads, placement, rng, family=FAMILY, noise_counts=noise)
+    specimen = simulate_bench(loads, placement, rng, family=FAMILY, noise_counts=noise)
     matrix = fitted_matrix(loads.wrench, specimen.bench.raw, np.ones(len(loads)))
     return _judged(matrix, specimen.response, seed)
 

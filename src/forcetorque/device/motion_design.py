@@ -100,7 +100,7 @@ class Designer:
             hold_s=self.hold_s,
             seconds=self.seconds - self.hold_s,
         )
-        noise = np.diag(sample_noise()) + (loads.fresh**2).sum(axis=2).mean(axis=0)
+        noise = np.diag(sample_noise()) + (loads.independent**2).sum(axis=2).mean(axis=0)
         posterior = blank_posterior(np.sqrt(noise), load_sizes(loads.wrench))
         return search(
             judged,
@@ -140,7 +140,7 @@ class Designer:
             sequence=sequence,
             duration_s=line.duration_s,
             value=error.volume,
-            squares=error.trace(held_out_loads()),
+            squares=error.mean_squares(held_out_loads()),
         )
 
     @property

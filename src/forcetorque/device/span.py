@@ -126,7 +126,7 @@ def sensor_span_row(sensor: str, motion: str, poses: int, span: Span) -> SensorS
         poses=poses,
         rank=span.rank,
         smallest=float(span.strengths[span.rank - 1]),
-        missing="; ".join(line.words for line in span.missing),
+        missing="; ".join(line.text for line in span.missing),
     )
 
 
@@ -139,7 +139,7 @@ def predicted_rms(error: MatrixError) -> tuple[float, float]:
     Returns:
         Root mean square over loads and axes, of force and of moment; N, N m.
     """
-    force, moment = np.sqrt(np.array(error.trace(held_out_loads())) / 3.0).tolist()
+    force, moment = np.sqrt(np.array(error.mean_squares(held_out_loads())) / 3.0).tolist()
     return force, moment
 
 

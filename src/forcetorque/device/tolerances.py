@@ -205,7 +205,7 @@ class Poses:
         """
         reference = self._reference(sensor)
         stated = reference.wrench()
-        lasting = {
+        systematic = {
             name: tolerances.size_of(name)
             * np.subtract(*(reference.wrench(self._by_quantity({name: step})) for step in (_STEP, -_STEP)))
             / (2.0 * _STEP)
@@ -215,8 +215,8 @@ class Poses:
         return UncertainLoads(
             wrench=stated,
             count=self.count,
-            lasting=lasting,
-            fresh=np.stack([lasting.get(joint, still) for joint in ("pitch", "yaw", "hinge")], axis=2),
+            systematic=systematic,
+            independent=np.stack([systematic.get(joint, still) for joint in ("pitch", "yaw", "hinge")], axis=2),
         )
 
     def _reference(self, sensor: str) -> Reference:
@@ -258,7 +258,7 @@ class RestTable:
 
     wrench: Mapping[float, FloatArray]
     """What pitch and yaw make of the load, by lock in deg; shapes (9, 6); N, N m."""
-    lasting: Mapping[float, Mapping[str, FloatArray]]
+    systematic: Mapping[float, Mapping[str, FloatArray]]
     """The same of every error that stays, by lock in deg and name; shapes (9, 6); N, N m."""
 
     @classmethod
@@ -277,14 +277,14 @@ class RestTable:
         pitch, yaw = (angles.ravel() for angles in np.meshgrid(_THIRDS, _THIRDS))
         inverse = np.asarray(np.linalg.inv(_basis(pitch, yaw)), dtype=np.float64)
         wrench: dict[float, FloatArray] = {}
-        lasting: dict[float, dict[str, FloatArray]] = {}
+        systematic: dict[float, dict[str, FloatArray]] = {}
         for lock in device.hinge.locks_deg:
             position = np.column_stack([pitch, yaw, np.full(len(pitch), np.deg2rad(lock))])
             poses = Poses(device=device, load=load, position=position, count=np.ones(len(pitch)))
             loads = poses.uncertain(sensor, tolerances)
             wrench[lock] = inverse @ loads.wrench
-            lasting[lock] = {name: inverse @ change for name, change in loads.lasting.items()}
-        return cls(wrench=wrench, lasting=lasting)
+            systematic[lock] = {name: inverse @ change for name, change in loads.systematic.items()}
+        return cls(wrench=wrench, systematic=systematic)
 
     def loads(self, position: FloatArray) -> UncertainLoads:
         """Give the loads of samples that follow each other, with what may be wrong of them.
@@ -298,19 +298,19 @@ class RestTable:
         starts = np.flatnonzero(np.append(True, np.abs(np.diff(position, axis=0)).max(axis=1) > 0.0))
         poses = position[starts]
         basis, hinge = _basis(poses[:, 0], poses[:, 1]), np.rad2deg(poses[:, 2])
-        names = dict.fromkeys(name for errors in self.lasting.values() for name in errors)
+        names = dict.fromkeys(name for errors in self.systematic.values() for name in errors)
         wrench = np.zeros((len(poses), 6))
-        lasting = {name: np.zeros_like(wrench) for name in names}
+        systematic = {name: np.zeros_like(wrench) for name in names}
         for lock, table in self.wrench.items():
             at = np.abs(hinge - lock) < 1.0
             wrench[at] = basis[at] @ table
-            for name, change in self.lasting[lock].items():
-                lasting[name][at] = basis[at] @ change
+            for name, change in self.systematic[lock].items():
+                systematic[name][at] = basis[at] @ change
         return UncertainLoads(
             wrench=wrench,
             count=np.diff(np.append(starts, len(position))),
-            lasting=lasting,
-            fresh=np.stack([lasting["pitch"], lasting["yaw"]], axis=2),
+            systematic=systematic,
+            independent=np.stack([systematic["pitch"], systematic["yaw"]], axis=2),
         )
 
 
