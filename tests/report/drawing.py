@@ -647,7 +647,7 @@ def _contest(rng: np.random.Generator) -> Figure:
     return contest_figure(rows)
 
 
-def _remedies(rng: np.random.Generator) -> Figure:
+def _predicted_error(rng: np.random.Generator) -> Figure:
     names = ("12 steps", "third lock", "workbench, 0.2 deg and 1 mm")
     rows = []
     for error in ("force, N", "moment, N m"):
@@ -664,7 +664,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "space": _space,
     "force space": _force_space,
     "device": _device,
-    "remedies": _remedies,
+    "predicted_error": _predicted_error,
     "difference": _difference,
     "lambda difference": _lambda_difference,
     "lambda force": _lambda_force,
