@@ -17,7 +17,7 @@ from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, write_matrix_file
-from forcetorque.inspection.findings import doubtful_spans
+from forcetorque.inspection.findings import unreliable_intervals
 from forcetorque.recording.recording import Use
 from tests.app.python.arrays import arrays_of
 from tests.results.showing import require_shown
@@ -111,7 +111,7 @@ def test_findings_of_one_kind_do_not_bury_the_others(arm: Path) -> None:
     for first in range(len(counts) // 10, len(counts) // 2, 20):
         counts[first : first + 3, 0] = 32767.0
     saturated = experiment_of_arrays(**arrays | {"reading": counts})
-    kinds = [finding.kind for _, finding in doubtful_spans(saturated, Use.CALIBRATION)]
+    kinds = [finding.kind for _, finding in unreliable_intervals(saturated, Use.CALIBRATION)]
     assert kinds.count("saturation") > 10
     doubts = list(data_doubts(SensorRun(saturated, "arm_ft")))
     told = [sentence for sentence in doubts if "saturation" in sentence]

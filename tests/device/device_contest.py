@@ -14,7 +14,7 @@ from forcetorque.contests.entries import PHASES, Contestant, ContestRun, Method
 from forcetorque.contests.phases import MotionPath, trial_by_phase
 from forcetorque.device.description import device_load
 from forcetorque.device.device_file import read_device
-from forcetorque.device.expected_wrench import answer_of
+from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.model import device_model
 from forcetorque.device.motion import DeviceTrajectory, twelve_steps
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor, FitOptions, Role
@@ -42,7 +42,7 @@ def motion_of(load_kg: float) -> tuple[FloatArray, tuple[str, ...], FloatArray, 
     """Instants, joints, positions, and the true wrench of every sensor under a load."""
     load = device_load(DEVICE, load_kg)
     time, motion = DeviceTrajectory(device=DEVICE, load=load, sequence=twelve_steps(DEVICE)).sampled(RATE_HZ)
-    wrenches = answer_of(DEVICE, load, motion).wrenches
+    wrenches = device_response(DEVICE, load, motion).wrenches
     return time, motion.names, motion.position, {name: wrenches.of_name(name) for name in DEVICE.sensor_names}
 
 

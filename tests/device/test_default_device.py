@@ -9,7 +9,7 @@ import pytest
 from forcetorque.base.errors import SensorError
 from forcetorque.device.description import device_load
 from forcetorque.device.device_file import read_device
-from forcetorque.device.expected_wrench import answer_of
+from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.model import device_model
 from forcetorque.device.motion import twelve_steps
 from forcetorque.robot.dynamics import link_pose
@@ -28,7 +28,7 @@ def test_peaks_are_those_of_the_thesis() -> None:
     """With 35 kg and three sensors the motors hold what is printed, at rest in the 12 steps."""
     device = read_device().with_sensors(3)
     load = device_load(device, 35.0)
-    answer = answer_of(device, load, twelve_steps(device).still_poses(device, load))
+    answer = device_response(device, load, twelve_steps(device).still_poses(device, load))
     for joint, peak in PRINTED_PEAK_NM.items():
         assert np.abs(answer.torque(joint)).max() == pytest.approx(peak, abs=PRINTED)
 

@@ -142,7 +142,7 @@ def test_one_load_in_twelve_steps_tells_nothing_of_one_direction(demands: Device
     assert len(DEVICE.simulation.loads_kg) == 2
     one = DEVICE.changed(simulation=DeviceSimulation(loads_kg=(35.0,)))
     errors = {"ft_1": load_errors(one, "ft_1", one.sequence, {"pitch": Tolerance(step=1e-3)})}
-    (alone,) = (row for row in requirement_rows(one, demands.silhouettes, errors) if row.number == 1)
+    (alone,) = (row for row in requirement_rows(one, demands.envelope, errors) if row.number == 1)
     assert alone.verdict is Verdict.NOT_MET
     assert alone.value == pytest.approx(0.0, abs=NOTHING)
 
@@ -152,8 +152,8 @@ def test_it_shows_itself(demands: DeviceDemands) -> None:
     blocks = list(demands.blocks())
     assert sum(isinstance(block, str) for block in blocks) == len(demands.requirements)
     captions = " ".join(block.caption for block in blocks if not isinstance(block, str))
-    for words in ("requirements", "motors", "hinge", "space", "references", "gravity"):
-        assert words in captions
+    for caption in ("requirements", "motors", "hinge", "space", "expected wrench", "gravity"):
+        assert caption in captions
 
 
 def test_the_page_has_these_figures(demands: DeviceDemands) -> None:

@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.device.description import AttachedLoad, Device, device_load
 from forcetorque.device.device_file import read_device
-from forcetorque.device.expected_wrench import answer_of
+from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.model import BASE, device_model, device_root
 from forcetorque.device.motion import DeviceTrajectory, twelve_steps
 from forcetorque.robot.model_text import urdf_text, write_urdf
@@ -73,7 +73,7 @@ def test_wrenches_and_torques_are_those_of_others(oracle, order: str, tmp_path: 
     load = device_load(device, 35.0)
     write_urdf(tmp_path / "device.urdf", device_model(device, load))
     for motion in _motions(device, load).values():
-        ours = answer_of(device, load, motion)
+        ours = device_response(device, load, motion)
         columns = [ours.joints.index(name) for name in motion.names]
         wrenches, torques = oracle(tmp_path / "device.urdf", device, motion)
         assert wrenches.shape == (len(motion), 3, 6)
@@ -87,4 +87,4 @@ def test_a_gram_is_noticed(tmp_path: Path) -> None:
     (tmp_path / "device.urdf").write_text(urdf_text(device_model(DEVICE, AttachedLoad.point(35.001, 0.115))))
     motion = _motions(DEVICE, load)["static"]
     wrenches, _ = _idyntree(tmp_path / "device.urdf", DEVICE, motion)
-    assert np.abs(wrenches - answer_of(DEVICE, load, motion).wrenches.values).max() > VISIBLE
+    assert np.abs(wrenches - device_response(DEVICE, load, motion).wrenches.values).max() > VISIBLE

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.device.device_file import DeviceFile, read_device
-from forcetorque.device.simulated_recordings import DeviceRecording, DeviceSpecimens, simulate_device
+from forcetorque.device.simulated_recordings import DeviceRecording, DeviceSensors, known_intervals, simulate_device
 from forcetorque.recording.recording import Use
 
 RATE_HZ = 20.0
@@ -19,7 +19,7 @@ def _file(**changes: object) -> DeviceFile:
 
 
 def _recordings(file: DeviceFile) -> list[DeviceRecording]:
-    return list(simulate_device(file, DeviceSpecimens.draw(file)))
+    return list(simulate_device(file, DeviceSensors.draw(file)))
 
 
 @pytest.fixture(scope="module")
@@ -39,19 +39,19 @@ def test_the_hinge_is_logged_at_locks_alone(recordings: list[DeviceRecording]) -
     for recording in recordings:
         hinge = recording.recording.stream("joints").signals["position"].values[:, -1]
         assert set(np.rad2deg(hinge).round(9)) == {0.0, 90.0}
-        first, second = recording.stretches
+        first, second = known_intervals(recording.trajectory)
         assert first.end_s < second.start_s
         assert (first.name, second.name) == ("hinge 0, 1", "hinge 90, 2")
 
 
 def test_an_encoder_of_the_hinge_sees_the_swing() -> None:
-    """Then all of the recording is one stretch."""
+    """Then all of the recording is one interval."""
     file = _file(loads_kg=(35.0,), validation_kg=())
     file = file.changed(hinge=file.hinge.model_copy(update={"encoder": True}))
     (recording,) = _recordings(file)
     hinge = recording.recording.stream("joints").signals["position"].values[:, -1]
     assert ((hinge > 0.1) & (hinge < 1.4)).sum() > RATE_HZ
-    assert [stretch.name for stretch in recording.stretches] == ["all"]
+    assert [interval.name for interval in known_intervals(recording.trajectory)] == ["all"]
 
 
 def test_one_more_load_changes_no_other(recordings: list[DeviceRecording]) -> None:
@@ -65,14 +65,14 @@ def test_one_more_load_changes_no_other(recordings: list[DeviceRecording]) -> No
 
 def test_another_seed_is_another_sensor() -> None:
     """Negative control: matrices are drawn."""
-    first, second = (DeviceSpecimens.draw(_file(seed=seed)).mounted["ft_1"].matrix for seed in (1, 2))
+    first, second = (DeviceSensors.draw(_file(seed=seed)).mounted["ft_1"].matrix for seed in (1, 2))
     assert np.abs(first - second).max() > 0.0
 
 
 def test_sensors_keep_their_serial_numbers() -> None:
-    """Three sensors in a stack are three specimens."""
+    """Three sensors in a stack are three different sensors."""
     file = _file().with_sensors(3)
-    specimens = DeviceSpecimens.draw(file)
-    assert [specimen.serial for specimen in specimens.specimens.values()] == [s.serial for s in file.sensor]
-    matrices = [sensor.matrix for sensor in specimens.mounted.values()]
+    sensors = DeviceSensors.draw(file)
+    assert [sensor.serial for sensor in sensors.sensors.values()] == [s.serial for s in file.sensor]
+    matrices = [sensor.matrix for sensor in sensors.mounted.values()]
     assert all(np.abs(matrices[k] - matrices[k - 1]).max() > 0.0 for k in range(3))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What motors bear: (6.1) is an average over the path, in closed form and whatever the speed."""
+"""Torques of motors: (6.1) is an average over the path, in closed form, at any speed."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.device.mechanical_demands import average_torque, motor_duty
+from forcetorque.device.mechanical_demands import MotorRow, average_torque, motor_row, path_rad
 
 HALF_SINE = (4.0 / (3.0 * np.pi)) ** (1.0 / 3.0)
 """Cubic mean of a half-sine over its peak, in closed form: 0.7515."""
@@ -16,9 +16,13 @@ TRAPEZOID = 1e-5
 
 
 def _swing(law: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """An arm that swings from below to above as the law says, which goes from 0 to 1."""
+    """An arm that swings from below to above by a law of motion from 0 to 1."""
     angle = -0.5 * np.pi + np.pi * law
     return 131.0 * np.cos(angle), angle
+
+
+def _duty(torque: np.ndarray, position: np.ndarray, time: np.ndarray) -> MotorRow:
+    return motor_row("pitch", torque, position, time, moving_peak_Nm=0.0, limit_Nm=160.0)
 
 
 def test_half_a_turn_of_an_arm_averages_to_the_closed_form() -> None:
@@ -33,21 +37,22 @@ def test_the_profile_of_the_speed_drops_out(power: int) -> None:
     """Speed times time is the path: any law of motion gives one average, while the root mean square differs."""
     time = np.linspace(0.0, 1.0, 4001)
     law = time**power * (1.0 + power * (1.0 - time))  # ends at rest
-    duty = motor_duty("pitch", *_swing(law), 3.0 * time)
+    duty = _duty(*_swing(law), 3.0 * time)
     assert duty.average_Nm == pytest.approx(131.0 * HALF_SINE, rel=TRAPEZOID)
-    even = motor_duty("pitch", *_swing(time), 3.0 * time)
+    assert duty.average_over_peak == pytest.approx(HALF_SINE, rel=TRAPEZOID)
+    even = _duty(*_swing(time), 3.0 * time)
     assert even.rms_Nm == pytest.approx(131.0 / np.sqrt(2.0), rel=TRAPEZOID)
     assert abs(duty.rms_Nm - even.rms_Nm) > 1.0
 
 
 def test_holding_and_coming_back_change_nothing() -> None:
-    """Path counts both ways, and a hold has none; the holding torque is what it bears meanwhile."""
+    """Path counts both ways, and a hold has none; the holding torque is that of the hold."""
     torque, angle = _swing(np.linspace(0.0, 1.0, 501))
     level = 250
     stops = np.r_[0:level, np.full(900, level), level:501, 500:-1:-1]
-    duty = motor_duty("pitch", torque[stops], angle[stops], np.arange(len(stops), dtype=float))
+    duty = _duty(torque[stops], angle[stops], np.arange(len(stops), dtype=float))
     assert duty.average_Nm == pytest.approx(131.0 * HALF_SINE, rel=TRAPEZOID)
-    assert duty.path_rad == pytest.approx(2.0 * np.pi)
+    assert path_rad(angle[stops]) == pytest.approx(2.0 * np.pi)
     assert duty.holding_Nm == duty.peak_Nm == 131.0
     assert duty.rms_Nm > 1.1 * 131.0 / np.sqrt(2.0)
 
@@ -62,7 +67,7 @@ def test_an_average_over_time_is_another_number() -> None:
 
 def test_a_motion_that_only_holds_has_no_average() -> None:
     """Its path is nothing."""
-    held = motor_duty("pitch", np.full(10, 131.0), np.zeros(10), np.arange(10.0))
+    held = _duty(np.full(10, 131.0), np.zeros(10), np.arange(10.0))
     assert (held.average_Nm, held.holding_Nm, held.rms_Nm) == (None, 131.0, 131.0)
     with pytest.raises(SensorError, match=r"expected a motion to average over by \(6\.1\), got 10 samples that all"):
         average_torque(np.full(10, 131.0), np.zeros(10))

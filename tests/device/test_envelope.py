@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The space that a device sweeps, against circles and rectangles by hand."""
+"""The space that a device sweeps, compared with circles and rectangles by hand."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.device.description import device_load
 from forcetorque.device.device_file import read_device
-from forcetorque.device.mechanical_demands import ARM_RADIUS_M, Silhouette, envelope
+from forcetorque.device.mechanical_demands import ARM_RADIUS_M, EnvelopeRow, envelope
 from forcetorque.device.motion import Sequence, twelve_steps
 
 DEVICE = read_device().with_sensors(3)
@@ -19,9 +19,9 @@ CIRCLE = 0.006
 """Share by which a circle of 36 corners is smaller."""
 
 
-def _swept(sequence: Sequence) -> dict[str, Silhouette]:
+def _swept(sequence: Sequence) -> dict[str, EnvelopeRow]:
     poses = sequence.still_poses(DEVICE, LOAD, spacing_deg=3.0)
-    return {one.view: one for one in envelope(DEVICE, LOAD, poses)}
+    return {row.view: row for row in envelope(DEVICE, LOAD, poses)}
 
 
 def test_a_straight_arm_that_stands_still() -> None:
@@ -30,17 +30,18 @@ def test_a_straight_arm_that_stands_still() -> None:
     weights = DEVICE.weights
     assert swept["behind"].hull_m2 == pytest.approx(np.pi * weights.radius_m**2, rel=CIRCLE)
     length = ARM_RADIUS_M + HINGE_M + weights.foot_m + 7 * weights.height_m
-    np.testing.assert_allclose(swept["above"].extent_m, [length, 2.0 * weights.radius_m], atol=2e-3)
+    above = swept["above"]
+    np.testing.assert_allclose([above.width_m, above.height_m], [length, 2.0 * weights.radius_m], atol=2e-3)
 
 
 def test_the_motion_is_contained_in_a_square_metre_and_a_half() -> None:
     """Seen from the side, where it is largest: half a circle of the farthest corner of the plates, and the arm."""
     swept = _swept(twelve_steps(DEVICE))
-    assert max(one.rectangle_m2 for one in swept.values()) == swept["the side"].rectangle_m2 < 1.5
+    assert max(row.rectangle_m2 for row in swept.values()) == swept["the side"].rectangle_m2 < 1.5
     reach = np.hypot(HINGE_M + DEVICE.weights.foot_m + 7 * DEVICE.weights.height_m, DEVICE.weights.radius_m)
-    assert swept["the side"].extent_m[1] == pytest.approx(2.0 * reach, rel=0.01)
-    for one in swept.values():
-        assert one.hull_m2 < one.rectangle_m2
+    assert swept["the side"].height_m == pytest.approx(2.0 * reach, rel=0.01)
+    for row in swept.values():
+        assert row.hull_m2 < row.rectangle_m2
 
 
 def test_an_arm_three_times_as_long_is_not() -> None:
@@ -48,4 +49,4 @@ def test_an_arm_three_times_as_long_is_not() -> None:
     part = DEVICE.pitch.part.model_copy(update={"height_m": 0.6})
     longer = DEVICE.changed(pitch=DEVICE.pitch.model_copy(update={"part": part}))
     poses = twelve_steps(longer).still_poses(longer, LOAD, spacing_deg=10.0)
-    assert max(one.rectangle_m2 for one in envelope(longer, LOAD, poses)) > 1.5
+    assert max(row.rectangle_m2 for row in envelope(longer, LOAD, poses)) > 1.5

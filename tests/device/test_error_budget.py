@@ -12,7 +12,15 @@ import pytest
 from forcetorque.base.errors import SensorError
 from forcetorque.device.description import AttachedLoad, device_load
 from forcetorque.device.device_file import read_device
-from forcetorque.device.error_budget import DATA_SHEETS, THESIS_GRADES, ErrorBudget, Grade, Graded, drawn_errors, graded
+from forcetorque.device.error_budget import (
+    DATA_SHEETS,
+    THESIS_GRADES,
+    ErrorBudget,
+    Grade,
+    LoadErrors,
+    drawn_errors,
+    graded_errors,
+)
 from forcetorque.device.expected_wrench import (
     BRACKET_LENGTH,
     COMPLIANCE,
@@ -21,7 +29,7 @@ from forcetorque.device.expected_wrench import (
     LOAD_LENGTH,
     MASS,
     QUANTITIES,
-    Reference,
+    ExpectedWrench,
 )
 from forcetorque.device.motion import twelve_steps
 from forcetorque.device.tolerances import NOISE_REACH, Tolerance
@@ -38,51 +46,51 @@ DRAWN = 5.0
 """Monte Carlo errors by which a root mean square of draws may differ from first order, the worst of six components."""
 
 
-def _reference(sensor: str = "ft_1", spacing_deg: float = 30.0) -> Reference:
+def _expected(sensor: str = "ft_1", spacing_deg: float = 30.0) -> ExpectedWrench:
     poses = twelve_steps(THREE).still_poses(THREE, LOAD, spacing_deg=spacing_deg)
-    return Reference(device=THREE, load=LOAD, poses=poses, sensor=sensor)
+    return ExpectedWrench(device=THREE, load=LOAD, poses=poses, sensor=sensor)
 
 
 @cache
-def _graded(sensors: int) -> dict[Grade, Graded]:
+def _graded(sensors: int) -> dict[Grade, LoadErrors]:
     device = THREE.with_sensors(sensors)
     grades = (*THESIS_GRADES, *DATA_SHEETS)
-    return dict(zip(grades, graded(device, "ft_1", twelve_steps(device), grades), strict=True))
+    return graded_errors(device, "ft_1", twelve_steps(device), grades)
 
 
-def _encoders(full_width: float, sensors: int = 1) -> Graded:
+def _encoders(full_width: float, sensors: int = 1) -> LoadErrors:
     return _graded(sensors)[Grade(by_imu=False, full_width=full_width)]
 
 
-def _imu(full_width: float, sensors: int = 1) -> Graded:
+def _imu(full_width: float, sensors: int = 1) -> LoadErrors:
     return _graded(sensors)[Grade(by_imu=True, full_width=full_width)]
 
 
 @pytest.mark.parametrize("quantity", QUANTITIES)
-def test_the_first_order_of_each_quantity_is_that_of_the_whole_reference(quantity: str) -> None:
-    """A small error of one quantity changes the reference by its slope."""
-    reference = _reference()
+def test_the_first_order_of_each_quantity_is_that_of_the_whole_wrench(quantity: str) -> None:
+    """A small error of one quantity changes the expected wrench by its derivative."""
+    expected = _expected()
     small = {COMPLIANCE: 1e-8, MASS: 1e-4}.get(quantity, 1e-5)
-    change = reference.wrench({quantity: small}) - reference.wrench()
+    change = expected.wrench({quantity: small}) - expected.wrench()
     assert np.abs(change).max() > 1e-6
-    np.testing.assert_allclose(change, small * reference.slope(quantity), atol=2e-5 * np.abs(change).max())
+    np.testing.assert_allclose(change, small * expected.derivative(quantity), atol=2e-5 * np.abs(change).max())
 
 
 def test_slopes_are_those_by_hand() -> None:
     """Straight and level: pitch turns the weight into z, an IMU adds mass times its error, lengths are levers."""
-    reference = _reference()
-    row = int(np.argmin(np.abs(reference.poses.position).sum(axis=1)))
-    assert np.allclose(reference.poses.position[row], 0.0)
-    wrench = reference.wrench()[row]
+    expected = _expected()
+    row = int(np.argmin(np.abs(expected.poses.position).sum(axis=1)))
+    assert np.allclose(expected.poses.position[row], 0.0)
+    wrench = expected.wrench()[row]
     force = np.linalg.norm(wrench[:3])
     assert force == pytest.approx(WEIGHT, rel=BEYOND)
-    assert abs(reference.slope("pitch")[row, 2]) == pytest.approx(force)
-    assert abs(reference.slope("yaw")[row, :3]) == pytest.approx(np.abs(np.cross(wrench[:3], [0.0, 0.0, 1.0])))
-    assert reference.slope("imu_z")[row, 2] == pytest.approx(-force / THREE.gravity)
-    assert np.linalg.norm(reference.slope(MASS)[row, :3]) == pytest.approx(WEIGHT)
+    assert abs(expected.derivative("pitch")[row, 2]) == pytest.approx(force)
+    assert abs(expected.derivative("yaw")[row, :3]) == pytest.approx(np.abs(np.cross(wrench[:3], [0.0, 0.0, 1.0])))
+    assert expected.derivative("imu_z")[row, 2] == pytest.approx(-force / THREE.gravity)
+    assert np.linalg.norm(expected.derivative(MASS)[row, :3]) == pytest.approx(WEIGHT)
     for length in (BRACKET_LENGTH, LOAD_LENGTH):
-        assert np.abs(reference.slope(length)[row, :3]).max() == pytest.approx(0.0, abs=1e-9)
-        assert np.linalg.norm(reference.slope(length)[row, 3:]) == pytest.approx(WEIGHT)
+        assert np.abs(expected.derivative(length)[row, :3]).max() == pytest.approx(0.0, abs=1e-9)
+        assert np.linalg.norm(expected.derivative(length)[row, 3:]) == pytest.approx(WEIGHT)
 
 
 TOLERANCES: Mapping[str, Tolerance] = {
@@ -101,9 +109,9 @@ def test_drawing_agrees_with_first_order(sensor: str, by_imu: bool) -> None:
     """Root mean square within the error of so many draws; no draw beyond what the largest errors allow."""
     imu = dict.fromkeys(IMU, Tolerance(step=0.02, zero=0.01))
     tolerances = imu | {MASS: Tolerance(zero=1e-3)} if by_imu else dict(TOLERANCES)
-    reference = _reference(sensor)
-    error = ErrorBudget.of(reference, tolerances)
-    drawn = drawn_errors(reference, tolerances, np.random.default_rng(7), DRAWS)
+    expected = _expected(sensor)
+    error = ErrorBudget.of(expected, tolerances)
+    drawn = drawn_errors(expected, tolerances, np.random.default_rng(7), DRAWS)
     square = (drawn**2).mean(axis=1)  # (draws, 6)
     spread = square.std(axis=0) / np.sqrt(DRAWS)
     assert (np.abs(square.mean(axis=0) - error.rms**2) < DRAWN * spread).all()
@@ -115,12 +123,12 @@ def test_drawing_agrees_with_first_order(sensor: str, by_imu: bool) -> None:
 
 def test_drawing_notices_a_wrong_width() -> None:
     """Negative control: a width that is a fifth larger is seen by as many draws."""
-    reference = _reference()
+    expected = _expected()
     tolerances = dict.fromkeys(ENCODERS, Tolerance(step=2e-3))
-    drawn = drawn_errors(reference, dict.fromkeys(ENCODERS, Tolerance(step=2.4e-3)), np.random.default_rng(9), DRAWS)
+    drawn = drawn_errors(expected, dict.fromkeys(ENCODERS, Tolerance(step=2.4e-3)), np.random.default_rng(9), DRAWS)
     square = (drawn**2).mean(axis=1)
     spread = square.std(axis=0) / np.sqrt(DRAWS)
-    assert (np.abs(square.mean(axis=0) - ErrorBudget.of(reference, tolerances).rms ** 2) > DRAWN * spread).all()
+    assert (np.abs(square.mean(axis=0) - ErrorBudget.of(expected, tolerances).rms ** 2) > DRAWN * spread).all()
 
 
 def test_table_6_3_of_a_bare_load_of_35_kg_is_that_by_hand() -> None:
@@ -131,9 +139,9 @@ def test_table_6_3_of_a_bare_load_of_35_kg_is_that_by_hand() -> None:
     bracket = ONE.hinge.bracket.model_copy(update={"mass_kg": 0.0})
     device = ONE.changed(sensor=(sensor,), hinge=ONE.hinge.model_copy(update={"bracket": bracket}))
     poses = twelve_steps(device).still_poses(device, bare, spacing_deg=5.0)
-    reference = Reference(device=device, load=bare, poses=poses, sensor="ft_1")
+    expected = ExpectedWrench(device=device, load=bare, poses=poses, sensor="ft_1")
     for width, printed in ((0.015, 0.152), (0.03, 0.303)):
-        rms = ErrorBudget.of(reference, dict.fromkeys(IMU, Tolerance(step=width))).rms
+        rms = ErrorBudget.of(expected, dict.fromkeys(IMU, Tolerance(step=width))).rms
         np.testing.assert_allclose(rms[:3], 35.0 * width / np.sqrt(12.0), rtol=1e-9)
         assert rms[0] == pytest.approx(printed, abs=5e-4)
 
@@ -141,38 +149,38 @@ def test_table_6_3_of_a_bare_load_of_35_kg_is_that_by_hand() -> None:
 @pytest.mark.parametrize(("full_width", "force"), [(0.5, 0.61), (0.25, 0.31), (0.1, 0.12)])
 def test_table_6_3_of_encoders_within_five_percent(full_width: float, force: float) -> None:
     """Root mean square of Fx and Fy; the device has 0.2 kg of interface and bracket beside the 35 kg."""
-    rms = _encoders(full_width).errors.at_most.rms
+    rms = _encoders(full_width).at_largest_load.rms
     np.testing.assert_allclose(rms[:2], force, rtol=0.05)
 
 
 @pytest.mark.parametrize(("full_width", "force"), [(0.015, 0.152), (0.03, 0.303)])
 def test_table_6_3_of_an_imu_within_a_percent(full_width: float, force: float) -> None:
     """With interface and bracket."""
-    np.testing.assert_allclose(_imu(full_width).errors.at_most.rms[:3], force, rtol=0.01)
+    np.testing.assert_allclose(_imu(full_width).at_largest_load.rms[:3], force, rtol=0.01)
 
 
 def test_the_largest_errors_of_forces() -> None:
     """0.5 deg full width is 1.5 N per joint; 0.15 deg meets 0.5 N in each component, not as a norm of both joints."""
-    assert _encoders(0.5).of_one[0] == pytest.approx(1.5, rel=0.01)
+    assert _encoders(0.5).at_largest_load.largest_single_norms[0] == pytest.approx(1.5, rel=0.01)
     narrow = _encoders(0.15)
-    assert narrow.errors.at_most.largest[:3].max() < 0.5 < narrow.errors.at_most.largest_norms[0]
-    assert narrow.errors.met_to_kg[0] == 35.0
-    assert _encoders(0.25).errors.at_most.largest[:3].max() > 0.5
-    assert _imu(0.015).errors.at_most.largest_norms[0] < 0.5 < _imu(0.03).errors.at_most.largest[:3].max()
+    assert narrow.at_largest_load.largest[:3].max() < 0.5 < narrow.at_largest_load.largest_norms[0]
+    assert narrow.met_to_kg[0] == 35.0
+    assert _encoders(0.25).at_largest_load.largest[:3].max() > 0.5
+    assert _imu(0.015).at_largest_load.largest_norms[0] < 0.5 < _imu(0.03).at_largest_load.largest[:3].max()
 
 
 def test_no_grade_meets_the_moment_at_a_lever_of_245_mm() -> None:
     """At 35 kg 0.02 N m is 0.06 mm; the finest grades are at three times as much, and meet it up to 10 kg."""
     assert pytest.approx(0.06e-3, rel=0.03) == 0.02 / WEIGHT
     for grade, one in _graded(3).items():
-        assert one.errors.at_most.largest[3:].max() > 0.02, grade
-    assert _encoders(0.1, 3).of_one[1] == pytest.approx(0.07, abs=0.005)
-    assert _imu(0.015, 3).of_one[1] == pytest.approx(0.06, abs=0.005)
+        assert one.at_largest_load.largest[3:].max() > 0.02, grade
+    assert _encoders(0.1, 3).at_largest_load.largest_single_norms[1] == pytest.approx(0.07, abs=0.005)
+    assert _imu(0.015, 3).at_largest_load.largest_single_norms[1] == pytest.approx(0.06, abs=0.005)
     for finest in (_encoders(0.1, 3), _imu(0.015, 3)):
-        moment_kg = finest.errors.met_to_kg[1]
+        moment_kg = finest.met_to_kg[1]
         assert moment_kg is not None
         assert 10.0 < moment_kg < 11.0
-    assert _encoders(0.5, 3).errors.met_to_kg[1] is None
+    assert _encoders(0.5, 3).met_to_kg[1] is None
 
 
 def test_errors_of_steps_zero_and_noise_count_as_they_are() -> None:
@@ -187,16 +195,16 @@ def test_errors_of_steps_zero_and_noise_count_as_they_are() -> None:
 
 
 def test_what_cannot_be_propagated_is_refused() -> None:
-    """Two sources of gravity, nothing that is off, names and widths that are none."""
-    reference = _reference()
+    """Two sources of gravity, no errors, unknown names and invalid widths."""
+    expected = _expected()
     both = {"pitch": Tolerance(step=1e-3), "imu_x": Tolerance(step=0.015)}
     with pytest.raises(SensorError, match="gravity by encoders or by an inertial sensor, got both"):
-        ErrorBudget.of(reference, both)
-    with pytest.raises(SensorError, match="at least one quantity that is off"):
-        ErrorBudget.of(reference, {"pitch": Tolerance()})
+        ErrorBudget.of(expected, both)
+    with pytest.raises(SensorError, match="at least one quantity with an error"):
+        ErrorBudget.of(expected, {"pitch": Tolerance()})
     with pytest.raises(SensorError, match="unknown quantity 'pich'; did you mean \"pitch\""):
-        reference.wrench({"pich": 1e-3})
+        expected.wrench({"pich": 1e-3})
     with pytest.raises(SensorError, match="no sensor 'ft_9'"):
-        _reference("ft_9")
+        _expected("ft_9")
     with pytest.raises(SensorError, match="step: expected a width of at least 0"):
         Tolerance(step=-1.0)

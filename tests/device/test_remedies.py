@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the device excites with and without remedies, and what errors are left on loads that were not used."""
+"""Excitation by a device with and without options, and errors at held-out loads."""
 
 from __future__ import annotations
 
@@ -12,20 +12,31 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.device.device_file import read_device
-from forcetorque.device.excitation import Remedy, Run, remedies, swing_at_yaw_zero, third_lock_steps, uncertain
-from forcetorque.device.expected_wrench import answer_of
-from forcetorque.device.held_out import SAMPLES, bench_error, device_error, held_out_loads, sample_noise
+from forcetorque.device.excitation import (
+    SAMPLES,
+    ExcitationOption,
+    excitation_options,
+    held_out_loads,
+    sample_noise,
+    still_poses,
+    swing_at_yaw_zero,
+    third_lock_steps,
+    uncertain,
+)
+from forcetorque.device.expected_wrench import device_response
+from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.motion_design import Designer
-from forcetorque.device.span import better_motion, device_span
+from forcetorque.device.span import device_span, optimised_motion
 from forcetorque.device.tolerances import RestTable, Tolerances
 from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.excitation import Span
 from forcetorque.workbench.loads import THESIS_TABLE, read_loads
+from tests.device.simulated_calibrations import bench_error, device_error
 
 ROUNDING = 1e-9
 """Share below which a singular value counts as zero."""
 FIRST_LOOK = {"third lock": 0.10, "load turned": 0.08, "free hinge": 0.02, "second load": 0.011, "empty carrier": 0.003}
-"""Smallest singular values that were to be expected with 35 kg, of another geometry and other swings."""
+"""Expected smallest singular values with 35 kg, of another geometry and other swings."""
 SEEDS = 50
 
 DEVICE = read_device()
@@ -33,40 +44,40 @@ EXACT = Tolerances()
 
 
 @cache
-def _remedies(load_kg: float) -> dict[str, Remedy]:
-    return remedies(DEVICE, load_kg)
+def _options(load_kg: float) -> dict[str, ExcitationOption]:
+    return excitation_options(DEVICE, load_kg)
 
 
 @cache
 def _errors(name: str, seeds: int) -> FloatArray:
-    poses = _remedies(25.0)[name].sampled(SAMPLES)
+    poses = _options(25.0)[name].sampled(SAMPLES)
     return _device_errors(poses, seeds)
 
 
 def _device_errors(poses: list, seeds: int) -> FloatArray:  # type: ignore[type-arg]
-    errors = (device_error(poses, "ft_1", EXACT, seed) for seed in range(seeds))
-    return np.array([(error.force_N, error.moment_Nm) for error in errors])
+    return np.array([device_error(poses, "ft_1", EXACT, seed) for seed in range(seeds)])
 
 
-def _foretold(run: Remedy) -> tuple[float, float]:
-    return uncertain(run.sampled(SAMPLES), "ft_1", EXACT).matrix_error(sample_noise()).trace(held_out_loads())
+def _predicted(option: ExcitationOption) -> tuple[float, float]:
+    return uncertain(option.sampled(SAMPLES), "ft_1", EXACT).matrix_error(sample_noise()).mean_squares(held_out_loads())
 
 
 def test_the_12_steps_leave_the_moment_about_the_line_of_both_centres() -> None:
     """Rank 5 to 1e-9 for each of three stacked sensors; the line is the same in the world, and a swing adds nothing."""
     three = DEVICE.with_sensors(3)
-    run = remedies(three, 35.0)["12 steps"].runs[0]
+    twelve = excitation_options(three, 35.0)["12 steps"].trajectories[0]
+    poses = still_poses(twelve)
     encoded = three.changed(hinge=three.hinge.model_copy(update={"encoder": True}))
-    swing = Run(device=encoded, load=run.load, sequence=swing_at_yaw_zero(encoded)).still_poses()
+    swing = still_poses(DeviceTrajectory(device=encoded, load=twelve.load, sequence=swing_at_yaw_zero(encoded)))
     height = {"ft_1": 0.08, "ft_1_2": 0.04, "ft_1_3": 0.0}
     places = []
     for sensor in three.sensor_names:
-        wrench = run.still_poses().wrench(sensor)
+        wrench = poses.wrench(sensor)
         span = Span.of(wrench)
         assert span.rank == 5
         assert span.strengths[-1] < ROUNDING * span.strengths[0]
         (line,) = span.missing
-        at_lock = np.round(np.rad2deg(run.still_poses().position[:, -1])) == 90.0
+        at_lock = np.round(np.rad2deg(poses.position[:, -1])) == 90.0
         for locked in (at_lock, ~at_lock):
             # both centres of mass of what hangs on the sensor lie on the line
             centre = _centre(wrench[locked])
@@ -87,10 +98,10 @@ def _centre(wrench: FloatArray) -> FloatArray:
 
 
 @pytest.mark.parametrize("name", FIRST_LOOK)
-def test_every_remedy_spans_six_axes(name: str) -> None:
-    """Rank 6, with a smallest singular value of about the size that was to be expected."""
-    poses = _remedies(35.0)[name].sampled(SAMPLES)
-    span = Span.of(np.concatenate([one.wrench("ft_1") for one in poses]))
+def test_every_option_spans_six_axes(name: str) -> None:
+    """Rank 6, with a smallest singular value of about the expected size."""
+    poses = _options(35.0)[name].sampled(SAMPLES)
+    span = Span.of(np.concatenate([segment.wrench("ft_1") for segment in poses]))
     assert span.rank == 6
     assert span.missing == ()
     assert 0.6 < span.least_strength / FIRST_LOOK[name] < 1.6
@@ -98,12 +109,12 @@ def test_every_remedy_spans_six_axes(name: str) -> None:
 
 def test_without_the_lock_at_minus_90_the_rank_is_5_again() -> None:
     """Negative control: the same poses without those at the third lock; and a device without it refuses them."""
-    (poses,) = _remedies(35.0)["third lock"].still_poses()
-    kept = poses.taken(np.rad2deg(poses.position[:, -1]) > -1.0)
+    (poses,) = _options(35.0)["third lock"].still_poses()
+    kept = poses.select(np.rad2deg(poses.position[:, -1]) > -1.0)
     assert 0 < len(kept.count) < len(poses.count)
     assert Span.of(kept.wrench("ft_1")).rank == 5
     with pytest.raises(RobotError, match="expected the hinge at one of hinge.locks_deg"):
-        third_lock_steps(DEVICE).require_possible(DEVICE, _remedies(35.0)["12 steps"].runs[0].load)
+        third_lock_steps(DEVICE).require_possible(DEVICE, _options(35.0)["12 steps"].trajectories[0].load)
 
 
 def test_requirement_1_is_not_met_in_every_direction() -> None:
@@ -113,56 +124,54 @@ def test_requirement_1_is_not_met_in_every_direction() -> None:
     assert excitation["12 steps"] < 1e-6
     assert max(excitation, key=excitation.__getitem__) == "third lock"
     assert 0.3 < excitation["third lock"] < 1.0
-    assert "'third lock', with 0.4" in list(span.blocks())[-1]
-    unknown = [row for row in span.directions if row.motion == "12 steps"]
+    assert "'third lock', with at least 0.4" in list(span.blocks())[-1]
+    undetermined = [row for row in span.directions if row.motion == "12 steps"]
     assert all(
-        np.isinf([row.fy, row.tx, row.tz]).all() and np.isfinite([row.fx, row.fz, row.ty]).all() for row in unknown
+        np.isinf([row.fy, row.tx, row.tz]).all() and np.isfinite([row.fx, row.fz, row.ty]).all() for row in undetermined
     )
-    assert len(unknown) == 2
+    assert len(undetermined) == 2
 
 
-def test_the_table_of_rest_is_what_the_robot_says() -> None:
-    """Nine postures tell all others, errors included; negative control: those of another lock do not."""
-    run = _remedies(25.0)["third lock"].runs[0]
-    poses = run.still_poses()
-    table = RestTable.of(run.device, run.load, "ft_1", EXACT)
+def test_the_table_of_rest_agrees_with_the_robot_model() -> None:
+    """Nine postures determine all others, errors included; negative control: those of another lock do not."""
+    third = _options(25.0)["third lock"].trajectories[0]
+    poses = still_poses(third)
+    table = RestTable.of(third.device, third.load, "ft_1", EXACT)
     known, loads = poses.uncertain("ft_1", EXACT), table.loads(poses.position)
     np.testing.assert_allclose(loads.wrench, known.wrench, atol=1e-9)
-    assert set(loads.lasting) == set(known.lasting)
-    for name, change in known.lasting.items():
-        np.testing.assert_allclose(loads.lasting[name], change, atol=1e-8)
+    assert set(loads.systematic) == set(known.systematic)
+    for name, change in known.systematic.items():
+        np.testing.assert_allclose(loads.systematic[name], change, atol=1e-8)
     turned = poses.position * [1.0, 1.0, -1.0]
     assert np.abs(table.loads(turned).wrench - known.wrench).max() > 1.0
 
 
-def test_errors_on_held_out_loads_are_those_foretold() -> None:
-    """A few seeds of the third lock: within the bar in the median, and of the size that the covariance foretells."""
+def test_errors_on_held_out_loads_are_those_predicted() -> None:
+    """A few seeds of the third lock: within the bar in the median, and of the predicted size."""
     errors = _errors("third lock", 8)
     median = np.median(errors, axis=0)
     assert (median <= [0.15, 0.02]).all()
-    foretold = np.sqrt(np.array(_foretold(_remedies(25.0)["third lock"])) / 3.0)
-    ratio = np.sqrt((errors**2).mean(axis=0)) / foretold
+    predicted = np.sqrt(np.array(_predicted(_options(25.0)["third lock"])) / 3.0)
+    ratio = np.sqrt((errors**2).mean(axis=0)) / predicted
     assert (ratio > 0.5).all()
     assert (ratio < 1.6).all()
 
 
-def test_the_12_steps_alone_read_many_newtons_wrongly() -> None:
+def test_the_12_steps_alone_have_errors_of_many_newtons() -> None:
     """Negative control of the bar: the response of least norm misses a part of most loads."""
     assert np.median(_errors("12 steps", 3)[:, 0]) > 30.0
 
 
 def test_an_optimised_motion_keeps_to_time_torque_and_locks() -> None:
     """With few changes it is already no worse than the third lock in volume and in both mean squares."""
-    third = _remedies(25.0)["third lock"].runs[0]
-    better = better_motion(third, "ft_1", swaps=60)
+    third = _options(25.0)["third lock"].trajectories[0]
+    better = optimised_motion(third, "ft_1", swaps=60)
     better.sequence.require_possible(better.device, better.load)
-    assert better.trajectory.duration_s <= third.trajectory.duration_s
-    answer = answer_of(better.device, better.load, better.trajectory.sampled(5.0)[1])
+    assert better.duration_s <= third.duration_s
+    response = device_response(better.device, better.load, better.sampled(5.0)[1])
     for joint, axis in (("pitch", DEVICE.pitch), ("yaw", DEVICE.yaw)):
-        assert np.abs(answer.torque(joint)).max() < axis.torque_Nm
-    designer = Designer(
-        device=third.device, load=third.load, sensor="ft_1", seconds=third.trajectory.duration_s, swaps=0
-    )
+        assert np.abs(response.torque(joint)).max() < axis.torque_Nm
+    designer = Designer(device=third.device, load=third.load, sensor="ft_1", seconds=third.duration_s, swaps=0)
     first, last = designer.through(third.sequence.postures), designer.through(better.sequence.postures)
     np.testing.assert_allclose(first.sequence.postures, third.sequence.postures)
     assert last.value < first.value - 0.5
@@ -170,14 +179,14 @@ def test_an_optimised_motion_keeps_to_time_torque_and_locks() -> None:
 
 
 @pytest.mark.long
-def test_50_seeds_of_every_remedy_and_of_the_workbench() -> None:
-    """Medians of 50 seeds; the third lock is within .15 N and .02 N m, and beats the workbench placed as is usual."""
-    medians = {name: np.median(_errors(name, SEEDS), axis=0) for name in _remedies(25.0)}
+def test_50_seeds_of_every_option_and_of_the_workbench() -> None:
+    """Medians of 50 seeds; the third lock is within .15 N and .02 N m, and beats the usual workbench."""
+    medians = {name: np.median(_errors(name, SEEDS), axis=0) for name in _options(25.0)}
     bench = read_loads(THESIS_TABLE, measure_direction=MeasureDirection.CHILD_TO_PARENT)
     for degrees, metres in ((0.2, 1e-3), (0.05, 2e-4), (0.02, 1e-4)):
         placement = Placement(angle_rad=np.deg2rad(degrees), position_m=metres)
         errors = [bench_error(bench, placement, seed) for seed in range(SEEDS)]
-        medians[f"{degrees} deg"] = np.median([(one.force_N, one.moment_Nm) for one in errors], axis=0)
+        medians[f"{degrees} deg"] = np.median(errors, axis=0)
     assert (medians["third lock"] <= [0.15, 0.02]).all()
     assert (medians["third lock"] < medians["0.2 deg"]).all()
     assert (medians["third lock"] < medians["0.05 deg"]).all()
@@ -189,10 +198,11 @@ def test_50_seeds_of_every_remedy_and_of_the_workbench() -> None:
 @pytest.mark.long
 def test_the_optimised_motion_beats_the_third_lock_in_50_seeds() -> None:
     """Predicted and realised mean squares of force and moment are all lower, with the same devices and sensors."""
-    third = _remedies(25.0)["third lock"]
-    better = Remedy(name="optimised", words="", runs=(better_motion(third.runs[0], "ft_1"),))
-    foretold = np.array([_foretold(one) for one in (third, better)])
-    assert (foretold[1] < foretold[0]).all()
+    third = _options(25.0)["third lock"]
+    motion = optimised_motion(third.trajectories[0], "ft_1")
+    better = ExcitationOption(name="optimised", description="", trajectories=(motion,))
+    predicted = np.array([_predicted(option) for option in (third, better)])
+    assert (predicted[1] < predicted[0]).all()
     realised = [_errors("third lock", SEEDS), _device_errors(better.sampled(SAMPLES), SEEDS)]
     squares = np.array([(errors**2).mean(axis=0) for errors in realised])
     assert (squares[1] < squares[0]).all()

@@ -18,13 +18,13 @@ from forcetorque.inspection.inspect import inspect_log
 pytestmark = pytest.mark.real_data
 
 
-def _asked(logs: list[Path], urdf: Path | None = None) -> dict[str, str]:
+def _questions(logs: list[Path], urdf: Path | None = None) -> dict[str, str]:
     """Questions by key; of several of one key the last."""
     return {question.key: question.question for question in draft_experiment(logs, urdf=urdf).questions}
 
 
 def test_three_clocks_of_a_kuka(data_dir: Path) -> None:
-    """Rates of the three tables follow from microseconds alone; the pose is the motion, its sense is asked."""
+    """Rates of the three tables follow from microseconds alone; the pose is the motion, its sense is questions."""
     folder = data_dir / "ati_gamma_kuka_med14_skrede"
     draft = draft_experiment([folder / f"1-baseline_{name}.csv" for name in ("wrench", "accel", "orientations")])
     rates = [q.question.split(";")[0] for q in draft.questions if q.key == "unit"]
@@ -69,8 +69,8 @@ def test_a_table_without_headings(data_dir: Path) -> None:
     folder = data_dir / "ati_axia80_gravity_leledeyuan"
     seen = inspect_log(folder / "GP2025-07-22-22-06-02.txt").unread
     assert [row.looks_like for row in seen] == ["time", *[None] * 6, *["orientation"] * 4]
-    asked = _asked([folder / "GP2025-07-22-22-06-02.txt"])
-    assert "of which 8 to 11 have norm 1 as quaternions do" in asked["column_names"]
+    questions = _questions([folder / "GP2025-07-22-22-06-02.txt"])
+    assert "of which 8 to 11 have norm 1 as quaternions do" in questions["column_names"]
     with pytest.raises(FormatError, match="a folder of several: GP2025-07-22-22-06-02.txt, recorded_messages_pose.txt"):
         draft_experiment([folder])
 
@@ -115,4 +115,4 @@ def test_legs_of_an_icub(data_dir: Path) -> None:
 def test_an_insole(data_dir: Path) -> None:
     """What looks like nothing is listed with its shape."""
     file = data_dir / "insole_skin_belli" / "left_insole" / "calibration_dataset.mat"
-    assert "experiment.C (25435 x 282), experiment.P (25339 x 1)" in _asked([file])["variable"]
+    assert "experiment.C (25435 x 282), experiment.P (25339 x 1)" in _questions([file])["variable"]

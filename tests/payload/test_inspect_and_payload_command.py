@@ -223,6 +223,6 @@ def test_a_log_of_a_stated_format_is_described(arm: Path, run: Run) -> None:
     (arm / "table.csv").write_text("t,fx,fy\n0,1,2\n", encoding="utf-8")
     seen = run("inspect", arm / "table.csv", "--log-format", "tabular", "--format", "json").result()
     assert [row["column"] for row in seen["unread"]] == ["t", "fx", "fy"]
-    assert "nothing of it is read until an experiment file says what it is" in run("inspect", arm / "table.csv").out
+    assert "the log is read with an experiment file that describes it" in run("inspect", arm / "table.csv").out
     assert "no format of logs is called 'ros1'" in run("inspect", arm / "recording", "--log-format", "ros1").error()
     assert "expected a bag of ROS" in run("inspect", arm / "table.csv", "--log-format", "ros").error()

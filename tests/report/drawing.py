@@ -27,8 +27,8 @@ from forcetorque.calibration.summary import LearntDirection
 from forcetorque.contests.figure import contest_figure
 from forcetorque.contests.ranking import ContestLoadRow
 from forcetorque.device.demand_result import GradeRow
-from forcetorque.device.figures import device_figure, envelope_figure, reference_error_figure, remedies_figure
-from forcetorque.device.mechanical_demands import VIEWS, Silhouette
+from forcetorque.device.figures import device_figure, envelope_figure, predicted_error_figure, reference_error_figure
+from forcetorque.device.mechanical_demands import VIEWS, EnvelopeRow
 from forcetorque.device.span import DirectionRow
 from forcetorque.estimation.figures import contact_figure, torque_figure
 from forcetorque.evaluation.figures.errors_and_matrices import comparison_figure, difference_figure, residual_figure
@@ -471,7 +471,7 @@ def _skin_layout(rng: np.random.Generator) -> Figure:
 def _envelope(rng: np.random.Generator) -> Figure:
     angles = np.sort(rng.uniform(0.0, 2.0 * np.pi, 30))
     circle = np.column_stack([np.cos(angles), np.sin(angles)])
-    return envelope_figure([Silhouette(view=view, outline=size * circle) for size, view in enumerate(VIEWS, start=1)])
+    return envelope_figure([EnvelopeRow.of(view, size * circle) for size, view in enumerate(VIEWS, start=1)])
 
 
 def _reference_error(rng: np.random.Generator) -> Figure:
@@ -647,7 +647,7 @@ def _contest(rng: np.random.Generator) -> Figure:
     return contest_figure(rows)
 
 
-def _remedies(rng: np.random.Generator) -> Figure:
+def _predicted_error(rng: np.random.Generator) -> Figure:
     names = ("12 steps", "third lock", "workbench, 0.2 deg and 1 mm")
     rows = []
     for error in ("force, N", "moment, N m"):
@@ -655,7 +655,7 @@ def _remedies(rng: np.random.Generator) -> Figure:
             values = dict(zip(WRENCH_COMPONENTS, np.exp(rng.normal(size=6)).tolist(), strict=True))
             unknown = {"fy": np.inf} if name == "12 steps" else {}
             rows.append(DirectionRow(motion=name, error=error, **(values | unknown)))
-    return remedies_figure(rows)
+    return predicted_error_figure(rows)
 
 
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
@@ -664,7 +664,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "space": _space,
     "force space": _force_space,
     "device": _device,
-    "remedies": _remedies,
+    "predicted_error": _predicted_error,
     "difference": _difference,
     "lambda difference": _lambda_difference,
     "lambda force": _lambda_force,

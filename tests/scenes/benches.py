@@ -11,7 +11,7 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.loads import THESIS_TABLE, BenchLoads, read_loads
-from forcetorque.workbench.simulated_benches import BenchFaults, Specimen, simulate_specimen
+from forcetorque.workbench.simulated_benches import BenchFaults, SimulatedBench, simulate_bench
 
 PLACEMENT = Placement(angle_rad=np.deg2rad(0.1), position_m=0.5e-3, nonlinearity=1e-3)
 """How well weights hang: 0.1 degrees, 0.5 mm, 0.1 %."""
@@ -56,10 +56,10 @@ def write_bench(
     seed: int = 1,
     faults: BenchFaults | None = None,
     positions: int = 24,
-) -> tuple[Path, Specimen]:
+) -> tuple[Path, SimulatedBench]:
     """Write a workbench file with a file of two blocks, bias and load, per position, as a board would count them."""
     rng = np.random.default_rng(seed)
-    specimen = simulate_specimen(thesis_loads(), PLACEMENT, rng, faults=faults, serial=serial, with_prior=True)
+    specimen = simulate_bench(thesis_loads(), PLACEMENT, rng, faults=faults, serial=serial, with_prior=True)
     bench = specimen.bench
     assert bench.prior is not None
     write_matrix_file(folder / "nominal.txt", encode_matrix(bench.prior))

@@ -17,21 +17,21 @@ from forcetorque.workbench.bench import Bench, Placement
 from forcetorque.workbench.fit import fit_bench, fit_means
 from forcetorque.workbench.loads import BenchLoads, Weights
 from forcetorque.workbench.sensor_fit import held_out_errors, one_by_one, rms, whole_series
-from forcetorque.workbench.simulated_benches import simulate_specimen
+from forcetorque.workbench.simulated_benches import simulate_bench
 from tests.scenes.benches import PLACEMENT, thesis_loads
 
 NO_ERROR = Placement(angle_rad=0.0, position_m=0.0)
 SAME_SIZES = 0.05
 """Share by which leaving out in closed form differs from fitting again: sizes of deviations are kept in one."""
 NOISE_FLOOR = 1.2
-"""Error on loads to come over that of the noise of their readings alone."""
+"""Error on operating loads over that of the noise of their measurement alone."""
 
 
 def test_the_true_matrix_is_found_without_errors() -> None:
     """With and without a nominal matrix, as far as the noise of a hundredth of a count lets it."""
     for with_prior in (True, False):
         rng = np.random.default_rng(4)
-        specimen = simulate_specimen(thesis_loads(), NO_ERROR, rng, noise_counts=0.01, with_prior=with_prior)
+        specimen = simulate_bench(thesis_loads(), NO_ERROR, rng, noise_counts=0.01, with_prior=with_prior)
         matrix = fit_bench(specimen.bench).fit.model.matrix
         np.testing.assert_allclose(matrix @ specimen.response, np.eye(6), atol=2e-4)
 
@@ -39,7 +39,7 @@ def test_the_true_matrix_is_found_without_errors() -> None:
 @pytest.mark.parametrize("with_prior", [True, False])
 def test_leaving_out_in_closed_form_is_fitting_again(with_prior: bool) -> None:
     """For single positions and for parts of five."""
-    specimen = simulate_specimen(thesis_loads(), PLACEMENT, np.random.default_rng(2), with_prior=with_prior)
+    specimen = simulate_bench(thesis_loads(), PLACEMENT, np.random.default_rng(2), with_prior=with_prior)
     fitted = fit_bench(specimen.bench)
     for parts in ([np.array([0]), np.array([6])], [np.array([1, 7, 13, 18, 23])]):
         errors = held_out_errors(fitted, parts)
@@ -60,7 +60,7 @@ def _without(means: WindowMeans, part: np.ndarray[tuple[int], np.dtype[np.int64]
 
 def test_a_noisy_block_counts_less() -> None:
     """Its weight falls with its own standard error, and the matrix is better for it."""
-    specimen = simulate_specimen(thesis_loads(), PLACEMENT, np.random.default_rng(3))
+    specimen = simulate_bench(thesis_loads(), PLACEMENT, np.random.default_rng(3))
     rng = np.random.default_rng(8)
     bench = specimen.bench
     error = np.full(bench.raw.shape, 0.5)
@@ -73,7 +73,7 @@ def test_a_noisy_block_counts_less() -> None:
     assert size[0] < 0.5 * size[1]
 
 
-def test_a_series_that_alone_moves_a_direction_is_not_foretold() -> None:
+def test_a_series_that_alone_moves_a_direction_is_not_predicted() -> None:
     """Without a prior the others do not tell it, and say so; the reason names the direction."""
     loads = BenchLoads(
         names=tuple("abcdefghijklmn"),
@@ -114,17 +114,17 @@ def test_eight_channels_without_prior_reach_the_noise_floor_on_a_fourth_payload(
     rng = np.random.default_rng(11)
     response = rng.standard_normal((8, 6)) * [40.0, 40.0, 40.0, 900.0, 900.0, 900.0]
     centres = np.array([[0.1, 0.0, 0.02], [0.0, 0.1, 0.05], [-0.05, -0.05, 0.12]])
-    learnt = simulate_specimen(_payloads(rng, centres), NO_ERROR, rng, response=response, noise_counts=2.0)
+    learnt = simulate_bench(_payloads(rng, centres), NO_ERROR, rng, response=response, noise_counts=2.0)
     fit = fit_bench(learnt.bench).fit
-    fourth = simulate_specimen(
+    fourth = simulate_bench(
         _payloads(rng, np.array([[0.04, 0.03, 0.08]])), NO_ERROR, rng, response=response, noise_counts=2.0
     )
     errors = fit.model.wrench(fourth.bench.raw) - fourth.bench.loads.wrench
-    floor = 2.0 * np.linalg.norm(fit.model.matrix, axis=1)  # of readings alone, the matrix being right
+    floor = 2.0 * np.linalg.norm(fit.model.matrix, axis=1)  # of the noise alone, with a true matrix
     ratio = np.array([np.linalg.norm(rms(errors)[half]) / np.linalg.norm(floor[half]) for half in _HALVES])
     assert (ratio < NOISE_FLOOR).all()
     on_a_line = np.array([[0.1, 0.0, 0.02], [0.2, 0.0, 0.04], [0.3, 0.0, 0.06]])
-    open_one = simulate_specimen(_payloads(rng, on_a_line), NO_ERROR, rng, response=response, noise_counts=2.0)
+    open_one = simulate_bench(_payloads(rng, on_a_line), NO_ERROR, rng, response=response, noise_counts=2.0)
     with pytest.raises(FitError, match="move 5 of 6 directions"):
         fit_bench(open_one.bench)
 
@@ -132,13 +132,13 @@ def test_eight_channels_without_prior_reach_the_noise_floor_on_a_fourth_payload(
 _HALVES = (slice(3), slice(3, 6))
 
 
-def test_readings_that_are_none() -> None:
-    """Too few channels, and positions of which nothing is known."""
+def test_measurements_that_cannot_be_used() -> None:
+    """Too few channels, and positions without data."""
     loads = thesis_loads()
     with pytest.raises(ShapeError, match="at least six channels"):
         Bench(sensor="ft", serial="S", loads=loads, raw=np.ones((24, 5)), full_scale=np.ones(5))
     empty = Bench(sensor="ft", serial="S", loads=loads, raw=np.full((24, 6), np.nan), full_scale=np.ones(6))
-    with pytest.raises(SensorError, match="known load and reading, got none"):
+    with pytest.raises(SensorError, match="known load and raw samples, got none"):
         fit_bench(empty)
     with pytest.raises(SensorError, match="angle_rad"):
         Placement(angle_rad=-0.1, position_m=0.0)
@@ -161,23 +161,23 @@ PRIOR_ROWS = {
 def test_a_prior_that_is_off_by_a_factor_does_not_turn_loads_into_noise(change: str, placement: Placement) -> None:
     """Loads of rank 6 determine the matrix: the fit is as good as with the prior as it is; it was 4 to 107 N wrong."""
     rng = np.random.default_rng(5)
-    specimen = simulate_specimen(thesis_loads(), placement, rng, noise_counts=0.01, with_prior=True)
+    specimen = simulate_bench(thesis_loads(), placement, rng, noise_counts=0.01, with_prior=True)
     bench, (rows, factor) = specimen.bench, PRIOR_ROWS[change]
     assert bench.prior is not None
     prior = bench.prior.copy()
     prior[rows] *= factor
     pushes = rng.normal(size=(50, 6)) * [30.0, 30.0, 30.0, 3.0, 3.0, 3.0]
-    off, sound = (
+    with_wrong, with_true = (
         rms(pushes @ (fit_bench(one).fit.model.matrix @ specimen.response - np.eye(6)).T)
         for one in (replace(bench, prior=prior), bench)
     )
-    assert (off < 1.1 * sound + [1e-3] * 6).all()
+    assert (with_wrong < 1.1 * with_true + [1e-3] * 6).all()
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_second_start_changes_nothing_where_the_prior_is_sound(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_second_start_changes_nothing_where_the_prior_is_true(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Negative control: to the last bit as without it."""
-    bench = simulate_specimen(thesis_loads(), PLACEMENT, np.random.default_rng(seed), with_prior=True).bench
+    bench = simulate_bench(thesis_loads(), PLACEMENT, np.random.default_rng(seed), with_prior=True).bench
     both = fit_bench(bench).fit
     monkeypatch.setattr(evidence, "_have_rank", lambda products: False)
     np.testing.assert_array_equal(both.model.matrix, fit_bench(bench).fit.model.matrix)

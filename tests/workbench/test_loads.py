@@ -128,7 +128,7 @@ def test_a_missing_table_leads_to_the_bundled_one(tmp_path: Path) -> None:
 def test_some_positions_keep_their_weights() -> None:
     """Loads of a part are the part of the loads."""
     loads = thesis_loads()
-    part = loads.taken([3, 20])
+    part = loads.select([3, 20])
     assert part.names == ("4", "21")
     assert part.weights is not None
     np.testing.assert_array_equal(

@@ -22,45 +22,45 @@ def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_it_writes_a_calibration_and_a_figure_and_names_the_fault(run: Run, bench: Path) -> None:
+def test_it_writes_a_calibration_and_a_figure_and_reports_the_fault(run: Run, bench: Path) -> None:
     """Which export then takes as any other."""
-    asked = run("workbench", "SIM001.toml", "-o", "new.json", "--figure", "bench.png")
-    assert asked.code == 0
-    assert "SIM001: positions 4 and 9 are swapped" in asked.out
-    assert "1 fault(s) of the bench are seen" in asked.err
+    outcome = run("workbench", "SIM001.toml", "-o", "new.json", "--figure", "bench.png")
+    assert outcome.code == 0
+    assert "SIM001: positions 4 and 9 are swapped" in outcome.out
+    assert "1 fault(s) of the bench are detected" in outcome.err
     blocks, fault = read_calibration("new.json").doubts[:2], read_calibration("new.json").doubts[2]
-    assert all("it reads like position" in words for words in blocks)
+    assert all("the measurement matches position" in message for message in blocks)
     assert fault == "SIM001: positions 4 and 9 are swapped"
     assert (bench / "bench.png").read_bytes().startswith(b"\x89PNG")
     assert run("export", "new.json", "--to", "icub-matrix", "-o", "matrix_SIM001.txt").code == 0
 
 
-def test_it_says_what_to_hang_next(run: Run, bench: Path) -> None:
+def test_it_names_the_next_position(run: Run, bench: Path) -> None:
     """Without fitting anything; as JSON too."""
-    asked = run("workbench", "SIM002.toml", "--next")
-    assert (asked.code, asked.err) == (0, "")
-    assert asked.out.startswith("next: position 3 ")
+    outcome = run("workbench", "SIM002.toml", "--next")
+    assert (outcome.code, outcome.err) == (0, "")
+    assert outcome.out.startswith("next: position 3 ")
     result = run("workbench", "SIM002.toml", "--next", "--format", "json").result()
     assert result["sensors"] == []
     assert len(result["blocks_checked"]) == 2
 
 
-def test_several_sensors_are_held_against_each_other(run: Run, bench: Path) -> None:
+def test_several_sensors_are_compared(run: Run, bench: Path) -> None:
     """A row each; one file holds one calibration."""
     write_bench(bench, serial="SIM003", seed=3)
-    asked = run("workbench", "SIM001.toml", "SIM003.toml", "--format", "csv")
-    assert asked.code == 0
-    assert len(asked.out.splitlines()) == 3
+    outcome = run("workbench", "SIM001.toml", "SIM003.toml", "--format", "csv")
+    assert outcome.code == 0
+    assert len(outcome.out.splitlines()) == 3
     refused = run("workbench", "SIM001.toml", "SIM003.toml", "-o", "new.json")
     assert refused.code == 2
     assert "a file holds one calibration" in refused.err
 
 
 def test_a_limit_that_fails_is_exit_code_1(run: Run, bench: Path) -> None:
-    """No fault may be seen, and one is."""
+    """No fault is allowed, and one is detected."""
     (bench / "limits.toml").write_text(
         'schema = "forcetorque/acceptance/1"\nname = "bench"\n[workbench]\nfaults = 0\n', encoding="utf-8"
     )
-    asked = run("workbench", "SIM001.toml", "--spec", "limits.toml")
-    assert asked.code == 1
-    assert "workbench.faults" in asked.out
+    outcome = run("workbench", "SIM001.toml", "--spec", "limits.toml")
+    assert outcome.code == 1
+    assert "workbench.faults" in outcome.out

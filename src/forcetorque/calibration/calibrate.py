@@ -33,7 +33,7 @@ from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.free_sub_model import possible_touch
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.findings import doubtful_spans
+from forcetorque.inspection.findings import unreliable_intervals
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import contradicted_statements, load_doubts
 from forcetorque.recording.recording import Use
@@ -378,7 +378,7 @@ def _found(run: SensorRun, *, by_model: bool) -> Iterator[str]:
     """Findings in fitted intervals; a channel that saturates in every swing does not hide the others."""
     start_ns, alone = run.experiment.recording.start_ns, replace(run.experiment, sensors=(run.sensor,))
     alike: dict[str, list[str]] = {}
-    for interval, finding in doubtful_spans(alone, Use.CALIBRATION, by_model=by_model):
+    for interval, finding in unreliable_intervals(alone, Use.CALIBRATION, by_model=by_model):
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
         kind = f"interval {interval.label!r}: {finding.stream} {finding.kind}"
         alike.setdefault(kind, []).append(f"{kind} at {start:.2f}-{end:.2f} s: {finding.message}")

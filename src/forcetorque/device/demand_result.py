@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The thirteen requirements of a calibration device (thesis 6.2.1), and what is demanded of its parts."""
+"""The thirteen requirements of a calibration device (thesis 6.2.1), and records of the demands on its components."""
 
 from __future__ import annotations
 
@@ -10,20 +10,21 @@ from typing import Annotated
 
 import numpy as np
 
+from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.device.description import device_load
 from forcetorque.device.device_file import DeviceFile
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM, LoadErrors
-from forcetorque.device.excitation import Run, least_excitation, uncertain, workbench_loads
-from forcetorque.device.expected_wrench import answer_of
-from forcetorque.device.held_out import SAMPLES
-from forcetorque.device.mechanical_demands import Silhouette
+from forcetorque.device.excitation import SAMPLES, least_excitation, sampled_poses, uncertain, workbench_loads
+from forcetorque.device.expected_wrench import device_response
+from forcetorque.device.mechanical_demands import EnvelopeRow
+from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.tolerances import Tolerances
 from forcetorque.results.table import Row, Shown, ShownWrench, WrenchValues
 from forcetorque.workbench.bench import Placement
 
 
 class Verdict(StrEnum):
-    """What becomes of a requirement."""
+    """Whether a requirement is met."""
 
     MET = "met"
     NOT_MET = "not met"
@@ -34,49 +35,28 @@ class RequirementRow(Row):
     """One requirement of the thesis (6.2.1)."""
 
     number: Annotated[int, Shown("no.")]
-    """Its number."""
+    """Number in the thesis."""
     requirement: Annotated[str, Shown("requirement")]
-    """What is demanded."""
+    """The requirement."""
     verdict: Annotated[Verdict, Shown("verdict")]
     """Whether it is met."""
     value: Annotated[float | None, Shown("value", digits=3)] = None
-    """What was computed; None where nothing was."""
+    """Computed value; None where none is computed."""
     limit: Annotated[float | None, Shown("limit", digits=3)] = None
-    """What it is held against."""
+    """Limit of the value."""
     unit: Annotated[str, Shown("unit")] = ""
     """Unit of both."""
     met_to_kg: Annotated[float | None, Shown("met up to", "kg", digits=1)] = None
-    """Load up to which it is met, carrier included; None where no load meets it, or the load does not matter."""
+    """Load up to which it is met, carrier included; None where no load meets it, or it does not depend on the load."""
     why: str
-    """How it was judged, or why it was not."""
-
-
-class MotorRow(Row):
-    """What a motor bears."""
-
-    joint: Annotated[str, Shown("motor")]
-    """Joint that it turns."""
-    peak_Nm: Annotated[float, Shown("peak", "N m", digits=2)]
-    """Largest torque, of weight alone."""
-    moving_peak_Nm: Annotated[float, Shown("moving", "N m", digits=2)]
-    """Largest torque with what the motion adds."""
-    average_Nm: Annotated[float | None, Shown("average (6.1)", "N m", digits=2)]
-    """Average by path; None of a motor that only holds."""
-    average_over_peak: Annotated[float | None, Shown("over peak", digits=3)]
-    """Average over the peak; None of a motor that only holds, or bears nothing."""
-    rms_Nm: Annotated[float, Shown("RMS", "N m", digits=2)]
-    """Root mean square over time."""
-    holding_Nm: Annotated[float, Shown("holding", "N m", digits=2)]
-    """Largest torque while it stands still."""
-    limit_Nm: Annotated[float, Shown("limit", "N m", digits=1)]
-    """What it may give, as described."""
+    """How it was evaluated, or why it was not."""
 
 
 class UnwindingRow(Row):
-    """How averages depend on how yaw gets back."""
+    """Average torques for one way in which yaw returns."""
 
     yaw_return: Annotated[str, Shown("yaw returns")]
-    """How it does."""
+    """How yaw returns."""
     yaw_path_deg: Annotated[float, Shown("path of yaw", "deg", digits=0)]
     """Path of yaw, both ways counted."""
     pitch_over_peak: Annotated[float | None, Shown("pitch, average over peak", digits=3)]
@@ -86,24 +66,24 @@ class UnwindingRow(Row):
 
 
 class HingeRow(Row):
-    """What gravity does about the hinge on a way."""
+    """Moment of gravity about the hinge on a way."""
 
     step: Annotated[int, Shown("step")]
-    """Step that it belongs to."""
+    """Step of the way."""
     hinge: Annotated[str, Shown("hinge")]
     """`locked` or `free`."""
     from_deg: Annotated[float, Shown("from", "deg", digits=1)]
-    """Where the hinge is when it begins."""
+    """Position of the hinge at the start."""
     to_deg: Annotated[float, Shown("to", "deg", digits=1)]
-    """Where it is when it ends."""
+    """Position at the end."""
     least_Nm: Annotated[float, Shown("least", "N m", digits=2)]
-    """Smallest moment about the hinge, towards larger angles; of a free one, kept where the way begins."""
+    """Smallest moment about the hinge, towards larger angles; of a free hinge, at the position of the start."""
     most_Nm: Annotated[float, Shown("most", "N m", digits=2)]
     """Largest."""
 
 
 class LockRow(Row):
-    """Whether a load gets to the other lock."""
+    """Whether a load reaches the other lock."""
 
     load: Annotated[str, Shown("load")]
     """The load."""
@@ -112,33 +92,18 @@ class LockRow(Row):
     holding_Nm: Annotated[float, Shown("lock holds", "N m", digits=2)]
     """Largest moment on a lock."""
     closing_Nm: Annotated[float, Shown("left 1 deg before", "N m", digits=3)]
-    """Moment that is left 1 degree before the lock: more friction stops it farther away."""
-
-
-class EnvelopeRow(Row):
-    """What is swept in one view."""
-
-    view: Annotated[str, Shown("seen from")]
-    """View."""
-    width_m: Annotated[float, Shown("width", "m", digits=3)]
-    """Width of the rectangle around it."""
-    height_m: Annotated[float, Shown("height", "m", digits=3)]
-    """Its height."""
-    rectangle_m2: Annotated[float, Shown("rectangle", "m2", digits=3)]
-    """Its area."""
-    hull_m2: Annotated[float, Shown("convex hull", "m2", digits=3)]
-    """Area of the convex hull."""
+    """Moment 1 degree before the lock: more friction stops the load farther away."""
 
 
 class BudgetRow(Row):
-    """What one quantity does to the reference of one sensor, the others being right."""
+    """Error of the expected wrench of one sensor by one quantity."""
 
     sensor: Annotated[str, Shown("sensor")]
     """Sensor."""
     quantity: Annotated[str, Shown("quantity")]
-    """Quantity that is off; `all` for all at once."""
+    """Quantity with an error; `all` for all together."""
     plus_minus: Annotated[float | None, Shown("+-", digits=3)]
-    """How far it is off at most, half of a full width; None for all at once."""
+    """Largest error of the quantity, half of a full width; None for all together."""
     unit: Annotated[str, Shown("unit")]
     """Unit of that."""
     rms: Annotated[WrenchValues, ShownWrench(digits=3)]
@@ -152,34 +117,34 @@ class BudgetRow(Row):
 
 
 class GradeRow(Row):
-    """What a grade of encoders or of an inertial sensor does to the reference."""
+    """Errors of the expected wrench by a grade of encoders or of an inertial sensor."""
 
     gravity_by: Annotated[str, Shown("gravity by")]
     """`encoders` of pitch and yaw, or `IMU`."""
     full_width: Annotated[float, Shown("width", digits=4)]
-    """Full width of the error of each."""
+    """Full width of the error."""
     plus_minus: Annotated[float, Shown("+-", digits=4)]
-    """Half of it."""
+    """Half of the full width."""
     unit: Annotated[str, Shown("unit")]
     """Unit of both."""
     rms: Annotated[WrenchValues, ShownWrench(digits=3)]
-    """Root mean square over the motion, as Table 6.3 has it; N, N m."""
+    """Root mean square over the motion, as in Table 6.3; N, N m."""
     one_force_N: Annotated[float, Shown("one: f", "N", digits=2)]
-    """Largest error of the force where one encoder, or one axis of the inertial sensor, is off alone."""
+    """Largest error of the force by one encoder, or one axis of the inertial sensor."""
     one_moment_Nm: Annotated[float, Shown("one: t", "N m", digits=3)]
     """Of the moment."""
     largest: WrenchValues
-    """Largest magnitude of each component with all of them off; N, N m."""
+    """Largest magnitude of each component with errors of all of them; N, N m."""
     largest_force_N: Annotated[float, Shown("all: f", "N", digits=2)]
-    """Largest component of the force's error with all of them off: what requirement 6 limits."""
+    """Largest component of the error of the force with errors of all of them, which requirement 6 limits."""
     largest_moment_Nm: Annotated[float, Shown("all: t", "N m", digits=3)]
-    """Of the moment's."""
+    """The same of the moment."""
     force_norm_N: float
-    """Largest norm of the force's error."""
+    """Largest norm of the error of the force."""
     moment_norm_Nm: float
-    """Largest norm of the moment's error."""
+    """Largest norm of the error of the moment."""
     force_met_to_kg: Annotated[float | None, Shown("0.5 N to", "kg", digits=1)]
-    """Load up to which no component of the force is off by more than requirement 6 allows; None if none."""
+    """Load up to which all components of the force meet requirement 6; None if none does."""
     moment_met_to_kg: Annotated[float | None, Shown("0.02 N m to", "kg", digits=1)]
     """The same of the moment."""
 
@@ -189,11 +154,11 @@ MOST_SENSORS = 3
 LARGEST_LOAD_KG = 35.0
 """Load that the device must bear, by requirement 5; kg."""
 MOST_JOINTS = 6
-"""Degrees of freedom that requirement 10 wants fewer of."""
+"""Degrees of freedom, of which requirement 10 allows fewer."""
 ENVELOPE_M2 = 1.5
-"""Space that the motion must be contained in, by requirement 11; m2."""
+"""Largest space of the motion, by requirement 11; m2."""
 MOST_LOADINGS = 3
-"""How often weights may be put on, by requirement 2."""
+"""Largest number of loadings, by requirement 2."""
 
 _SPACING_DEG = 10.0
 _NOT_COMPUTED = {
@@ -207,21 +172,21 @@ _NOT_COMPUTED = {
 
 
 def requirement_rows(
-    file: DeviceFile, silhouettes: Several[Silhouette], errors: Mapping[str, LoadErrors]
+    file: DeviceFile, swept: Several[EnvelopeRow], errors: Mapping[str, LoadErrors]
 ) -> tuple[RequirementRow, ...]:
-    """Judge the requirements.
+    """Evaluate the requirements.
 
     Args:
-        file: The device, with all sensors that it may have, and what it does.
-        silhouettes: What it sweeps.
-        errors: Errors of the references by sensor.
+        file: The device with the largest number of sensors, and its motion.
+        swept: The swept space, by view.
+        errors: Errors of the expected wrench by sensor.
 
     Returns:
-        A row for each requirement, two for forces and moments of the sixth.
+        A record for each requirement, two for forces and moments of the sixth.
     """
     rows = [
         _excitation(file),
-        _judged(
+        _compared(
             2,
             "weights are put on at most 3 times",
             float(len(file.simulation.loads_kg)),
@@ -231,7 +196,7 @@ def requirement_rows(
         ),
         *_strength(file),
         *_errors(errors),
-        _judged(
+        _compared(
             10,
             "fewer than 6 degrees of freedom",
             float(len(file.joint_names)),
@@ -239,7 +204,7 @@ def requirement_rows(
             "",
             f"{', '.join(file.joint_names)}",
         ),
-        _space(silhouettes),
+        _space(swept),
         *(
             RequirementRow(number=number, requirement=text, verdict=Verdict.NOT_COMPUTED, why=why)
             for number, (text, why) in _NOT_COMPUTED.items()
@@ -248,7 +213,7 @@ def requirement_rows(
     return tuple(sorted(rows, key=lambda row: row.number))
 
 
-def _judged(number: int, text: str, value: float, limit: float, unit: str, why: str) -> RequirementRow:
+def _compared(number: int, text: str, value: float, limit: float, unit: str, why: str) -> RequirementRow:
     return RequirementRow(
         number=number,
         requirement=text,
@@ -261,13 +226,13 @@ def _judged(number: int, text: str, value: float, limit: float, unit: str, why: 
 
 
 def _excitation(file: DeviceFile) -> RequirementRow:
-    """What the motion with the loads of the file excites least, over what the positions of the workbench do."""
+    """The least excitation by the motion with the loads of the file, over that by the positions of the workbench."""
     loads_kg = file.simulation.loads_kg
-    runs = tuple(
-        Run(device=file, load=device_load(file, load_kg), sequence=file.sequence, hold_s=file.motion.hold_s)
-        for load_kg in loads_kg
-    )
-    poses = [run.sampled(SAMPLES // len(runs)) for run in runs]
+    trajectories = [
+        DeviceTrajectory(device=file, load=device_load(file, load), sequence=file.sequence, hold_s=file.motion.hold_s)
+        for load in loads_kg
+    ]
+    poses = [sampled_poses(trajectory, SAMPLES // len(trajectories)) for trajectory in trajectories]
     bench = workbench_loads(Placement(angle_rad=0.0, position_m=0.0), SAMPLES)
     least = {sensor: least_excitation(uncertain(poses, sensor, Tolerances()), bench) for sensor in file.sensor_names}
     worst = min(least, key=lambda sensor: least[sensor])
@@ -288,14 +253,14 @@ def _strength(file: DeviceFile) -> Iterator[RequirementRow]:
     met_kg, peaks = None, dict.fromkeys(limits, 0.0)
     for load_kg in file.loads_kg:
         load = device_load(file, load_kg)
-        answer = answer_of(file, load, file.sequence.still_poses(file, load, spacing_deg=_SPACING_DEG))
-        peaks = {joint: float(np.abs(answer.torque(joint)).max()) for joint in limits}
+        response = device_response(file, load, file.sequence.still_poses(file, load, spacing_deg=_SPACING_DEG))
+        peaks = {joint: float(np.abs(response.torque(joint)).max()) for joint in limits}
         if all(peaks[joint] <= limit for joint, limit in limits.items()):
             met_kg = load.mass_kg
     joint = max(limits, key=lambda name: peaks[name] / limits[name])
     heaviest = max(file.loads_kg)
     why = f"motor of {joint} against its limit at {heaviest:g} kg; strength of parts is not computed"
-    row = _judged(5, "bears 35 kg", peaks[joint], limits[joint], "N m", why)
+    row = _compared(5, "bears 35 kg", peaks[joint], limits[joint], "N m", why)
     bears = row.verdict is Verdict.MET and heaviest >= LARGEST_LOAD_KG
     verdict = Verdict.MET if bears else Verdict.NOT_MET
     yield row.model_copy(update={"verdict": verdict, "met_to_kg": met_kg})
@@ -312,16 +277,18 @@ def _strength(file: DeviceFile) -> Iterator[RequirementRow]:
 
 
 def _errors(errors: Mapping[str, LoadErrors]) -> Iterator[RequirementRow]:
-    for place, (text, limit, unit) in enumerate(
+    for half, (text, limit, unit) in enumerate(
         (
             ("force of the reference within 0.5 N", FORCE_LIMIT_N, "N"),
             ("moment of the reference within 0.02 N m", MOMENT_LIMIT_NM, "N m"),
         )
     ):
-        components = slice(3 * place, 3 * place + 3)
-        largest = {sensor: float(one.at_most.largest[components].max()) for sensor, one in errors.items()}
+        components = FORCE_AND_MOMENT[half]
+        largest = {
+            sensor: float(by_load.at_largest_load.largest[components].max()) for sensor, by_load in errors.items()
+        }
         worst = max(largest, key=lambda sensor: largest[sensor])
-        row = _judged(
+        row = _compared(
             6,
             text,
             largest[worst],
@@ -329,10 +296,10 @@ def _errors(errors: Mapping[str, LoadErrors]) -> Iterator[RequirementRow]:
             unit,
             f"largest component at {worst}, everything that is off at its worst; see the errors of references",
         )
-        yield row.model_copy(update={"met_to_kg": errors[worst].met_to_kg[place]})
+        yield row.model_copy(update={"met_to_kg": errors[worst].met_to_kg[half]})
 
 
-def _space(silhouettes: Several[Silhouette]) -> RequirementRow:
-    largest = max(silhouettes, key=lambda one: one.rectangle_m2)
+def _space(swept: Several[EnvelopeRow]) -> RequirementRow:
+    largest = max(swept, key=lambda row: row.rectangle_m2)
     why = f"rectangle around all that is swept seen from {largest.view}, where it is largest; no stand, no cables"
-    return _judged(11, "motion contained in 1.5 m2", largest.rectangle_m2, ENVELOPE_M2, "m2", why)
+    return _compared(11, "motion contained in 1.5 m2", largest.rectangle_m2, ENVELOPE_M2, "m2", why)

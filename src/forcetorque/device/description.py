@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The parts of a calibration device: two axes, sensors in a stack, a hinge, a carrier with weights."""
+"""Components of a calibration device: two axes, sensors in a stack, a hinge, a carrier with weights."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ class Part(Table):
     moments_kgm2: Moments = (0.0, 0.0, 0.0)
     """Rotational inertia about x, y and z through the centre of mass."""
     height_m: NotNegative = 0.0
-    """From its foot to the foot of what comes next."""
+    """Height from its foot to the foot of the next part."""
 
 
 class Axis(Table):
-    """A motor, and what it turns before the next axis or the stack."""
+    """A motor, and the part that it turns before the next axis or the stack."""
 
     range_deg: Annotated[tuple[Finite, ...], Field(min_length=2, max_length=2)]
     """Lowest and highest position."""
@@ -46,7 +46,7 @@ class Axis(Table):
     torque_Nm: Positive
     """Largest torque, which the motor may give for a moment."""
     part: Part
-    """What it turns, seen from where the axis is."""
+    """The part that it turns, in the frame of the axis."""
 
     @model_validator(mode="after")
     def _in_order(self) -> Axis:
@@ -55,7 +55,7 @@ class Axis(Table):
 
 
 class StackedSensor(Table):
-    """A sensor between its interfaces; it reads at the face of its body that is turned to the load."""
+    """A sensor between its interfaces; its frame is at the face of the body towards the load."""
 
     name: Text
     """Name of the sensor."""
@@ -70,12 +70,12 @@ class StackedSensor(Table):
 
     @property
     def height_m(self) -> float:
-        """How much higher it makes the stack."""
+        """Height in the stack."""
         return self.female.height_m + self.body.height_m + self.male.height_m
 
 
 class Turn(Table):
-    """A joint that turns hinge and load about the axis of the sensors; it is set by hand or by a motor of its own."""
+    """A joint that turns hinge and load about the axis of the sensors, set by hand or by another motor."""
 
     positions_deg: Annotated[tuple[Finite, ...], Field(min_length=1)] = (0.0, 90.0)
     """Positions that it can be set to."""
@@ -84,16 +84,16 @@ class Turn(Table):
 
 
 class Hinge(Table):
-    """The passive joint; positive where gravity bends it at yaw 0 as pitch comes up from straight down."""
+    """The passive joint; positive in the direction of gravity at yaw 0 while pitch rises from straight down."""
 
     locks_deg: Annotated[tuple[Finite, ...], Field(min_length=1)] = (0.0, 90.0)
-    """Where it locks by itself."""
+    """Positions in which it locks by itself."""
     range_deg: Annotated[tuple[Finite, ...], Field(min_length=2, max_length=2)] = (-95.0, 95.0)
     """Lowest and highest position that its stops allow."""
     encoder: bool = False
-    """Whether its position is measured, so that what is read while it swings can be used."""
+    """Whether its position is measured, so that samples of its swing can be used."""
     bracket: Part
-    """What holds it, on the side of the sensors; its height ends at the axis of the hinge."""
+    """Part on the side of the sensors; its height ends at the axis of the hinge."""
 
     @model_validator(mode="after")
     def _locks_within_the_stops(self) -> Hinge:
@@ -109,7 +109,7 @@ class Weights(Table):
     """Plates on the carrier, one on the other; the first one is lighter by the carrier, so that loads are round."""
 
     step_kg: Positive
-    """What a plate adds to the load."""
+    """Mass of a plate."""
     most_kg: Positive
     """Largest load."""
     foot_m: NotNegative
@@ -143,7 +143,7 @@ class Device(Table):
     hinge: Hinge
     """The passive joint."""
     carrier: Part
-    """What the weights are put on, seen from the axis of the hinge."""
+    """Carrier of the weights, in the frame of the hinge."""
     weights: Weights
     """The weights."""
 
@@ -164,13 +164,13 @@ class Device(Table):
         return tuple(k * self.weights.step_kg for k in range(count + 1))
 
     def with_sensors(self, count: int) -> Self:
-        """Stack another number of sensors like the first ones.
+        """Change the number of sensors.
 
         Args:
-            count: How many.
+            count: Number of sensors.
 
         Returns:
-            The device with the first of its sensors; more than it has are copies of the first, named with a number.
+            The device with the first of its sensors; additional ones are copies of the first, named with a number.
         """
         first = self.sensor[0]
         more = (
@@ -180,10 +180,10 @@ class Device(Table):
         return self.changed(sensor=(*self.sensor, *more)[:count])
 
     def with_locks(self, *locks_deg: float) -> Self:
-        """Let the hinge lock elsewhere.
+        """Change the locks of the hinge.
 
         Args:
-            locks_deg: Where it locks.
+            locks_deg: Positions of the locks.
 
         Returns:
             The device with these locks.
@@ -191,13 +191,13 @@ class Device(Table):
         return self.changed(hinge=self.hinge.model_copy(update={"locks_deg": locks_deg}))
 
     def changed(self, **fields: object) -> Self:
-        """Change fields, and check all of it again.
+        """Change fields, and validate the device again.
 
         Args:
             **fields: Fields with their new values.
 
         Returns:
-            The device; pydantic's `ValidationError` is raised if it cannot be.
+            The device; pydantic raises `ValidationError` if it is invalid.
         """
         return type(self).model_validate(self.model_copy(update=fields).model_dump(by_alias=True))
 
@@ -232,17 +232,17 @@ class AttachedLoad:
     """A load on the hinge, carrier included."""
 
     name: str
-    """What it is called, such as `35 kg`."""
+    """Name, such as `35 kg`."""
     inertia: Inertia
-    """In and about the frame of the carrier: at the hinge, y along its axis, z towards the load."""
+    """Inertia in and about the frame of the carrier: at the hinge, y along its axis, z towards the load."""
 
     @classmethod
     def point(cls, mass_kg: float, distance_m: float) -> AttachedLoad:
-        """Put all mass in one place straight in front of the hinge.
+        """Make a point mass straight in front of the hinge.
 
         Args:
             mass_kg: Mass.
-            distance_m: Distance of its centre from the axis of the hinge.
+            distance_m: Distance from the axis of the hinge.
 
         Returns:
             The load.
@@ -298,7 +298,7 @@ def device_load(device: Device, load_kg: float) -> AttachedLoad:
 
 
 def part_inertia(part: Part) -> Inertia:
-    """Give the inertia of a part in and about its frame.
+    """Compute the inertia of a part in and about its frame.
 
     Args:
         part: The part.
@@ -312,7 +312,7 @@ def part_inertia(part: Part) -> Inertia:
 
 
 def _plates(weights: Weights, load_kg: float, mass_kg: float) -> Inertia:
-    """A solid cylinder as high as the plates that make up a load."""
+    """Inertia of a solid cylinder as high as the plates of a load."""
     height = weights.height_m * load_kg / weights.step_kg
     across = mass_kg * (3.0 * weights.radius_m**2 + height**2) / 12.0
     along = mass_kg * weights.radius_m**2 / 2.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A calibration device by computation: its loads, motions, and what can be identified with it."""
+"""Analysis of a calibration device: its loads, motions, excitation and demands."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.device.demands import DeviceDemands, device_demands
 from forcetorque.device.description import AttachedLoad, Device, device_load
 from forcetorque.device.device_file import DeviceFile
-from forcetorque.device.expected_wrench import DeviceResponse, answer_of
+from forcetorque.device.expected_wrench import DeviceResponse, device_response
 from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.span import DeviceSpan, device_span
 from forcetorque.results.result import Result
@@ -23,10 +23,10 @@ from forcetorque.robot.motion import JointMotion
 
 
 class DeviceLoadRow(Row):
-    """What a load does in the motion of the device."""
+    """Wrenches and torques by a load in the motion of the device."""
 
     load: Annotated[str, Shown("load")]
-    """What it is called."""
+    """Name of the load."""
     mass_kg: Annotated[float, Shown("mass", "kg", digits=2)]
     """Mass, carrier included."""
     centre_m: Annotated[float, Shown("from hinge", "m", digits=4)]
@@ -34,7 +34,7 @@ class DeviceLoadRow(Row):
     force_N: Annotated[float, Shown("force", "N", digits=1)]
     """Largest force on the innermost sensor."""
     moment_Nm: Annotated[float, Shown("moment", "N m", digits=2)]
-    """Largest moment on it."""
+    """Largest moment on the innermost sensor."""
     pitch_Nm: Annotated[float, Shown("pitch", "N m", digits=2)]
     """Largest torque of the motor of pitch."""
     yaw_Nm: Annotated[float, Shown("yaw", "N m", digits=2)]
@@ -47,13 +47,13 @@ class DeviceMotionRow(Row):
     """A motion of the device."""
 
     motion: Annotated[str, Shown("motion")]
-    """What it is called."""
+    """Name of the motion."""
     order: Annotated[str, Shown("axes")]
     """Axes from the base on."""
     postures: Annotated[int, Shown("postures")]
-    """At how many it rests."""
+    """Number of postures."""
     duration_s: Annotated[float, Shown("time", "s", digits=1)]
-    """How long it takes."""
+    """Duration."""
     pitch_deg_s: Annotated[float, Shown("pitch", "deg/s", digits=1)]
     """Largest speed of pitch."""
     yaw_deg_s: Annotated[float, Shown("yaw", "deg/s", digits=1)]
@@ -68,28 +68,18 @@ class DeviceRecordingRow(Row):
     load: Annotated[str, Shown("load")]
     """Load attached to the device."""
     use: Annotated[str, Shown("use")]
-    """What it is for."""
+    """Use: calibration or validation."""
     seconds: Annotated[float, Shown("time", "s", digits=0)]
-    """Length."""
+    """Duration."""
     samples: Annotated[int, Shown("samples")]
     """Samples of all sensors."""
     saturated: Annotated[int, Shown("saturated")]
-    """How many of them are saturated."""
+    """Number of saturated samples."""
 
 
-def load_row(device: Device, load: AttachedLoad, answer: DeviceResponse) -> DeviceLoadRow:
-    """Sum up what a load does.
-
-    Args:
-        device: The device.
-        load: Attached load.
-        answer: What sensors read and motors hold in the motion.
-
-    Returns:
-        The row.
-    """
-    wrench = answer.wrenches.of_name(device.sensor_names[0])
-    peaks = {joint: float(np.abs(answer.torque(joint)).max()) for joint in ("pitch", "yaw", "hinge")}
+def _load_row(device: Device, load: AttachedLoad, response: DeviceResponse) -> DeviceLoadRow:
+    wrench = response.wrenches.of_name(device.sensor_names[0])
+    peaks = {joint: float(np.abs(response.torque(joint)).max()) for joint in ("pitch", "yaw", "hinge")}
     return DeviceLoadRow(
         load=load.name,
         mass_kg=load.mass_kg,
@@ -102,19 +92,9 @@ def load_row(device: Device, load: AttachedLoad, answer: DeviceResponse) -> Devi
     )
 
 
-def motion_row(name: str, trajectory: DeviceTrajectory, rate_hz: float) -> DeviceMotionRow:
-    """Sum up a motion.
-
-    Args:
-        name: What it is called.
-        trajectory: The motion.
-        rate_hz: Rate at which its speeds are looked at.
-
-    Returns:
-        The row.
-    """
+def _motion_row(name: str, trajectory: DeviceTrajectory) -> DeviceMotionRow:
     device = trajectory.device
-    _, motion = trajectory.sampled(rate_hz)
+    _, motion = trajectory.sampled(PICTURE_HZ)
     fastest = dict(zip(motion.names, np.rad2deg(np.abs(motion.velocity).max(axis=0)).tolist(), strict=True))
     axes = ("yaw", "pitch") if device.yaw_first else ("pitch", "yaw")
     return DeviceMotionRow(
@@ -128,21 +108,21 @@ def motion_row(name: str, trajectory: DeviceTrajectory, rate_hz: float) -> Devic
 
 
 PICTURE_HZ = 10.0
-"""Rate at which motions are looked at and drawn."""
+"""Rate at which motions are sampled and drawn."""
 _SWAPPED = "axes swapped"
-"""What is added to the name of a motion where the first two axes are swapped (figure 6.6)."""
+"""Suffix of the name of a motion with the first two axes swapped (figure 6.6)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class DevicePicture:
-    """What figures of a device show."""
+    """Content of the figures of a device."""
 
     time_s: FloatArray
     """Instants; shape (n,); s."""
     motion: JointMotion
-    """Motion of the joints at them."""
-    answer: DeviceResponse
-    """What sensors read and motors hold with the heaviest load."""
+    """Motion of the joints at these instants."""
+    response: DeviceResponse
+    """Wrenches and torques with the heaviest load."""
     clouds: dict[str, FloatArray]
     """Wrenches of the innermost sensor by the names of the motions; shapes (n, 6); N, N m."""
 
@@ -159,29 +139,29 @@ class DeviceDesign(Result):
     loads: tuple[DeviceLoadRow, ...]
     """One per load that it takes."""
     motions: tuple[DeviceMotionRow, ...]
-    """Its motion and, of the 12 steps, that with the first two axes swapped."""
+    """Its motion and, of the 12 steps, the one with the first two axes swapped."""
     span: DeviceSpan
-    """What it excites, what would excite more, and a better motion."""
+    """Its excitation, options to improve it, and an optimised motion."""
     demands: DeviceDemands
-    """What is demanded of it, with the largest stack of sensors."""
+    """Demands on it, with the largest stack of sensors."""
     recordings: tuple[DeviceRecordingRow, ...] = ()
     """Simulated recordings; none where nothing was written."""
     folder: str | None = None
-    """Where all was written; None where nothing was."""
+    """Folder of all files; None where nothing was written."""
     figures: tuple[str, ...] = ()
     """Files of figures; none where none were drawn."""
     file: DeviceFile = Field(exclude=True, repr=False)
     """The device."""
     trajectories: dict[str, DeviceTrajectory] = Field(exclude=True, repr=False)
-    """Motions by their names: those of `motions`, then those of `span`."""
+    """Motions by name: those of `motions`, then those of `span`."""
     picture: DevicePicture = Field(exclude=True, repr=False)
-    """What figures show."""
+    """Content of the figures."""
 
     def blocks(self) -> Iterator[Table | str]:
-        """Give what people read.
+        """Make the text for the terminal.
 
         Yields:
-            Tables and sentences.
+            Tables and messages.
         """
         yield f"{self.device} with {len(self.sensors)} sensor{'s' * (len(self.sensors) > 1)}: {', '.join(self.sensors)}"
         yield table_of(self.loads, f"loads: the largest in the motion, at {self.sensors[0]} and on the axes")
@@ -191,29 +171,29 @@ class DeviceDesign(Result):
         if self.recordings:
             yield table_of(self.recordings, "simulated recordings")
         if self.folder is not None:
-            yield f"everything is in {self.folder}"
+            yield f"all files are in {self.folder}"
         yield from (f"drawn to {figure}" for figure in self.figures)
 
 
 def design_device(file: DeviceFile) -> DeviceDesign:
-    """Check a calibration device by computation.
+    """Analyse a calibration device.
 
     Args:
-        file: The device, how it moves, and what is simulated of it.
+        file: The device, its motion, and its simulation.
 
     Returns:
-        What its loads do and how it moves.
+        Loads, motions, excitation and demands.
     """
     trajectory, trajectories = _trajectory(file), _trajectories(file)
     loads = [device_load(file, load_kg) for load_kg in file.loads_kg]
     time, motion = trajectory.sampled(PICTURE_HZ)
     span = device_span(file)
-    answers = [answer_of(file, load, motion) for load in loads]
+    responses = [device_response(file, load, motion) for load in loads]
     return DeviceDesign(
         device=file.name,
         sensors=file.sensor_names,
-        loads=tuple(load_row(file, load, answer) for load, answer in zip(loads, answers, strict=True)),
-        motions=tuple(motion_row(name, one, PICTURE_HZ) for name, one in trajectories.items()),
+        loads=tuple(_load_row(file, load, response) for load, response in zip(loads, responses, strict=True)),
+        motions=tuple(_motion_row(name, other) for name, other in trajectories.items()),
         span=span,
         demands=device_demands(file),
         file=file,
@@ -221,17 +201,19 @@ def design_device(file: DeviceFile) -> DeviceDesign:
         picture=DevicePicture(
             time_s=time,
             motion=motion,
-            answer=answers[-1],
-            clouds={
-                name: answer_of(one.device, one.load, one.sampled(PICTURE_HZ)[1]).wrenches.of_name(file.sensor_names[0])
-                for name, one in trajectories.items()
-            },
+            response=responses[-1],
+            clouds={name: _wrenches(other, file.sensor_names[0]) for name, other in trajectories.items()},
         ),
     )
 
 
+def _wrenches(trajectory: DeviceTrajectory, sensor: str) -> FloatArray:
+    _, motion = trajectory.sampled(PICTURE_HZ)
+    return device_response(trajectory.device, trajectory.load, motion).wrenches.of_name(sensor)
+
+
 def _trajectories(file: DeviceFile) -> dict[str, DeviceTrajectory]:
-    """The motion and, of the 12 steps, what they are with the axes swapped: other postures need not fit that."""
+    """The motion and, of the 12 steps, the one with the axes swapped, which other postures may not allow."""
     motion = _trajectory(file)
     trajectories = {motion.sequence.name: motion}
     if file.motion.posture is None:
@@ -240,6 +222,6 @@ def _trajectories(file: DeviceFile) -> dict[str, DeviceTrajectory]:
 
 
 def _trajectory(file: DeviceFile) -> DeviceTrajectory:
-    """The motion with the heaviest load, which hangs where all others do."""
+    """The motion with the heaviest load, which hangs like all others."""
     load = device_load(file, file.loads_kg[-1])
     return DeviceTrajectory(device=file, load=load, sequence=file.sequence, hold_s=file.motion.hold_s)

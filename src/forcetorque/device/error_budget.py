@@ -5,64 +5,63 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from collections.abc import Sequence as Several
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import product
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, names
 from forcetorque.base.errors import SensorError
 from forcetorque.device.description import Device, device_load
-from forcetorque.device.expected_wrench import ENCODERS, IMU, Reference
+from forcetorque.device.expected_wrench import ENCODERS, IMU, ExpectedWrench
 from forcetorque.device.motion import Sequence
 from forcetorque.device.tolerances import Tolerance
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ErrorBudget:
-    """First-order errors of the reference of one sensor over n poses."""
+class ErrorBudget(ArrayRecord):
+    """First-order errors of the expected wrench of one sensor over n poses."""
 
-    quantities: tuple[str, ...]
-    """Quantities that are off."""
+    quantities: tuple[str, ...] = field(metadata=names("k"))
+    """Quantities with errors."""
     tolerances: tuple[Tolerance, ...]
-    """By how much; one per quantity."""
-    slopes: FloatArray
+    """Tolerances of the quantities."""
+    slopes: FloatArray = field(metadata=array("k", None, 6))
     """Change of the wrench per unit of each; shape (k, n, 6)."""
 
     def __post_init__(self) -> None:
-        k = len(self.quantities)
-        object.__setattr__(self, "slopes", read_only(self.slopes, name="slopes", shape=(k, None, 6)))
-        if k == 0:
-            raise SensorError("errors of the reference: expected at least one quantity that is off, got none")
+        check_arrays(self)
+        if not self.quantities:
+            raise SensorError("errors of the expected wrench: expected at least one quantity with an error, got none")
 
     @classmethod
-    def of(cls, reference: Reference, tolerances: Mapping[str, Tolerance]) -> ErrorBudget:
-        """Propagate errors of quantities to the wrench.
+    def of(cls, expected: ExpectedWrench, tolerances: Mapping[str, Tolerance]) -> ErrorBudget:
+        """Propagate errors of quantities to the expected wrench.
 
         Args:
-            reference: The reference.
-            tolerances: By how much each quantity is off.
+            expected: The expected wrench.
+            tolerances: Tolerances by quantity.
 
         Returns:
             The errors.
         """
         require_one_source(tolerances)
-        off = {name: tolerance for name, tolerance in tolerances.items() if not tolerance.is_zero}
-        slopes = [reference.slope(name) for name in off]
+        nonzero = {name: tolerance for name, tolerance in tolerances.items() if not tolerance.is_zero}
+        slopes = [expected.derivative(name) for name in nonzero]
         return cls(
-            quantities=tuple(off),
-            tolerances=tuple(off.values()),
-            slopes=np.array(slopes).reshape(len(off), len(reference.poses), 6),
+            quantities=tuple(nonzero),
+            tolerances=tuple(nonzero.values()),
+            slopes=np.array(slopes).reshape(len(nonzero), len(expected.poses), 6),
         )
 
     def only(self, *quantities: str) -> ErrorBudget:
-        """Leave the other quantities at their true values.
+        """Set the errors of the other quantities to zero.
 
         Args:
-            *quantities: Quantities that stay off.
+            *quantities: Quantities that keep their errors.
 
         Returns:
-            What they do alone.
+            The errors by these quantities.
         """
         kept = [k for k, name in enumerate(self.quantities) if name in quantities]
         return ErrorBudget(
@@ -73,14 +72,14 @@ class ErrorBudget:
 
     @property
     def rms(self) -> FloatArray:
-        """Root mean square over the poses, and over all devices that are made so; shape (6,); N, N m."""
+        """Root mean square over the poses, and over devices with these tolerances; shape (6,); N, N m."""
         variances = np.array([tolerance.variance for tolerance in self.tolerances])
         square = np.einsum("k,knc->nc", variances, self.slopes**2) + self._fixed**2
         return np.asarray(np.sqrt(square.mean(axis=0)), dtype=np.float64)
 
     @property
     def largest(self) -> FloatArray:
-        """Largest magnitude of each component in any pose, all quantities off at worst; shape (6,); N, N m."""
+        """Largest magnitude of each component in any pose, with the largest errors; shape (6,); N, N m."""
         reach = np.array([tolerance.largest for tolerance in self.tolerances])
         worst = np.einsum("k,knc->nc", reach, np.abs(self.slopes)) + np.abs(self._fixed)
         return np.asarray(worst.max(axis=0), dtype=np.float64)
@@ -100,6 +99,13 @@ class ErrorBudget:
         return force, moment
 
     @property
+    def largest_single_norms(self) -> tuple[float, float]:
+        """Largest norms of the errors of force and moment by a single quantity; N, N m."""
+        norms = np.array([self.only(quantity).largest_norms for quantity in self.quantities])
+        force, moment = norms.max(axis=0).tolist()
+        return force, moment
+
+    @property
     def _fixed(self) -> FloatArray:
         return np.asarray(
             np.einsum("k,knc->nc", np.array([tolerance.fixed for tolerance in self.tolerances]), self.slopes)
@@ -107,13 +113,13 @@ class ErrorBudget:
 
 
 def drawn_errors(
-    reference: Reference, tolerances: Mapping[str, Tolerance], rng: np.random.Generator, draws: int
+    expected: ExpectedWrench, tolerances: Mapping[str, Tolerance], rng: np.random.Generator, draws: int
 ) -> FloatArray:
-    """Draw errors of quantities and compute the reference with them in full, without first orders.
+    """Draw errors of quantities and compute the expected wrench with them, without linearisation.
 
     Args:
-        reference: The reference.
-        tolerances: By how much each quantity is off.
+        expected: The expected wrench.
+        tolerances: Tolerances by quantity.
         rng: Source of random numbers.
         draws: Number of motions, d.
 
@@ -121,35 +127,35 @@ def drawn_errors(
         Wrong less true wrenches; shape (d, n, 6); N, N m.
     """
     require_one_source(tolerances)
-    true, n = reference.wrench(), len(reference.poses)
+    true, n = expected.wrench(), len(expected.poses)
     drawn = ({name: tolerance.drawn(rng, n) for name, tolerance in tolerances.items()} for _ in range(draws))
-    return np.array([reference.wrench(errors) - true for errors in drawn]).reshape(draws, n, 6)
+    return np.array([expected.wrench(errors) - true for errors in drawn]).reshape(draws, n, 6)
 
 
 def require_one_source(tolerances: Mapping[str, Tolerance]) -> None:
-    """Refuse a reference that takes gravity from encoders and from an inertial sensor.
+    """Refuse an expected wrench that takes gravity from encoders and from an inertial sensor.
 
     Args:
         tolerances: Tolerances by quantity.
 
     Raises:
-        SensorError: If both are off.
+        SensorError: If both have tolerances.
     """
     both = [{name for name in names if name in tolerances} for names in (ENCODERS, IMU)]
     if all(both):
         raise SensorError(
-            f"errors of the reference: expected gravity by encoders or by an inertial sensor, got both "
-            f"({', '.join(sorted(both[0] | both[1]))}); compute one reference of each"
+            f"errors of the expected wrench: expected gravity by encoders or by an inertial sensor, got both "
+            f"({', '.join(sorted(both[0] | both[1]))}); compute one expected wrench of each"
         )
 
 
 FORCE_LIMIT_N = 0.5
-"""Largest error of a reference force by requirement 6 of the thesis (6.2.1); N."""
+"""Largest error of an expected force by requirement 6 of the thesis (6.2.1); N."""
 MOMENT_LIMIT_NM = 0.02
-"""Largest error of a reference moment by it; N m."""
+"""Largest error of an expected moment by requirement 6; N m."""
 
 SPACING_DEG = 5.0
-"""How far joints go at most from one pose to the next over which errors are taken, evenly over the path; deg."""
+"""Largest angle of joints between consecutive poses of the errors, evenly over the path; deg."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -163,7 +169,7 @@ class Grade:
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """Name."""
         return "IMU" if self.by_imu else "encoders"
 
     @property
@@ -173,12 +179,12 @@ class Grade:
 
     @property
     def quantities(self) -> tuple[str, ...]:
-        """Quantities that are off."""
+        """Quantities with errors."""
         return IMU if self.by_imu else ENCODERS
 
     @property
     def tolerance(self) -> Tolerance:
-        """By how much each of them is."""
+        """Tolerance of each of these quantities."""
         return Tolerance(step=self.full_width if self.by_imu else float(np.deg2rad(self.full_width)))
 
 
@@ -195,28 +201,24 @@ DATA_SHEETS = (
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class LoadErrors:
-    """Errors of the reference of a sensor at every load."""
+class LoadErrors(ArrayRecord):
+    """Errors of the expected wrench of a sensor at every load."""
 
-    loads_kg: FloatArray
+    loads_kg: FloatArray = field(metadata=array("l"))
     """Mass on the hinge, carrier included, growing; shape (l,); kg."""
-    budgets: tuple[ErrorBudget, ...]
+    budgets: tuple[ErrorBudget, ...] = field(metadata=names("l"))
     """Errors at each load."""
 
-    def __post_init__(self) -> None:
-        shape = (len(self.budgets),)
-        object.__setattr__(self, "loads_kg", read_only(self.loads_kg, name="loads_kg", shape=shape))
-
     @property
-    def at_most(self) -> ErrorBudget:
+    def at_largest_load(self) -> ErrorBudget:
         """Errors at the largest load."""
         return self.budgets[-1]
 
     @property
     def met_to_kg(self) -> tuple[float | None, float | None]:
-        """Loads up to which no component of force and moment is off by more than requirement 6 allows.
+        """Loads up to which the errors of all components of force and moment meet requirement 6.
 
-        Errors are taken to be a line from a load to the next.
+        Errors are interpolated linearly between loads.
 
         Returns:
             Of force and moment; at most the largest load; None where the smallest is too much; kg.
@@ -226,61 +228,44 @@ class LoadErrors:
         return force, _crossing(self.loads_kg, largest[:, 3:].max(axis=1), MOMENT_LIMIT_NM)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Graded:
-    """What a grade does to the reference of a sensor."""
-
-    grade: Grade
-    """The grade."""
-    errors: LoadErrors
-    """Errors at every load."""
-
-    @property
-    def of_one(self) -> tuple[float, float]:
-        """Largest norms of the errors of force and moment at the largest load, one quantity off alone; N, N m."""
-        alone = np.array([self.errors.at_most.only(quantity).largest_norms for quantity in self.grade.quantities])
-        force, moment = alone.max(axis=0)
-        return float(force), float(moment)
-
-
 def load_errors(device: Device, sensor: str, sequence: Sequence, tolerances: Mapping[str, Tolerance]) -> LoadErrors:
-    """Propagate errors to the reference of a sensor at every load of a device.
+    """Propagate errors to the expected wrench of a sensor at every load of a device.
 
     Args:
         device: The device.
         sensor: The sensor.
-        sequence: What it does.
-        tolerances: By how much each quantity is off.
+        sequence: Its motion.
+        tolerances: Tolerances by quantity.
 
     Returns:
-        The errors, over poses that are `SPACING_DEG` from each other at most.
+        The errors, over poses at most `SPACING_DEG` from each other.
     """
     loads = [device_load(device, load) for load in device.loads_kg]
     budgets = []
     for load in loads:
         poses = sequence.still_poses(device, load, spacing_deg=SPACING_DEG)
-        reference = Reference(device=device, load=load, poses=poses, sensor=sensor)
-        budgets.append(ErrorBudget.of(reference, tolerances))
+        expected = ExpectedWrench(device=device, load=load, poses=poses, sensor=sensor)
+        budgets.append(ErrorBudget.of(expected, tolerances))
     return LoadErrors(loads_kg=np.array([load.mass_kg for load in loads]), budgets=tuple(budgets))
 
 
-def graded(device: Device, sensor: str, sequence: Sequence, grades: Several[Grade]) -> tuple[Graded, ...]:
-    """Hold grades against requirement 6 at every load of a device.
+def graded_errors(device: Device, sensor: str, sequence: Sequence, grades: Several[Grade]) -> dict[Grade, LoadErrors]:
+    """Compute the errors by grades at every load of a device.
 
     Args:
         device: The device.
         sensor: The sensor.
-        sequence: What it does.
+        sequence: Its motion.
         grades: The grades.
 
     Returns:
-        One for each grade.
+        The errors by grade.
     """
     units = {
         quantities: load_errors(device, sensor, sequence, dict.fromkeys(quantities, Tolerance(step=1.0)))
         for quantities in {grade.quantities for grade in grades}
     }
-    return tuple(Graded(grade=grade, errors=_with_tolerance(units[grade.quantities], grade)) for grade in grades)
+    return {grade: _with_tolerance(units[grade.quantities], grade) for grade in grades}
 
 
 def _with_tolerance(unit: LoadErrors, grade: Grade) -> LoadErrors:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
@@ -12,16 +13,50 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.device.description import AttachedLoad, Device, Turn, device_load
 from forcetorque.device.motion import DeviceTrajectory, Sequence, twelve_steps
 from forcetorque.device.tolerances import Poses, Tolerances
+from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.excitation import UncertainLoads, load_sizes
 from forcetorque.workbench.loads import THESIS_TABLE, read_loads
 
+HELD_OUT_FORCE_N: Final = 100.0
+"""Standard deviation of every component of a held-out force; N."""
+HELD_OUT_MOMENT_NM: Final = 5.0
+"""The same of the moment; N m."""
+SAMPLES: Final = 360
+"""Samples of a calibration, by every motion and by the workbench."""
+NOISE_COUNTS: Final = 1.0
+"""Standard deviation of the noise of a sample; counts."""
+FAMILY: Final = "standard"
+"""Family that sensors are drawn from."""
+_LOADS: Final = 400
+_HELD_OUT_SEED: Final = 7_000_000
+"""Held-out loads have other seeds than sensors and errors."""
 
-def workbench_loads(placement: Placement, samples: int) -> UncertainLoads:
-    """Give the loads of the 24 positions of the thesis' workbench.
+
+def held_out_loads(seed: int = 0) -> FloatArray:
+    """Draw loads that no calibration uses.
 
     Args:
-        placement: How exactly weights are placed.
+        seed: Seed of the loads.
+
+    Returns:
+        Changes of load; shape (400, 6); N, N m.
+    """
+    size = np.repeat([HELD_OUT_FORCE_N, HELD_OUT_MOMENT_NM], 3)
+    return size * np.random.default_rng(_HELD_OUT_SEED + seed).standard_normal((_LOADS, 6))
+
+
+def sample_noise() -> FloatArray:
+    """Compute the covariance of the noise of a sample of the nominal sensor; shape (6, 6); N, N m."""
+    matrix = np.linalg.inv(FAMILIES[FAMILY].nominal())
+    return NOISE_COUNTS**2 * matrix @ matrix.T
+
+
+def workbench_loads(placement: Placement, samples: int) -> UncertainLoads:
+    """Compute the loads of the 24 positions of the workbench of the thesis.
+
+    Args:
+        placement: Standard deviations of the placement of weights.
         samples: Samples of all positions together.
 
     Returns:
@@ -32,17 +67,17 @@ def workbench_loads(placement: Placement, samples: int) -> UncertainLoads:
 
 
 def least_excitation(loads: UncertainLoads, others: UncertainLoads) -> float:
-    """Compare what loads excite, sample by sample, with what others do.
+    """Compare the excitation by loads, sample by sample, with that by other loads.
 
-    The covariance of a matrix by noise alone is the inverse of the second moment of its loads about their mean, so that
-    the ratio of both in the direction in which it is least tells whether any direction is known worse.
+    The covariance of a matrix by noise alone is the inverse of the second moment of its loads about their mean. So the
+    least ratio of both moments over all directions shows whether a direction is determined less accurately.
 
     Args:
         loads: Loads.
         others: Loads that span six directions.
 
     Returns:
-        Least ratio of the spread of the loads to that of the others, over all directions; 0 where one is not spanned.
+        Least ratio of the standard deviations of the loads and of the others; 0 where a direction is not spanned.
     """
     size = load_sizes(others.wrench)
     root = np.linalg.cholesky(_moment(others, size))
@@ -64,133 +99,120 @@ SECOND_KG = 15.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Run:
-    """A motion with one load."""
-
-    device: Device
-    """The device."""
-    load: AttachedLoad
-    """Load attached to its hinge."""
-    sequence: Sequence
-    """The motion."""
-    hold_s: float = 1.0
-    """Rest at every posture; s."""
-
-    @property
-    def trajectory(self) -> DeviceTrajectory:
-        """The motion in time."""
-        return DeviceTrajectory(device=self.device, load=self.load, sequence=self.sequence, hold_s=self.hold_s)
-
-    def still_poses(self, *, spacing_deg: float = 30.0) -> Poses:
-        """Rest at poses of the motion.
-
-        Args:
-            spacing_deg: How far any joint goes at most from one to the next; deg.
-
-        Returns:
-            The poses, each with one sample.
-        """
-        motion = self.sequence.still_poses(self.device, self.load, spacing_deg=spacing_deg)
-        return Poses.of_samples(self.device, self.load, motion.position)
-
-    def sampled(self, samples: int) -> Poses:
-        """Sample the motion evenly in time, as slow as one likes.
-
-        Args:
-            samples: How many.
-
-        Returns:
-            The poses.
-        """
-        trajectory = self.trajectory
-        seconds = np.linspace(0.0, trajectory.duration_s, samples)
-        return Poses.of_samples(self.device, self.load, trajectory(seconds).position)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Remedy:
-    """One way to excite a sensor."""
+class ExcitationOption:
+    """One way to excite all six directions of a sensor."""
 
     name: str
     """Name."""
-    words: str
-    """What is done, as text."""
-    runs: tuple[Run, ...]
+    description: str
+    """What changes, as text."""
+    trajectories: tuple[DeviceTrajectory, ...]
     """Motions, one for each load."""
 
     def still_poses(self) -> list[Poses]:
-        """Rest at poses of all motions.
+        """Compute static poses along all motions.
 
         Returns:
             The poses with each load.
         """
-        return [run.still_poses() for run in self.runs]
+        return [still_poses(trajectory) for trajectory in self.trajectories]
 
     def sampled(self, samples: int) -> list[Poses]:
-        """Share samples out evenly among the motions.
+        """Divide samples evenly among the motions.
 
         Args:
-            samples: Samples of all together.
+            samples: Samples of all motions together.
 
         Returns:
             The poses with each load.
         """
-        return [run.sampled(samples // len(self.runs)) for run in self.runs]
+        return [sampled_poses(trajectory, samples // len(self.trajectories)) for trajectory in self.trajectories]
+
+
+def still_poses(trajectory: DeviceTrajectory, *, spacing_deg: float = 30.0) -> Poses:
+    """Compute static poses along a motion.
+
+    Args:
+        trajectory: The motion.
+        spacing_deg: Largest angle of any joint between consecutive poses; deg.
+
+    Returns:
+        The poses, each with one sample.
+    """
+    device, load = trajectory.device, trajectory.load
+    motion = trajectory.sequence.still_poses(device, load, spacing_deg=spacing_deg)
+    return Poses.of_samples(device, load, motion.position)
+
+
+def sampled_poses(trajectory: DeviceTrajectory, samples: int) -> Poses:
+    """Sample a motion evenly in time, without its velocities and accelerations.
+
+    Args:
+        trajectory: The motion.
+        samples: Number of samples.
+
+    Returns:
+        The poses.
+    """
+    seconds = np.linspace(0.0, trajectory.duration_s, samples)
+    return Poses.of_samples(trajectory.device, trajectory.load, trajectory(seconds).position)
 
 
 def uncertain(poses: list[Poses], sensor: str, tolerances: Tolerances) -> UncertainLoads:
-    """Join the loads of several motions with what may be wrong of them.
+    """Join the expected wrenches of several motions, with their errors.
 
     Args:
         poses: Poses with each load.
         sensor: Name of the sensor.
-        tolerances: How exact the device is.
+        tolerances: Tolerances of the device.
 
     Returns:
         The loads; errors of the device are the same with every load.
     """
-    return UncertainLoads.together([one.uncertain(sensor, tolerances) for one in poses])
+    return UncertainLoads.join([segment.uncertain(sensor, tolerances) for segment in poses])
 
 
-def remedies(device: Device, load_kg: float) -> dict[str, Remedy]:
-    """List what may be done.
+def excitation_options(device: Device, load_kg: float) -> dict[str, ExcitationOption]:
+    """List motions and changes of a device that may excite the sixth direction.
 
     Args:
         device: The device, with locks at 0 and at 90 degrees.
         load_kg: The load; kg.
 
     Returns:
-        The remedies by name, the 12 steps alone first.
+        The options by name, the 12 steps without a change first.
     """
     load = device_load(device, load_kg)
-    alone = Run(device=device, load=load, sequence=twelve_steps(device))
+    twelve = DeviceTrajectory(device=device, load=load, sequence=twelve_steps(device))
     nearer = AttachedLoad.point(SECOND_KG, float(load.centre_of_mass_m[2]) - NEARER_M)
     locked, turned = device.with_locks(-90.0, 0.0, 90.0), device.changed(turn=Turn())
     swinging = device.changed(hinge=device.hinge.model_copy(update={"encoder": True}))
 
-    def as_built(name: str, words: str, other: AttachedLoad) -> Remedy:
-        return Remedy(name=name, words=words, runs=(alone, Run(device=device, load=other, sequence=alone.sequence)))
+    def second_load(name: str, description: str, other: AttachedLoad) -> ExcitationOption:
+        second = DeviceTrajectory(device=device, load=other, sequence=twelve.sequence)
+        return ExcitationOption(name=name, description=description, trajectories=(twelve, second))
 
-    def changed(name: str, words: str, other: Device, sequence: Sequence) -> Remedy:
-        return Remedy(name=name, words=words, runs=(Run(device=other, load=load, sequence=sequence),))
+    def changed(name: str, description: str, other: Device, sequence: Sequence) -> ExcitationOption:
+        trajectory = DeviceTrajectory(device=other, load=load, sequence=sequence)
+        return ExcitationOption(name=name, description=description, trajectories=(trajectory,))
 
-    every = (
-        Remedy(name="12 steps", words="the 12 steps as the thesis has them", runs=(alone,)),
+    options = (
+        changed("12 steps", "the 12 steps as the thesis has them", device, twelve.sequence),
         changed(
             "third lock", "a lock at -90 deg, reached with yaw turned by 180 deg", locked, third_lock_steps(locked)
         ),
         changed("load turned", "a joint that turns the load by 90 deg about z", turned, _turn_steps(turned)),
         changed("free hinge", "an unlocked hinge with an encoder, yaw around", swinging, _swing_steps(swinging)),
-        as_built("second load", f"12 steps more with {SECOND_KG:g} kg, 25 mm nearer to the hinge", nearer),
-        as_built("empty carrier", "12 steps more with the empty carrier", device_load(device, 0.0)),
+        second_load("second load", f"12 steps more with {SECOND_KG:g} kg, 25 mm nearer to the hinge", nearer),
+        second_load("empty carrier", "12 steps more with the empty carrier", device_load(device, 0.0)),
     )
-    return {remedy.name: remedy for remedy in every}
+    return {option.name: option for option in options}
 
 
 def third_lock_steps(device: Device) -> Sequence:
-    """Go on after the 12 steps to a lock at -90 degrees and turn yaw around there.
+    """Continue the 12 steps to a lock at -90 degrees, with a full turn of yaw there.
 
-    The load goes back to 0 as it came. Yaw then turns by 180 degrees, so that gravity takes it to the other side.
+    The load goes back to 0 on the same way. Yaw then turns by 180 degrees, so that gravity takes it to the other side.
 
     Args:
         device: A device with such a lock.
@@ -207,10 +229,10 @@ def third_lock_steps(device: Device) -> Sequence:
 
 
 def swing_at_yaw_zero(device: Device) -> Sequence:
-    """Let the hinge swing after the 12 steps without ever turning yaw away from 0.
+    """Continue the 12 steps with a swing of the hinge at yaw 0.
 
     Args:
-        device: A device whose hinge has an encoder, if the samples of the swing are to count.
+        device: A device whose hinge has an encoder, if the samples of the swing are used.
 
     Returns:
         The motion.

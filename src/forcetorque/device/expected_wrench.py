@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The expected wrench of a device at rest, what it is computed from, and what sensors and motors feel in motion."""
+"""The expected wrench of a device at rest with its errors, and wrenches and torques of a device in motion."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ class DeviceResponse:
     """Wrenches and torques of n samples."""
 
     wrenches: Wrenches
-    """True readings of the sensors, each in its frame: what the load does to the device."""
+    """True wrenches of the sensors, each in its frame: the load acts on the device."""
     joints: tuple[str, ...]
     """Joints of the columns of `torques`."""
     torques: FloatArray
-    """What motor or lock does along the coordinate of each joint; shape (n, joints); N m."""
+    """Torques of motors or locks along the coordinate of each joint; shape (n, joints); N m."""
 
     def torque(self, joint: str) -> FloatArray:
-        """Give the torque of a joint.
+        """Select the torque of a joint.
 
         Args:
             joint: One of `joints`.
@@ -46,8 +46,8 @@ class DeviceResponse:
         return self.torques[:, self.joints.index(joint)]
 
 
-def answer_of(device: Device, load: AttachedLoad, motion: JointMotion) -> DeviceResponse:
-    """Compute what a motion does to sensors and motors.
+def device_response(device: Device, load: AttachedLoad, motion: JointMotion) -> DeviceResponse:
+    """Compute the wrenches of sensors and the torques of motors in a motion.
 
     Args:
         device: The device.
@@ -63,37 +63,37 @@ def answer_of(device: Device, load: AttachedLoad, motion: JointMotion) -> Device
         torques=device.joint_names,
         equations=(),
     )
-    answer = estimate(question, motion, device_root(device))
+    estimated = estimate(question, motion, device_root(device))
     return DeviceResponse(
-        wrenches=Wrenches(names=device.sensor_names, values=answer.expected),
+        wrenches=Wrenches(names=device.sensor_names, values=estimated.expected),
         joints=device.joint_names,
-        torques=answer.torques,
+        torques=estimated.torques,
     )
 
 
 ENCODERS = ("pitch", "yaw")
-"""Joints whose encoders tell where gravity is; error in rad."""
+"""Joints whose encoders determine the direction of gravity; error in rad."""
 HINGE = "hinge"
-"""Joint whose position a lock tells, or an encoder; error in rad."""
+"""Joint whose position a lock determines, or an encoder; error in rad."""
 IMU = ("imu_x", "imu_y", "imu_z")
-"""Components of gravity that an inertial sensor beside the sensor tells instead; error in m/s2."""
+"""Components of gravity that an inertial sensor beside the sensor measures instead; error in m/s2."""
 MASS = "mass"
-"""Mass of the load; error as a share of it."""
+"""Mass of the load; relative error."""
 BRACKET_LENGTH = "bracket_length"
 """Length from sensor to hinge; error in m."""
 LOAD_LENGTH = "load_length"
 """Length from hinge to load; error in m."""
 COMPLIANCE = "compliance"
-"""Angle by which motors and arm give way; rad for each N m."""
+"""Elastic angle of motors and arm; rad per N m."""
 QUANTITIES = (*ENCODERS, HINGE, *IMU, MASS, BRACKET_LENGTH, LOAD_LENGTH, COMPLIANCE)
-"""All that a reference is computed from."""
+"""Quantities that the expected wrench is computed from."""
 
 _LINEAR = frozenset((MASS, BRACKET_LENGTH, LOAD_LENGTH))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Reference:
-    """The reference of one sensor of a device over n poses at rest, at the values of its quantities that are true."""
+class ExpectedWrench:
+    """The expected wrench of one sensor of a device over n poses at rest, as a function of errors of its quantities."""
 
     device: Device
     """The device."""
@@ -112,31 +112,31 @@ class Reference:
             )
 
     def wrench(self, errors: Mapping[str, Any] | None = None) -> FloatArray:
-        """Compute the reference from quantities that are off.
+        """Compute the wrench from quantities with errors.
 
         Args:
             errors: Errors by quantity, of `QUANTITIES`; shape (n,), or a number for all poses; none if left out.
 
         Returns:
-            Wrenches in the sensor's frame, what the load does to the device; shape (n, 6); N, N m.
+            Wrenches in the sensor's frame, the load acts on the device; shape (n, 6); N, N m.
 
         Raises:
-            SensorError: If a quantity is none of these.
+            SensorError: If a quantity is unknown.
         """
-        off = {name: np.broadcast_to(error, len(self.poses)) for name, error in (errors or {}).items()}
-        for name in off:
+        by_quantity = {name: np.broadcast_to(error, len(self.poses)) for name, error in (errors or {}).items()}
+        for name in by_quantity:
             if name not in QUANTITIES:
                 raise SensorError(
-                    f"errors of the reference: unknown quantity {name!r}; {known_names(name, QUANTITIES)}"
+                    f"errors of the expected wrench: unknown quantity {name!r}; {known_names(name, QUANTITIES)}"
                 )
-        if any(name in off for name in IMU):
-            wrench = self._by_imu(np.column_stack([off.get(name, np.zeros(len(self.poses))) for name in IMU]))
+        if any(name in by_quantity for name in IMU):
+            wrench = self._by_imu(np.column_stack([by_quantity.get(name, np.zeros(len(self.poses))) for name in IMU]))
         else:
-            wrench = self._by_encoders(off)
-        return wrench + self._of_load(off)
+            wrench = self._by_encoders(by_quantity)
+        return wrench + self._of_load(by_quantity)
 
-    def slope(self, quantity: str) -> FloatArray:
-        """Tell how the reference changes with a quantity.
+    def derivative(self, quantity: str) -> FloatArray:
+        """Compute the derivative of the wrench by a quantity.
 
         Args:
             quantity: One of `QUANTITIES`.
@@ -145,45 +145,45 @@ class Reference:
             Change of the wrench per unit of the quantity; shape (n, 6).
         """
         if quantity in _LINEAR:
-            return self._units[quantity]
+            return self._load_derivatives[quantity]
         # of an angle, the error of a central difference is 2e-9 of the slope
         step = 1e-4
         if quantity == COMPLIANCE:
             step /= max(np.abs(torque).max() for torque in self._torques.values())
         return (self.wrench({quantity: step}) - self.wrench({quantity: -step})) / (2.0 * step)
 
-    def _by_encoders(self, off: Mapping[str, FloatArray]) -> FloatArray:
+    def _by_encoders(self, errors: Mapping[str, FloatArray]) -> FloatArray:
         position = np.array(self.poses.position)
         for joint in (*ENCODERS, HINGE):
             column = self.poses.names.index(joint)
-            position[:, column] += off.get(joint, 0.0)
-            if COMPLIANCE in off and joint != HINGE:  # the motor is ahead of the arm that it holds
-                position[:, column] += off[COMPLIANCE] * self._torques[joint]
-        return self._read(self._tree, JointMotion.at_rest(self.poses.names, position))
+            position[:, column] += errors.get(joint, 0.0)
+            if COMPLIANCE in errors and joint != HINGE:  # the motor is ahead of the arm that it holds
+                position[:, column] += errors[COMPLIANCE] * self._torques[joint]
+        return self._wrench_of(self._tree, JointMotion.at_rest(self.poses.names, position))
 
     def _by_imu(self, error: FloatArray) -> FloatArray:
         base_R_sensor = split_pose(link_pose(self._tree, self.poses, f"{self.sensor}_outboard"))[0]
         root = device_root(self.device)
-        # all stands still, so that what the sensor feels more, the base feels more
-        felt = root.proper_acceleration + np.einsum("nij,nj->ni", base_R_sensor, error)
-        wrong = replace(root, proper_acceleration=felt)
+        # all is at rest, so that an error of acceleration at the sensor is one of the base
+        acceleration = root.proper_acceleration + np.einsum("nij,nj->ni", base_R_sensor, error)
+        wrong = replace(root, proper_acceleration=acceleration)
         return expected_wrenches(self._tree, self.poses, wrong, (self.sensor,))[self.sensor]
 
-    def _of_load(self, off: Mapping[str, FloatArray]) -> FloatArray:
-        """What errors of mass and lengths add; shape (n, 6)."""
+    def _of_load(self, errors: Mapping[str, FloatArray]) -> FloatArray:
+        """Change of the wrench by errors of mass and lengths; shape (n, 6)."""
         change = np.zeros((len(self.poses), 6))
-        for quantity in _LINEAR & off.keys():
-            change += off[quantity][:, None] * self._units[quantity]
+        for quantity in _LINEAR & errors.keys():
+            change += errors[quantity][:, None] * self._load_derivatives[quantity]
         return change
 
     @cached_property
-    def _units(self) -> dict[str, FloatArray]:
-        """What one more unit of mass and lengths adds, in which the wrench is linear."""
-        true = self._read(self._tree, self.poses)
-        return {quantity: self._read(self._one_more(quantity), self.poses) - true for quantity in _LINEAR}
+    def _load_derivatives(self) -> dict[str, FloatArray]:
+        """Derivatives by mass and lengths, in which the wrench is linear."""
+        true = self._wrench_of(self._tree, self.poses)
+        return {quantity: self._wrench_of(self._one_more(quantity), self.poses) - true for quantity in _LINEAR}
 
     def _one_more(self, quantity: str) -> BodyTree:
-        """The device with twice the mass on it, or with one metre more of a length."""
+        """The device with twice the mass of the load, or with one metre more of a length."""
         inertia, hinge = self.load.inertia, self.device.hinge
         if quantity == BRACKET_LENGTH:
             bracket = hinge.bracket.model_copy(update={"height_m": hinge.bracket.height_m + 1.0})
@@ -202,8 +202,8 @@ class Reference:
 
     @cached_property
     def _torques(self) -> dict[str, FloatArray]:
-        answer = answer_of(self.device, self.load, self.poses)
-        return {joint: answer.torque(joint) for joint in ENCODERS}
+        response = device_response(self.device, self.load, self.poses)
+        return {joint: response.torque(joint) for joint in ENCODERS}
 
-    def _read(self, tree: BodyTree, poses: JointMotion) -> FloatArray:
+    def _wrench_of(self, tree: BodyTree, poses: JointMotion) -> FloatArray:
         return expected_wrenches(tree, poses, device_root(self.device), (self.sensor,))[self.sensor]

@@ -17,7 +17,7 @@ from forcetorque.calibration.figures.excitation import space_figure
 from forcetorque.device.demand_result import GradeRow
 from forcetorque.device.design import DeviceDesign
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM
-from forcetorque.device.mechanical_demands import VIEWS, Silhouette
+from forcetorque.device.mechanical_demands import VIEWS, EnvelopeRow
 from forcetorque.device.span import DirectionRow
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
@@ -81,11 +81,11 @@ _AXES = "xyz"
 
 
 @in_figure_style
-def envelope_figure(silhouettes: Sequence[Silhouette]) -> Figure:
-    """Draw what is swept in each view, and the rectangle around it [1].
+def envelope_figure(rows: Sequence[EnvelopeRow]) -> Figure:
+    """Draw the swept space in each view, and the rectangle around it [1].
 
     Args:
-        silhouettes: What is swept.
+        rows: The swept space, by view.
 
     Returns:
         The figure, a panel per view.
@@ -94,38 +94,43 @@ def envelope_figure(silhouettes: Sequence[Silhouette]) -> Figure:
         [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figure 6.13.
     """
     figure = new_figure(1.2 * ROW_INCHES[1])
-    for panel, silhouette in zip(figure.subplots(1, len(silhouettes), squeeze=False)[0], silhouettes, strict=True):
-        _draw_envelope(panel, silhouette)
+    for panel, row in zip(figure.subplots(1, len(rows), squeeze=False)[0], rows, strict=True):
+        _draw_envelope(panel, row)
     legend_below(
         figure,
         [
-            ("convex hull of what is swept", {"color": look(0).colour, "linestyle": "-"}),
+            ("convex hull of the swept space", {"color": look(0).colour, "linestyle": "-"}),
             ("rectangle around it", {"color": REFERENCE_COLOUR, "linestyle": "--"}),
         ],
     )
     return figure
 
 
-def _draw_envelope(panel: Axes, silhouette: Silhouette) -> None:
-    closed = np.concatenate([silhouette.outline, silhouette.outline[:1]])
+def _draw_envelope(panel: Axes, row: EnvelopeRow) -> None:
+    closed = np.concatenate([row.outline, row.outline[:1]])
     panel.fill(*closed.T, color=look(0).colour, alpha=0.2)
     panel.plot(*closed.T, color=look(0).colour, linewidth=1.4)
-    low, high = silhouette.outline.min(axis=0), silhouette.outline.max(axis=0)
+    low, high = row.outline.min(axis=0), row.outline.max(axis=0)
     corners = np.array([low, [high[0], low[1]], high, [low[0], high[1]], low])
     panel.plot(*corners.T, color=REFERENCE_COLOUR, linestyle="--", linewidth=1.0)
     panel.set_aspect("equal", adjustable="datalim")
-    panel.set_title(f"from {silhouette.view}, {silhouette.rectangle_m2:.2f} m2")
-    first, second = VIEWS[silhouette.view]
+    panel.set_title(f"from {row.view}, {row.rectangle_m2:.2f} m2")
+    first, second = VIEWS[row.view]
     panel.set_xlabel(f"{_AXES[first]}, m")
     panel.set_ylabel(f"{_AXES[second]}, m")
 
 
-_SIZES = ("root mean square", "largest, one off alone", "largest component, all off", "largest norm, all off")
+_SIZES = (
+    "root mean square",
+    "largest, error of one",
+    "largest component, errors of all",
+    "largest norm, errors of all",
+)
 
 
 @in_figure_style
 def reference_error_figure(grades: Sequence[GradeRow]) -> Figure:
-    """Draw root mean squares and largest errors of forces and moments against what requirement 6 allows.
+    """Draw root mean squares and largest errors of forces and moments against the limits of requirement 6.
 
     Args:
         grades: Errors by grade.
@@ -172,11 +177,11 @@ def _draw_errors(panel: Axes, errors: FloatArray, limit: float, label: str) -> N
 
 
 @in_figure_style
-def remedies_figure(rows: Sequence[DirectionRow]) -> Figure:
-    """Draw predicted errors by the axis that is loaded; what is not known at all is left out.
+def predicted_error_figure(rows: Sequence[DirectionRow]) -> Figure:
+    """Draw predicted errors by the axis that is loaded; undetermined ones are left out.
 
     Args:
-        rows: Errors of force and moment, by what the sensor was calibrated by.
+        rows: Errors of force and moment, by motion of the calibration.
 
     Returns:
         The figure, a panel for each error.
@@ -186,7 +191,7 @@ def remedies_figure(rows: Sequence[DirectionRow]) -> Figure:
         ShapeError: If there is nothing to draw.
     """
     if not rows:
-        raise ShapeError("remedies: expected at least one row, got none")
+        raise ShapeError("excitation options: expected at least one row, got none")
     figure = new_figure(1.4 * ROW_INCHES[1])
     errors = tuple(dict.fromkeys(row.error for row in rows))
     names = tuple(dict.fromkeys(row.motion for row in rows))
@@ -217,15 +222,15 @@ def write_device_figures(design: DeviceDesign, output: Path) -> DeviceDesign:
             `remedies.png` (predicted errors by direction), `envelope.png` (6.13) and `errors.png` (Table 6.3).
 
     Returns:
-        The design with the names of the files.
+        The result with the names of the files.
     """
     picture, demands = design.picture, design.demands
-    torques = {joint: picture.answer.torque(joint) for joint in picture.answer.joints}
+    torques = {joint: picture.response.torque(joint) for joint in picture.response.joints}
     figures = {
         "motion.png": device_figure(picture.time_s, picture.motion, torques),
         "space.png": space_figure(picture.clouds),
-        "remedies.png": remedies_figure(design.span.directions),
-        "envelope.png": envelope_figure(demands.silhouettes),
+        "remedies.png": predicted_error_figure(design.span.directions),
+        "envelope.png": envelope_figure(demands.envelope),
         "errors.png": reference_error_figure(demands.grades),
     }
     with new_folder(output) as folder:

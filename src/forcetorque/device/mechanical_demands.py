@@ -1,64 +1,76 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mechanical demands on a device: the space that it sweeps, duty of its motors, locks of its passive hinge."""
+"""Mechanical demands on a device: swept space, duty of the motors, locks of the passive hinge."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Annotated, Any
 
 import numpy as np
+from pydantic import Field
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.arrays import ArrayField, ArrayRecord, BoolArray, FloatArray, array, read_only
 from forcetorque.base.errors import SensorError
 from forcetorque.device.description import AttachedLoad, Device
-from forcetorque.device.expected_wrench import answer_of
+from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.model import BASE, device_model
 from forcetorque.device.motion import Sequence, with_free_hinge
+from forcetorque.results.table import Row, Shown
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 
 ARM_RADIUS_M = 0.06
-"""Radius about the axis of the arm that motors, sensors and hinge stay within; the thesis prints none, it is ours."""
+"""Radius about the axis of the arm that contains motors, sensors and hinge; chosen here, as the thesis has none."""
 
 VIEWS = {"above": (0, 1), "the side": (0, 2), "behind": (1, 2)}
-"""Axes of the base that each view shows."""
+"""Axes of the base in each view."""
 
 _RIM = 36
 """Points on a circle: its area is short by half a percent."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Silhouette:
-    """What a device sweeps in one view."""
+class EnvelopeRow(Row):
+    """Space that a device sweeps in one view."""
 
-    view: str
-    """One of `VIEWS`."""
-    outline: FloatArray
-    """Corners of the convex hull of all that is swept, in turn; shape (k, 2); m."""
+    view: Annotated[str, Shown("seen from")]
+    """View, one of `VIEWS`."""
+    width_m: Annotated[float, Shown("width", "m", digits=3)]
+    """Width of the rectangle around it."""
+    height_m: Annotated[float, Shown("height", "m", digits=3)]
+    """Its height."""
+    rectangle_m2: Annotated[float, Shown("rectangle", "m2", digits=3)]
+    """Its area."""
+    hull_m2: Annotated[float, Shown("convex hull", "m2", digits=3)]
+    """Area of the convex hull."""
+    outline: Annotated[FloatArray, ArrayField((None, 2))] = Field(exclude=True, repr=False)
+    """Corners of the convex hull of the swept space, in order; shape (k, 2); m."""
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "outline", read_only(self.outline, name="outline", shape=(None, 2)))
+    @classmethod
+    def of(cls, view: str, outline: FloatArray) -> EnvelopeRow:
+        """Measure a convex outline.
 
-    @property
-    def extent_m(self) -> FloatArray:
-        """Width and height of the rectangle around it; shape (2,); m."""
-        return np.asarray(np.ptp(self.outline, axis=0), dtype=np.float64)
+        Args:
+            view: One of `VIEWS`.
+            outline: Corners in order; shape (k, 2); m.
 
-    @property
-    def rectangle_m2(self) -> float:
-        """Area of that rectangle, in which the motion is contained; m2."""
-        return float(np.prod(self.extent_m))
+        Returns:
+            The record.
+        """
+        width, height = np.ptp(outline, axis=0).tolist()
+        x, y = outline.T
+        return cls(
+            view=view,
+            width_m=width,
+            height_m=height,
+            rectangle_m2=width * height,
+            hull_m2=float(0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1))),
+            outline=outline,
+        )
 
-    @property
-    def hull_m2(self) -> float:
-        """Area of the convex hull; m2."""
-        x, y = self.outline.T
-        return float(0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
 
-
-def envelope(device: Device, load: AttachedLoad, poses: JointMotion) -> tuple[Silhouette, ...]:
-    """Sweep all bodies through a motion: the arm within `ARM_RADIUS_M` of its axis, and the plates as a cylinder.
+def envelope(device: Device, load: AttachedLoad, poses: JointMotion) -> tuple[EnvelopeRow, ...]:
+    """Compute the swept space: of the arm within `ARM_RADIUS_M` of its axis, and of the plates as a cylinder.
 
     Args:
         device: The device.
@@ -66,7 +78,7 @@ def envelope(device: Device, load: AttachedLoad, poses: JointMotion) -> tuple[Si
         poses: Poses through which it moves, close to each other; n of them.
 
     Returns:
-        One silhouette per view.
+        One record per view.
     """
     from scipy.spatial import ConvexHull
 
@@ -77,12 +89,12 @@ def envelope(device: Device, load: AttachedLoad, poses: JointMotion) -> tuple[Si
     plates = (_plate_rims(device, load) @ carrier[:, :3, :3].transpose(0, 2, 1) + carrier[:, None, :3, 3]).reshape(
         -1, 3
     )
-    silhouettes = []
+    rows = []
     for view, axes in VIEWS.items():
         arm = (origins[:, None, axes] + ARM_RADIUS_M * _circle()).reshape(-1, 2)
         points = np.concatenate([arm, plates[:, axes]])
-        silhouettes.append(Silhouette(view=view, outline=points[ConvexHull(points).vertices]))
-    return tuple(silhouettes)
+        rows.append(EnvelopeRow.of(view, points[ConvexHull(points).vertices]))
+    return tuple(rows)
 
 
 def _plate_rims(device: Device, load: AttachedLoad) -> FloatArray:
@@ -99,36 +111,39 @@ def _circle() -> FloatArray:
 
 
 _STILL_RAD = 1e-9
-"""A joint that turns by less between two samples holds: numbers of radians are rounded far below."""
+"""A joint that turns by less between two samples holds: rounding of radians is far below."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MotorDuty:
-    """What one motor bears over a motion."""
+class MotorRow(Row):
+    """Torque of a motor over a motion."""
 
-    joint: str
-    """Joint that it turns."""
-    path_rad: float
-    """Path of the joint, both ways counted; rad."""
-    peak_Nm: float
-    """Largest torque; N m."""
-    average_Nm: float | None
-    """Average by path (6.1); N m; None of a motor that only holds, which has none."""
-    rms_Nm: float
-    """Root mean square over time, holds counted; N m."""
-    holding_Nm: float
-    """Largest torque while the joint holds still; N m; 0 if it never does."""
+    joint: Annotated[str, Shown("motor")]
+    """Joint that the motor turns."""
+    peak_Nm: Annotated[float, Shown("peak", "N m", digits=2)]
+    """Largest torque, of weight alone."""
+    moving_peak_Nm: Annotated[float, Shown("moving", "N m", digits=2)]
+    """Largest torque with accelerations."""
+    average_Nm: Annotated[float | None, Shown("average (6.1)", "N m", digits=2)]
+    """Average over the path; None of a motor that only holds."""
+    average_over_peak: Annotated[float | None, Shown("over peak", digits=3)]
+    """Average over the peak; None of a motor that only holds, or has no torque."""
+    rms_Nm: Annotated[float, Shown("RMS", "N m", digits=2)]
+    """Root mean square over time, holds included."""
+    holding_Nm: Annotated[float, Shown("holding", "N m", digits=2)]
+    """Largest torque while the joint holds still; 0 if it never does."""
+    limit_Nm: Annotated[float, Shown("limit", "N m", digits=1)]
+    """Largest torque in the file of the device."""
 
 
 def average_torque(torque: Any, position: Any) -> float:
-    """Average the torque of a motor over its path, by which makers of gears judge their life.
+    """Average the torque of a motor over its path, which determines the life of its gear.
 
-    Thesis (6.1) weighs the cube of the torque by speed times time. That is the path, both ways counted: how fast the
-    motor goes makes no difference, and while it holds still it wears nothing. Speeds are taken by magnitude, without
-    which a way back would undo the way there.
+    Thesis (6.1) weights the cube of the torque by speed times time. That is the path, both ways counted: the speed of
+    the motor makes no difference, and a joint that holds still does not count. Speeds are magnitudes: otherwise a way
+    back would cancel the way there.
 
     Args:
-        torque: Torque along the motion, close enough samples that it is a line between two; shape (n,); N m.
+        torque: Torque along the motion, linear between samples; shape (n,); N m.
         position: Angle of the joint at the same samples; shape (n,); rad.
 
     Returns:
@@ -146,35 +161,67 @@ def average_torque(torque: Any, position: Any) -> float:
     if not path.sum() > _STILL_RAD:
         raise SensorError(
             f"position: expected a motion to average over by (6.1), got {len(angles)} samples that all hold; "
-            "a motor that only holds is judged by its holding torque"
+            "evaluate a motor that only holds by its holding torque"
         )
     return float((path @ _between(cubes) / path.sum()) ** (1.0 / 3.0))
 
 
-def motor_duty(joint: str, torque: Any, position: Any, time: Any) -> MotorDuty:
-    """Sum up what a motor bears.
+def average_over_peak(torque: FloatArray, position: FloatArray) -> float | None:
+    """Compute the average torque over the path, over the largest torque.
 
     Args:
-        joint: Joint that it turns.
         torque: Torque along the motion; shape (n,); N m.
         position: Angle of the joint; shape (n,); rad.
-        time: Times of the samples, growing; shape (n,); s.
 
     Returns:
-        Its duty.
+        The ratio; None of a motor that only holds, or has no torque.
+    """
+    peak = float(np.abs(torque).max())
+    if peak == 0.0 or _holds(position).all():
+        return None
+    return average_torque(torque, position) / peak
+
+
+def motor_row(joint: str, torque: Any, position: Any, time: Any, *, moving_peak_Nm: float, limit_Nm: float) -> MotorRow:
+    """Summarise the torque of a motor.
+
+    Args:
+        joint: Joint that the motor turns.
+        torque: Torque of weight along the motion; shape (n,); N m.
+        position: Angle of the joint; shape (n,); rad.
+        time: Times of the samples, growing; shape (n,); s.
+        moving_peak_Nm: Largest torque with accelerations; N m.
+        limit_Nm: Largest torque in the file of the device; N m.
+
+    Returns:
+        The record.
     """
     seconds = read_only(time, name="time", shape=(None,))
     angles = read_only(position, name="position", shape=seconds.shape)
     torques = read_only(torque, name="torque", shape=seconds.shape)
     held = _holds(angles)
-    return MotorDuty(
+    return MotorRow(
         joint=joint,
-        path_rad=float(np.abs(np.diff(angles)).sum()),
         peak_Nm=float(np.abs(torques).max()),
+        moving_peak_Nm=moving_peak_Nm,
         average_Nm=None if held.all() else average_torque(torques, angles),
+        average_over_peak=average_over_peak(torques, angles),
         rms_Nm=float(np.sqrt(np.diff(seconds) @ _between(torques**2) / (seconds[-1] - seconds[0]))),
         holding_Nm=float(np.abs(torques[held]).max(initial=0.0)),
+        limit_Nm=limit_Nm,
     )
+
+
+def path_rad(position: FloatArray) -> float:
+    """Compute the path of a joint, both ways counted.
+
+    Args:
+        position: Angle of the joint; shape (n,); rad.
+
+    Returns:
+        The path; rad.
+    """
+    return float(np.abs(np.diff(position)).sum())
 
 
 def _between(values: FloatArray) -> FloatArray:
@@ -183,55 +230,52 @@ def _between(values: FloatArray) -> FloatArray:
 
 
 def _holds(angles: FloatArray) -> BoolArray:
-    """Whether the joint stands still from a sample to the next, or has done so from the one before; shape (n,)."""
+    """Whether the joint is at rest until the next sample, or since the sample before; shape (n,)."""
     still = np.abs(np.diff(angles)) <= _STILL_RAD
     return np.asarray(np.r_[still, False] | np.r_[False, still], dtype=np.bool_)
 
 
 _SPACING_RAD = np.deg2rad(2.0)
-"""How far joints go at most between two poses."""
+"""Largest angle of joints between consecutive poses."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class HingePath:
-    """What gravity does about the hinge on one way of a sequence, with the hinge kept where the way begins."""
+class HingePath(ArrayRecord):
+    """Moment of gravity about the hinge on one way of a sequence, with the hinge kept at the start of the way."""
 
     step: int
-    """Step that the way belongs to."""
+    """Step of the way."""
     unlocked: bool
     """Whether the hinge hangs freely on it."""
     lock_rad: float
-    """Where the hinge is kept; rad."""
+    """Position of the hinge at the start; rad."""
     end_rad: float
-    """Where the hinge is at the end: of an unlocked one where the load hangs without friction; rad."""
-    moment: FloatArray
+    """Position of the hinge at the end: of an unlocked one where the load hangs without friction; rad."""
+    moment: FloatArray = field(metadata=array(None))
     """Moment of gravity on the load about the hinge, towards larger angles; shape (n,); N m."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "moment", read_only(self.moment, name="moment", shape=(None,)))
 
     @property
     def holding_Nm(self) -> float:
-        """What the lock must hold; 0 where it is open."""
+        """Largest moment on the lock; 0 where it is open; N m."""
         return 0.0 if self.unlocked else float(np.abs(self.moment).max())
 
     @property
     def drives_to_end(self) -> bool:
-        """Whether gravity never drives the load away from where it ends."""
+        """Whether gravity never drives the load away from the end."""
         slack = 1e-9 * max(float(np.abs(self.moment).max()), 1.0)
         return bool((self.moment * np.sign(self.end_rad - self.lock_rad) >= -slack).all())
 
 
 def hinge_ways(device: Device, load: AttachedLoad, sequence: Sequence) -> tuple[HingePath, ...]:
-    """Find the moments of gravity about the hinge.
+    """Compute the moments of gravity about the hinge.
 
     Args:
         device: The device.
         load: Load attached to its hinge.
-        sequence: What it does; refused where the load does not come to hang at the lock that a way ends at.
+        sequence: Its motion; refused where the load does not hang at the lock at the end of a way.
 
     Returns:
-        One for each way.
+        One record per way.
     """
     sequence.require_possible(device, load)
     postures = [
@@ -239,7 +283,7 @@ def hinge_ways(device: Device, load: AttachedLoad, sequence: Sequence) -> tuple[
     ]
     at_rest = JointMotion.at_rest(sequence.joints, np.concatenate(postures))
     moments = np.split(
-        -answer_of(device, load, at_rest).torque("hinge"), np.cumsum([len(way) for way in postures])[:-1]
+        -device_response(device, load, at_rest).torque("hinge"), np.cumsum([len(way) for way in postures])[:-1]
     )
     ends = sequence.postures[1:, -1].copy()
     for k in np.flatnonzero(sequence.unlocked):
@@ -258,7 +302,7 @@ def hinge_ways(device: Device, load: AttachedLoad, sequence: Sequence) -> tuple[
 
 
 def _kept_at_start(start: FloatArray, end: FloatArray) -> FloatArray:
-    """Postures on a way, the hinge where it begins; shape (n, j)."""
+    """Postures on a way, with the hinge at its start; shape (n, j)."""
     count = 1 + int(np.ceil(np.abs(end - start).max() / _SPACING_RAD))
     postures = start + np.linspace(0.0, 1.0, count)[:, None] * (end - start)
     postures[:, -1] = start[-1]
@@ -266,10 +310,10 @@ def _kept_at_start(start: FloatArray, end: FloatArray) -> FloatArray:
 
 
 def lag_rad(device: Device, load: AttachedLoad, friction_Nm: float) -> float:
-    """Tell by how much a load comes to rest short of hanging straight down, the axis of the hinge level.
+    """Compute the angle from the vertical at which friction stops a load, with the axis of the hinge level.
 
-    The last of the way is the weakest: gravity brings the load to a lock below it with a moment that goes to zero. So
-    a lock has to catch from this far, or the motors to go on by as much.
+    Towards the vertical the moment of gravity goes to zero. So a lock has to catch the load from this angle, or the
+    motors have to go on by as much.
 
     Args:
         device: The device.
@@ -285,14 +329,14 @@ def lag_rad(device: Device, load: AttachedLoad, friction_Nm: float) -> float:
     straight = pendulum_Nm(device, load)
     if not 0.0 <= friction_Nm < straight:
         raise SensorError(
-            f"hinge of {device.name!r}: expected a friction from 0 to below {straight:.3g} N m, which is all that "
-            f"{load.name} brings about it, got {friction_Nm:g} N m; use a lighter bearing or more weight"
+            f"hinge of {device.name!r}: expected a friction from 0 to below {straight:.3g} N m, the largest "
+            f"moment of {load.name}, got {friction_Nm:g} N m; use a lighter bearing or more weight"
         )
     return float(np.arcsin(friction_Nm / straight))
 
 
 def pendulum_Nm(device: Device, load: AttachedLoad) -> float:
-    """Give the largest moment of gravity about a level hinge.
+    """Compute the largest moment of gravity about a level hinge.
 
     Args:
         device: The device.

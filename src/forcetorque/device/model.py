@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A device as a robot, with the load below an unlocked hinge."""
+"""Robot model of a device, and the position of the load below an unlocked hinge."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 
 BASE = "base"
-"""Link that stands still: x level along the straight arm, z up, its origin where the first axis is."""
+"""Link at rest: x level along the straight arm, z up, origin at the first axis."""
 
 _QUARTER = np.pi / 2.0
 _RAISING = np.array([0.0, -1.0, 0.0])
@@ -26,10 +26,10 @@ _BENDING = np.array([0.0, 1.0, 0.0])
 
 
 def device_model(device: Device, load: AttachedLoad) -> RobotModel:
-    """Describe a device with a load as a robot.
+    """Make the robot model of a device with a load.
 
-    Its joints are `joint_names` of the device; every sensor `s` sits at the fixed joint `s_joint`, reads in the frame
-    of the link `s_outboard`, z towards the load, and says what the load does to the device.
+    Its joints are `joint_names` of the device; every sensor `s` is at the fixed joint `s_joint`, measures in the frame
+    of the link `s_outboard`, z towards the load, and measures the wrench of the load on the device.
 
     Args:
         device: The device.
@@ -61,7 +61,7 @@ def device_model(device: Device, load: AttachedLoad) -> RobotModel:
 
 
 def device_root(device: Device) -> RootMotion:
-    """Give the motion of a base that stands level and still.
+    """Make the motion of a level base at rest.
 
     Args:
         device: The device.
@@ -73,7 +73,7 @@ def device_root(device: Device) -> RootMotion:
 
 
 class _Chain:
-    """Links in a row, each at the height that the one before has."""
+    """Links in series, each on top of the link before."""
 
     def __init__(self, name: str) -> None:
         self._name = name
@@ -84,15 +84,15 @@ class _Chain:
         self._pose = make_pose(rotation_from_rpy([0.0, _QUARTER, 0.0]), np.zeros(3))
 
     def rise(self, height_m: float) -> None:
-        """Put what comes next higher on the last link."""
+        """Raise the foot of the next link."""
         self._pose = self._pose @ _raised(height_m)
 
     def add_joint(self, name: str, axis: FloatArray, limit: JointLimit, link: str, inertia: Inertia) -> None:
-        """Hang a link on the last one by a joint that turns."""
+        """Add a link with a revolute joint."""
         self._add(name, JointType.REVOLUTE, link, inertia, axis=axis, limit=limit)
 
     def fix(self, name: str, link: str, inertia: Inertia, *, sensor: str | None = None) -> None:
-        """Fix a link to the last one, with a sensor in between or none."""
+        """Add a link with a fixed joint, with or without a sensor."""
         self._add(name, JointType.FIXED, link, inertia, axis=np.array([1.0, 0.0, 0.0]), limit=None)
         if sensor is not None:
             self._sensors[sensor] = ForceTorqueSensor(
@@ -104,7 +104,7 @@ class _Chain:
             )
 
     def model(self) -> RobotModel:
-        """Give the robot."""
+        """Make the robot model."""
         return RobotModel(name=self._name, links=self._links, joints=self._joints, sensors=self._sensors)
 
     def _add(
@@ -127,7 +127,7 @@ def _axis_limit(axis: Axis) -> JointLimit:
 
 
 def _limit(positions_deg: tuple[float, ...], *, speed_deg_s: float = 0.0, torque_Nm: float = 0.0) -> JointLimit:
-    """How far a joint goes; a speed and a torque of 0 stand for a joint that no motor moves, as readers want both."""
+    """Limits of a joint; speed and torque are 0 without a motor, as readers of URDF require both."""
     return JointLimit(
         lower=float(np.deg2rad(min(positions_deg))),
         upper=float(np.deg2rad(max(positions_deg))),
@@ -137,18 +137,18 @@ def _limit(positions_deg: tuple[float, ...], *, speed_deg_s: float = 0.0, torque
 
 
 _LEAST_SHARE = 0.02
-"""Share of gravity across the axis of the hinge below which nothing says where the load hangs: about 1 degree."""
+"""Share of gravity across the axis of the hinge below which its position is undetermined: about 1 degree."""
 _SLACK_RAD = 1e-9
-"""How far a position computed to be at a stop may be beyond it; rad."""
+"""Tolerance of a position at a stop; rad."""
 
 
 def hanging(device: Device, load: AttachedLoad, motion: JointMotion) -> JointMotion:
-    """Let the load hang from an unlocked hinge.
+    """Compute the motion of an unlocked hinge on which the load hangs straight down.
 
     Args:
         device: The device.
         load: Load attached to the hinge.
-        motion: Motion of the other joints; that of the hinge in it, if any, is passed over.
+        motion: Motion of the other joints; that of the hinge in it, if any, is ignored.
 
     Returns:
         The motion of the hinge alone, with its exact derivatives; n samples.
@@ -162,19 +162,20 @@ def hanging(device: Device, load: AttachedLoad, motion: JointMotion) -> JointMot
         row = int(np.argmin(across))
         raise RobotError(
             f"hinge of {device.name!r}: expected its axis away from the vertical while it is unlocked, got "
-            f"{_posture(motion, row)}, where nothing says how the load hangs; lock it there, or move otherwise"
+            f"{_posture(motion, row)}, where the position of the load is undetermined; lock it there, or change the "
+            "motion"
         )
     # of the angle from z to the direction of gravity in the plane across the axis
-    turned = down[:, 2] * rate[:, 0] - down[:, 0] * rate[:, 2]
-    turned_rate = down[:, 2] * change[:, 0] - down[:, 0] * change[:, 2]
+    turning = down[:, 2] * rate[:, 0] - down[:, 0] * rate[:, 2]
+    turning_rate = down[:, 2] * change[:, 0] - down[:, 0] * change[:, 2]
     square = across**2
     square_rate = 2.0 * (down[:, 0] * rate[:, 0] + down[:, 2] * rate[:, 2])
     centre = load.centre_of_mass_m
-    # from where gravity is never beyond half a turn of where it was
+    # the direction of gravity changes by less than half a turn between samples
     angle = np.unwrap(np.arctan2(down[:, 0], down[:, 2])) - np.arctan2(centre[0], centre[2])
     _require_between_stops(device, motion, angle)
-    velocity = turned / square
-    acceleration = (turned_rate - velocity * square_rate) / square
+    velocity = turning / square
+    acceleration = (turning_rate - velocity * square_rate) / square
     return JointMotion(
         names=("hinge",),
         position=angle[:, None],
@@ -188,8 +189,8 @@ def _gravity_in_bracket(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Direction of gravity in the axes of the bracket, and its first two derivatives; shapes (n, 3)."""
     tree, root = build_tree(device_model(device, load), BASE), device_root(device)
-    still = motion_of_link(tree, JointMotion.at_rest(motion.names, motion.position), root, "bracket")
-    down = -still.proper_acceleration / device.gravity
+    static = motion_of_link(tree, JointMotion.at_rest(motion.names, motion.position), root, "bracket")
+    down = -static.proper_acceleration / device.gravity
     moving = motion_of_link(tree, motion, root, "bracket")
     omega, alpha = moving.angular_velocity, moving.angular_acceleration
     rate = -cross(omega, down)

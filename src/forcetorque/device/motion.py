@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, names
 from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.device.description import AttachedLoad, Device
 from forcetorque.device.model import hanging
@@ -17,34 +18,30 @@ from forcetorque.robot.motion import JointMotion
 from forcetorque.simulation.motions.trajectories import Waypoints
 
 _AT_LOCK_RAD = 1e-6
-"""How far from a lock the hinge may be when it is said to be locked; rad."""
+"""Largest distance of a locked hinge from its lock; rad."""
 _LOOKS = 41
-"""Places on a way at which it is asked where an unlocked hinge hangs."""
+"""Postures on a way in which the position of an unlocked hinge is checked."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Sequence:
-    """Postures in turn, and on which of the ways between them the hinge is unlocked."""
+class Sequence(ArrayRecord):
+    """Postures in order, and the ways between them on which the hinge is unlocked."""
 
     name: str
-    """What it is called."""
-    joints: tuple[str, ...]
+    """Name."""
+    joints: tuple[str, ...] = field(metadata=names("j"))
     """Joints of the columns, those of the device."""
-    postures: FloatArray
+    postures: FloatArray = field(metadata=array("k", "j"))
     """Postures; shape (k, j); rad."""
-    steps: tuple[int, ...]
+    steps: tuple[int, ...] = field(metadata=names("k"))
     """Number of the step that ends in each posture; k of them."""
-    unlocked: tuple[bool, ...]
+    unlocked: tuple[bool, ...] = field(metadata=names())
     """Whether the hinge hangs freely on the way to each posture but the first; k - 1 of them."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "joints", tuple(self.joints))
-        postures = read_only(self.postures, name="postures", shape=(None, len(self.joints)))
-        object.__setattr__(self, "postures", postures)
-        for name, count in (("steps", len(postures)), ("unlocked", len(postures) - 1)):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
-            if len(getattr(self, name)) != count:
-                raise ShapeError(f"{name}: expected {count} of them, got {len(getattr(self, name))}")
+        check_arrays(self)
+        if len(self.unlocked) != len(self.postures) - 1:
+            raise ShapeError(f"unlocked: expected {len(self.postures) - 1} of them, got {len(self.unlocked)}")
 
     @classmethod
     def of(cls, device: Device, name: str, postures_deg: Any, *, steps: Any = None, unlocked: Any = None) -> Sequence:
@@ -52,7 +49,7 @@ class Sequence:
 
         Args:
             device: The device.
-            name: What it is called.
+            name: Name of the sequence.
             postures_deg: Postures of `joint_names` of the device; shape (k, j); deg.
             steps: Number of the step that ends in each; counted from 1 if None.
             unlocked: Whether the hinge hangs freely on each way; never if None.
@@ -70,15 +67,15 @@ class Sequence:
         )
 
     def still_poses(self, device: Device, load: AttachedLoad, *, spacing_deg: float = 30.0) -> JointMotion:
-        """Rest at every posture and on the ways between them.
+        """Compute static poses at every posture and on the ways between them.
 
         Args:
             device: The device.
             load: Load attached to its hinge, with its position.
-            spacing_deg: How far any joint goes at most from one pose to the next; deg.
+            spacing_deg: Largest angle of any joint between consecutive poses; deg.
 
         Returns:
-            Poses at rest, each but once in a row.
+            Poses at rest, without repetitions.
 
         Raises:
             ShapeError: If the spacing is not positive.
@@ -94,7 +91,7 @@ class Sequence:
         return JointMotion.at_rest(self.joints, np.concatenate(poses))
 
     def require_possible(self, device: Device, load: AttachedLoad) -> None:
-        """Refuse what the device cannot do.
+        """Refuse a sequence that the device cannot do.
 
         Args:
             device: The device.
@@ -102,7 +99,7 @@ class Sequence:
 
         Raises:
             RobotError: If a posture is outside of a range, the hinge rests or is moved where it has no lock, it is
-                unlocked or to be locked where the load does not hang, or the load hangs beyond a stop in between.
+                unlocked or to be locked where the load does not hang, or the load hangs beyond a stop on the way.
         """
         if self.joints != device.joint_names:
             raise RobotError(
@@ -151,7 +148,7 @@ class Sequence:
 
 
 def joint_ranges(device: Device) -> dict[str, tuple[float, float]]:
-    """Give how far joints go.
+    """Compute the ranges of the joints.
 
     Args:
         device: The device.
@@ -166,7 +163,7 @@ def joint_ranges(device: Device) -> dict[str, tuple[float, float]]:
 
 
 def with_free_hinge(device: Device, load: AttachedLoad, motion: JointMotion) -> JointMotion:
-    """Let the hinge hang freely in a motion.
+    """Compute a motion with a freely hanging hinge.
 
     Args:
         device: The device.
@@ -174,7 +171,7 @@ def with_free_hinge(device: Device, load: AttachedLoad, motion: JointMotion) -> 
         motion: Motion of all joints of the device, the hinge last.
 
     Returns:
-        The same motion, but for the hinge.
+        The same motion of the other joints, with that of the hinge.
     """
     free = hanging(device, load, motion)
     return JointMotion(
@@ -186,7 +183,7 @@ def with_free_hinge(device: Device, load: AttachedLoad, motion: JointMotion) -> 
 
 
 class YawReturn(StrEnum):
-    """How yaw gets back to 0 before steps 7 and 9, of which the thesis says but where they end."""
+    """How yaw returns to 0 before steps 7 and 9; the thesis gives only the end of both steps."""
 
     TOGETHER = "together"
     """Together with pitch, as the words "move to [0,0,0]" have it."""
@@ -195,19 +192,19 @@ class YawReturn(StrEnum):
     AFTER = "after"
     """After pitch moved."""
     BACKWARDS = "backwards"
-    """It need not: step 8 turns backwards."""
+    """Not needed: step 8 turns backwards."""
     NEVER = "never"
-    """It need not: yaw turns on without end."""
+    """Not needed: yaw turns on without a limit."""
 
 
 def twelve_steps(device: Device, *, yaw_return: YawReturn = YawReturn.TOGETHER) -> Sequence:
     """Make the twelve steps.
 
-    Steps 2 to 5 are done twice, so that yaw goes once around. The hinge is at 0 up to step 10, at the end of 11 at 90.
+    Steps 2 to 5 are done twice, so that yaw makes one turn. The hinge is at 0 up to step 10, at the end of 11 at 90.
 
     Args:
-        device: The device; a turn of it stays at 0.
-        yaw_return: How yaw gets back to 0.
+        device: The device; its joint `turn`, if any, stays at 0.
+        yaw_return: How yaw returns to 0.
 
     Returns:
         The sequence.
@@ -216,16 +213,16 @@ def twelve_steps(device: Device, *, yaw_return: YawReturn = YawReturn.TOGETHER) 
     for half in (0.0, 180.0):
         ways += [(2, 90.0, half, 0.0), (3, 90.0, half + 90.0, 0.0)]
         ways += [(4, -90.0, half + 90.0, 0.0), (5, -90.0, half + 180.0, 0.0)]
-    around = 360.0
+    turn = 360.0
     if yaw_return is YawReturn.NEVER:
-        ways += [(7, 0.0, around, 0.0), (8, 0.0, 2 * around, 0.0), (9, -90.0, 2 * around, 0.0)]
-        ways += [(11, 0.0, 2 * around, 90.0), (12, 0.0, 3 * around, 90.0)]
+        ways += [(7, 0.0, turn, 0.0), (8, 0.0, 2 * turn, 0.0), (9, -90.0, 2 * turn, 0.0)]
+        ways += [(11, 0.0, 2 * turn, 90.0), (12, 0.0, 3 * turn, 90.0)]
     elif yaw_return is YawReturn.BACKWARDS:
-        ways += [(7, 0.0, around, 0.0), (8, 0.0, 0.0, 0.0), (9, -90.0, 0.0, 0.0)]
-        ways += [(11, 0.0, 0.0, 90.0), (12, 0.0, around, 90.0)]
+        ways += [(7, 0.0, turn, 0.0), (8, 0.0, 0.0, 0.0), (9, -90.0, 0.0, 0.0)]
+        ways += [(11, 0.0, 0.0, 90.0), (12, 0.0, turn, 90.0)]
     else:
-        ways += [*_return(7, (-90.0, 0.0), yaw_return), (8, 0.0, around, 0.0), *_return(9, (0.0, -90.0), yaw_return)]
-        ways += [(11, 0.0, 0.0, 90.0), (12, 0.0, around, 90.0)]
+        ways += [*_return(7, (-90.0, 0.0), yaw_return), (8, 0.0, turn, 0.0), *_return(9, (0.0, -90.0), yaw_return)]
+        ways += [(11, 0.0, 0.0, 90.0), (12, 0.0, turn, 90.0)]
     steps, pitch, yaw, hinge = (np.array(column) for column in zip(*ways, strict=True))
     others = [] if device.turn is None else [np.zeros(len(ways))]
     return Sequence.of(
@@ -247,53 +244,53 @@ def _return(step: int, pitch: tuple[float, float], yaw_return: YawReturn) -> lis
     return [end]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class DeviceTrajectory:
-    """A sequence in time; it is at rest before and after, and at every posture."""
+    """A sequence in time, at rest before and after, and at every posture; impossible ones are refused when computed."""
 
     device: Device
     """The device."""
     load: AttachedLoad
     """Attached load, which determines where an unlocked hinge hangs."""
     sequence: Sequence
-    """Postures in turn."""
+    """Postures in order."""
     hold_s: float = 1.0
     """Rest at every posture; s."""
-    ways: Waypoints = field(init=False)
-    """The moves, with a straight way in place of a hinge that hangs."""
 
-    def __post_init__(self) -> None:
+    @cached_property
+    def ways(self) -> Waypoints:
+        """The moves, with a straight way in place of that of an unlocked hinge.
+
+        Raises:
+            RobotError: If the device cannot do the sequence.
+        """
         self.sequence.require_possible(self.device, self.load)
         speeds = joint_speeds(self.device)
-        object.__setattr__(
-            self,
-            "ways",
-            Waypoints.at_speed(
-                self.sequence.joints,
-                self.sequence.postures,
-                [speeds[joint] for joint in self.sequence.joints],
-                hold_s=self.hold_s,
-            ),
+        return Waypoints.at_speed(
+            self.sequence.joints,
+            self.sequence.postures,
+            [speeds[joint] for joint in self.sequence.joints],
+            hold_s=self.hold_s,
         )
 
     @property
     def duration_s(self) -> float:
-        """How long it takes; s."""
+        """Duration; s."""
         return self.ways.duration_s
 
     def way_at(self, seconds: FloatArray) -> IntArray:
-        """Tell which way is being gone, or was gone last.
+        """Find the current way, or the last one.
 
         Args:
             seconds: Instants; shape (n,); s.
 
         Returns:
-            Numbers of ways, from 0; -1 before the first one; shape (n,).
+            Indices of ways; -1 before the first one; shape (n,).
         """
         return np.searchsorted(self.ways.departures_s, seconds, side="right").astype(np.int64) - 1
 
     def __call__(self, seconds: FloatArray) -> JointMotion:
-        """Give the motion of the joints.
+        """Compute the motion of the joints.
 
         Args:
             seconds: Instants; shape (n,); s.
@@ -314,7 +311,7 @@ class DeviceTrajectory:
         return JointMotion(names=motion.names, position=position, velocity=velocity, acceleration=acceleration)
 
     def sampled(self, rate_hz: float) -> tuple[FloatArray, JointMotion]:
-        """Sample it evenly from start to end.
+        """Sample the motion evenly from start to end.
 
         Args:
             rate_hz: Rate; Hz.
@@ -327,7 +324,7 @@ class DeviceTrajectory:
 
 
 def joint_speeds(device: Device) -> dict[str, float]:
-    """Give how fast joints go; gravity moves the hinge, which never limits a motion.
+    """Compute the largest speeds of the joints; gravity moves the hinge, which never limits a motion.
 
     Args:
         device: The device.

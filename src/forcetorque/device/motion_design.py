@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A motion that teaches more than the 12 steps in the same time, by the engine that plans recordings of robots.
+"""Optimised motion of a device of limited duration, by the search that plans recordings of robots.
 
-Postures are picked and changed by `evaluation.planning`; what belongs to the device is the way from one to the next:
-the hinge changes its lock only where gravity takes the load there, with the arm straight down at one end and level at
-the other.
+`forcetorque.planning` chooses and changes postures; this module has the ways between them: the hinge changes its lock
+only where gravity takes the load there, with the arm straight down at one end and level at the other.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.device.description import AttachedLoad, Device
-from forcetorque.device.held_out import SAMPLES, held_out_loads, sample_noise
+from forcetorque.device.excitation import SAMPLES, held_out_loads, sample_noise
 from forcetorque.device.motion import Sequence, joint_ranges, joint_speeds
 from forcetorque.device.tolerances import RestTable, Tolerances
 from forcetorque.planning.information import blank_posterior
@@ -27,67 +26,67 @@ from forcetorque.workbench.excitation import MatrixError, load_sizes
 _SEED: Final = 22
 _AROUND_DEG: Final = 360.0
 _YAW_OF_LOCK: Final = {90.0: (0.0, 360.0), -90.0: (180.0,)}
-"""Where yaw may be when gravity takes the load from 0 to a lock; deg."""
+"""Positions of yaw in which gravity takes the load from 0 to a lock; deg."""
 _QUARTER: Final = np.pi / 2.0
 _START: Final = (-90.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class DesignedMotion:
-    """A motion through postures, with what it leaves unknown."""
+    """A motion through postures, with the predicted error of the matrix."""
 
     postures: FloatArray
-    """Postures that were picked, without those in which the lock is changed; shape (k, 3); rad."""
+    """Chosen postures, without those in which the lock is changed; shape (k, 3); rad."""
     sequence: Sequence
     """All postures."""
     duration_s: float
-    """How long it takes; s."""
+    """Duration; s."""
     value: float
-    """Logarithm of the volume that the matrix is left in, by noise and by what may be wrong with the device."""
+    """Logarithm of the volume of the covariance of the matrix, by noise and by errors of the device."""
     squares: tuple[float, float]
     """Mean squares of the predicted errors of force and moment at held-out loads; N^2, (N m)^2."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Designer:
-    """A device with a load and a time."""
+    """Search of motions of a device with one load."""
 
     device: Device
     """The device, with locks at -90, 0 and 90 degrees and no turn."""
     load: AttachedLoad
     """Attached load."""
     sensor: str
-    """Sensor that is to be calibrated."""
+    """Sensor to calibrate."""
     seconds: float
-    """How long the motion may take; s."""
+    """Longest duration of the motion; s."""
     hold_s: float = 1.0
     """Rest at every posture; s."""
     candidates: int = 240
-    """Postures to pick from."""
+    """Number of postures to choose from."""
     swaps: int = 1000
-    """Postures that are tried in place of others."""
+    """Number of exchanges of postures that are tried."""
     tolerances: Tolerances = Tolerances()
-    """How exact the device is."""
+    """Tolerances of the device."""
     rest: RestTable = field(init=False)
-    """What its sensor feels at rest."""
+    """Expected wrenches at rest."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "rest", RestTable.of(self.device, self.load, self.sensor, self.tolerances))
 
-    def better_than(self, begun: FloatArray) -> DesignedMotion:
-        """Find the motion of least volume that foretells no larger mean square errors than another one does.
+    def improve(self, initial: FloatArray) -> DesignedMotion:
+        """Find the motion of least volume whose predicted mean square errors are not larger than those of another one.
 
-        Volume alone would trade a moment that is used for a force that is known well already.
+        Volume alone would accept a larger error of the moment for a smaller one of the force.
 
         Args:
-            begun: Postures of the other motion, from which one search begins too; shape (k, 3); rad.
+            initial: Postures of the other motion, from which one search starts too; shape (k, 3); rad.
 
         Returns:
-            The best of what was tried.
+            The best motion that was tried.
         """
-        most = np.array(self.through(begun).squares)
+        most = np.array(self.through(initial).squares)
 
-        def judged(postures: FloatArray) -> DesignedMotion:
+        def valued(postures: FloatArray) -> DesignedMotion:
             motion = self.through(postures)
             return motion if (np.array(motion.squares) <= most).all() else replace(motion, value=np.inf)
 
@@ -100,37 +99,37 @@ class Designer:
             hold_s=self.hold_s,
             seconds=self.seconds - self.hold_s,
         )
-        noise = np.diag(sample_noise()) + (loads.fresh**2).sum(axis=2).mean(axis=0)
+        noise = np.diag(sample_noise()) + (loads.independent**2).sum(axis=2).mean(axis=0)
         posterior = blank_posterior(np.sqrt(noise), load_sizes(loads.wrench))
         return search(
-            judged,
+            valued,
             drawn,
-            [*picked_orders(posterior, Volume(), choices, drawn), begun],
+            [*picked_orders(posterior, Volume(), choices, drawn), initial],
             seconds=self.seconds,
             swaps=self.swaps,
             rng=rng,
         )
 
     def through(self, postures: FloatArray) -> DesignedMotion:
-        """Go through postures.
+        """Compute the motion through postures.
 
         Args:
-            postures: Postures in turn; shape (k, 3); rad.
+            postures: Postures in order; shape (k, 3); rad.
 
         Returns:
             The motion.
         """
-        places, unlocked = [postures[0]], [False]
+        visited, unlocked = [postures[0]], [False]
         for start, end in itertools.pairwise(postures):
-            for place, free in zip(*_ways(start, end[None]), strict=True):
-                if np.abs(place[0] - places[-1]).max() > 0.0:
-                    places.append(place[0])
+            for posture, free in zip(*_ways(start, end[None]), strict=True):
+                if np.abs(posture[0] - visited[-1]).max() > 0.0:
+                    visited.append(posture[0])
                     unlocked.append(free)
         sequence = Sequence(
             name="optimised",
             joints=self.device.joint_names,
-            postures=np.stack(places),
-            steps=tuple(range(1, len(places) + 1)),
+            postures=np.stack(visited),
+            steps=tuple(range(1, len(visited) + 1)),
             unlocked=tuple(unlocked[1:]),
         )
         line = Waypoints.at_speed(sequence.joints, sequence.postures, self._speeds, hold_s=self.hold_s)
@@ -140,7 +139,7 @@ class Designer:
             sequence=sequence,
             duration_s=line.duration_s,
             value=error.volume,
-            squares=error.trace(held_out_loads()),
+            squares=error.mean_squares(held_out_loads()),
         )
 
     @property
@@ -155,7 +154,7 @@ class Designer:
         return self.rest.loads(line(seconds[locked]).position).matrix_error(sample_noise())
 
     def _drawn(self, rng: np.random.Generator) -> FloatArray:
-        """Postures to pick from, the start first, each other one at a lock and half of them at ends of pitch."""
+        """Postures to choose from, the start first, all at a lock and half of them at multiples of 45 degrees."""
         low, high = joint_ranges(self.device)["pitch"]
         drawn = np.column_stack(
             [
@@ -174,9 +173,9 @@ class Designer:
         speeds = self._speeds
         for lock in np.unique(locks):
             ends = postures[locks == lock]
-            places = [np.tile(start, (len(ends), 1)), *_ways(start, ends)[0]]
-            for here, there in itertools.pairwise(places):
-                seconds[locks == lock] += shortest_moves(there - here, speeds) + self.hold_s
+            visited = [np.tile(start, (len(ends), 1)), *_ways(start, ends)[0]]
+            for begin, end in itertools.pairwise(visited):
+                seconds[locks == lock] += shortest_moves(end - begin, speeds) + self.hold_s
         return seconds
 
 
@@ -191,15 +190,15 @@ def _ways(start: FloatArray, ends: FloatArray) -> tuple[list[FloatArray], list[b
         Postures of all ways, each of shape (n, 3), in rad, and as many flags.
     """
     before, after = float(_degrees(start[-1])), float(_degrees(ends[0, -1]))
-    places: list[FloatArray] = []
+    postures: list[FloatArray] = []
     if before not in (after, 0.0):
         yaw = _nearest(np.full(len(ends), start[1]), before)
-        places += [_at(0.0, yaw, before), _at(-_QUARTER, yaw, 0.0)]
+        postures += [_at(0.0, yaw, before), _at(-_QUARTER, yaw, 0.0)]
     if after not in (before, 0.0):
         yaw = _nearest(ends[:, 1], after)
-        places += [_at(-_QUARTER, yaw, 0.0), _at(0.0, yaw, after)]
-    # every other way is that on which gravity takes the load to a lock
-    return [*places, ends], [*(number % 2 == 1 for number in range(len(places))), False]
+        postures += [_at(-_QUARTER, yaw, 0.0), _at(0.0, yaw, after)]
+    # on every second way gravity takes the load to a lock
+    return [*postures, ends], [*(number % 2 == 1 for number in range(len(postures))), False]
 
 
 def _at(pitch: float, yaw: FloatArray, lock_deg: float) -> FloatArray:
@@ -207,7 +206,7 @@ def _at(pitch: float, yaw: FloatArray, lock_deg: float) -> FloatArray:
 
 
 def _nearest(yaw: FloatArray, lock_deg: float) -> FloatArray:
-    """Where yaw may be for a lock, next to where it is; shape (n,); rad."""
+    """The nearest position of yaw in which gravity takes the load to a lock; shape (n,); rad."""
     allowed = np.deg2rad(_YAW_OF_LOCK[lock_deg])
     return allowed[np.abs(yaw[:, None] - allowed).argmin(axis=1)]
 

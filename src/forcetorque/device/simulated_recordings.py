@@ -34,15 +34,15 @@ from forcetorque.simulation.sensor_family import Specimen, draw_specimen
 from forcetorque.simulation.trace import EPOCH_NS, IMU_STREAM, record
 
 _SENSORS, _POWER_UP, _NOISE, _IMU = 1, 2, 6, 8
-"""What a stream of random numbers is for: one more load changes no other."""
+"""Keys of streams of random numbers: one more load changes no other."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Stretch:
-    """A span of a recording in which the position of the hinge is known."""
+class KnownInterval:
+    """An interval of a recording in which the position of the hinge is known."""
 
     name: str
-    """What it is called, such as `hinge 90`."""
+    """Name, such as `hinge 90, 1`."""
     start_s: float
     """Start; s."""
     end_s: float
@@ -56,59 +56,54 @@ class DeviceRecording:
     load: AttachedLoad
     """Load attached to the device."""
     model: RobotModel
-    """The device with it."""
+    """The device with the load."""
     trajectory: DeviceTrajectory
-    """What it does."""
+    """Its motion."""
     recording: Recording
-    """What was logged."""
+    """The log."""
     use: Use
-    """What it is for."""
-
-    @property
-    def stretches(self) -> tuple[Stretch, ...]:
-        """Spans in which the position of the hinge is known: all of it with an encoder, else while it is locked."""
-        return known_stretches(self.trajectory)
+    """Calibration or validation."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class DeviceSpecimens:
-    """The sensors in the stack, with their truth."""
+class DeviceSensors:
+    """The simulated sensors in the stack, with their true values."""
 
-    specimens: dict[str, Specimen]
+    sensors: dict[str, Specimen]
     """Sensors by name."""
     mounted: dict[str, SimulatedSensor]
     """The sensors with their offsets; the device is not switched off between loads."""
 
     @classmethod
-    def draw(cls, file: DeviceFile) -> DeviceSpecimens:
+    def draw(cls, file: DeviceFile) -> DeviceSensors:
         """Draw the sensors of a device.
 
         Args:
-            file: The device, with what its sensors are made of.
+            file: The device, with the description of its sensors.
 
         Returns:
             The sensors.
         """
         seed, described = file.simulation.seed, file.simulation.sensors
-        specimens = {
+        sensors = {
             sensor.name: replace(
                 draw_specimen(described, k, np.random.default_rng([seed, _SENSORS, k])), serial=sensor.serial
             )
             for k, sensor in enumerate(file.sensor)
         }
         mounted = {
-            name: specimen.powered_up(np.random.default_rng([seed, _POWER_UP, specimen.number]))
-            for name, specimen in specimens.items()
+            name: sensor.powered_up(np.random.default_rng([seed, _POWER_UP, sensor.number]))
+            for name, sensor in sensors.items()
         }
-        return cls(specimens=specimens, mounted=mounted)
+        return cls(sensors=sensors, mounted=mounted)
 
 
-def simulate_device(file: DeviceFile, specimens: DeviceSpecimens) -> Iterator[DeviceRecording]:
-    """Record the motion of a device with every load that its file names.
+def simulate_device(file: DeviceFile, sensors: DeviceSensors) -> Iterator[DeviceRecording]:
+    """Simulate a recording of the motion of a device with every load of its file.
 
     Args:
         file: The device, its motion and loads.
-        specimens: Its sensors.
+        sensors: Its sensors.
 
     Yields:
         A recording per load.
@@ -125,39 +120,39 @@ def simulate_device(file: DeviceFile, specimens: DeviceSpecimens) -> Iterator[De
             imu = draw_imu(simulation.imu, model, np.random.default_rng([simulation.seed, _IMU]), where=file.name)
         recording = record(
             _movement(trajectory, model),
-            specimens.mounted,
+            sensors.mounted,
             rate_hz=simulation.rate_hz,
             rng=np.random.default_rng([simulation.seed, _NOISE, number]),
             imu=imu,
         )
-        known = _as_known(recording, trajectory)
-        yield DeviceRecording(load=load, model=model, trajectory=trajectory, recording=known, use=use)
+        logged = _with_logged_hinge(recording, trajectory)
+        yield DeviceRecording(load=load, model=model, trajectory=trajectory, recording=logged, use=use)
 
 
-def known_stretches(trajectory: DeviceTrajectory) -> tuple[Stretch, ...]:
-    """Tell when the position of the hinge is known.
+def known_intervals(trajectory: DeviceTrajectory) -> tuple[KnownInterval, ...]:
+    """Find the intervals in which the position of the hinge is known.
 
     Args:
-        trajectory: What the device does.
+        trajectory: Motion of the device.
 
     Returns:
-        Spans of the whole trajectory with an encoder, else those in which the hinge stays locked.
+        The whole trajectory with an encoder, else the intervals in which the hinge stays locked.
     """
     sequence, ways = trajectory.sequence, trajectory.ways
     if trajectory.device.hinge.encoder:
-        return (Stretch(name="all", start_s=0.0, end_s=trajectory.duration_s),)
+        return (KnownInterval(name="all", start_s=0.0, end_s=trajectory.duration_s),)
     swings = np.flatnonzero(sequence.unlocked)
     starts = [0.0, *(ways.departures_s + ways.durations_s)[swings].tolist()]
     ends = [*ways.departures_s[swings].tolist(), trajectory.duration_s]
     locks = np.rint(np.rad2deg(sequence.postures[[0, *(swings + 1)], -1])).astype(int)
     return tuple(
-        Stretch(name=f"hinge {lock}, {number}", start_s=start, end_s=end)
+        KnownInterval(name=f"hinge {lock}, {number}", start_s=start, end_s=end)
         for number, (lock, start, end) in enumerate(zip(locks, starts, ends, strict=True), start=1)
     )
 
 
-def _as_known(recording: Recording, trajectory: DeviceTrajectory) -> Recording:
-    """Without an encoder the hinge is logged at the lock where it was last, and known there only."""
+def _with_logged_hinge(recording: Recording, trajectory: DeviceTrajectory) -> Recording:
+    """The recording as logged: without an encoder the position of the hinge is that of its last lock."""
     if trajectory.device.hinge.encoder:
         return recording
     sequence, ways = trajectory.sequence, trajectory.ways
@@ -192,7 +187,7 @@ def device_experiment_text(device: DeviceFile, simulated: DeviceRecording, *, ur
         recording: Folder of the recording.
 
     Returns:
-        The file, TOML; an interval for every stretch in which the position of the hinge is known.
+        The file, TOML, with the intervals in which the position of the hinge is known.
     """
     simulation = device.simulation
     name = json.dumps(f"{device.name}, {simulated.load.name}")
@@ -206,16 +201,16 @@ def device_experiment_text(device: DeviceFile, simulated: DeviceRecording, *, ur
         f'\n[[support]]\nframe = "{BASE}"\n{_gravity(device)}\n',
     ]
     text += [
-        f"\n[[interval]]\nlabel = {json.dumps(f'{simulated.load.name}, {stretch.name}')}\n"
-        f"start_s = {stretch.start_s + INTERVAL_MARGIN_S:.3f}\nend_s = {stretch.end_s - INTERVAL_MARGIN_S:.3f}\n"
+        f"\n[[interval]]\nlabel = {json.dumps(f'{simulated.load.name}, {interval.name}')}\n"
+        f"start_s = {interval.start_s + INTERVAL_MARGIN_S:.3f}\nend_s = {interval.end_s - INTERVAL_MARGIN_S:.3f}\n"
         f'use = "{simulated.use.value}"\nsupport = "{BASE}"\n'
-        for stretch in simulated.stretches
+        for interval in known_intervals(simulated.trajectory)
     ]
     return "".join(text)
 
 
 def matrix_file(serial: str) -> str:
-    """Name the file of the matrix that a sensor had before.
+    """Name the file of the prior matrix of a sensor.
 
     Args:
         serial: Serial number.
@@ -237,7 +232,7 @@ def _sensor_text(device: DeviceFile, number: int) -> str:
 
 
 def _gravity(device: DeviceFile) -> str:
-    """An IMU tells gravity where there is one; else the base is taken to be level."""
+    """Source of gravity: the IMU where there is one, else a level base."""
     return f'imu = ["{IMU_STREAM}"]' if device.simulation.imu is not None else "gravity_direction = [0.0, 0.0, -1.0]"
 
 
@@ -246,30 +241,30 @@ def write_device(
 ) -> DeviceDesign:
     """Write a device, all or nothing.
 
-    A URDF for every load that is simulated and, for the 12 steps, one of the device with its axes swapped;
-    trajectories of the motors as a table, for ROS and for YARP; a log and an experiment file for every load; the truth
-    of its sensors.
+    The files are a URDF for every load that is simulated and, for the 12 steps, one of the device with its axes
+    swapped; trajectories of the motors as a table, for ROS and for YARP; a log and an experiment file for every load;
+    the true values of the sensors.
 
     Args:
         design: The device.
         output: Folder to make.
-        progress: Called with what is being done.
+        progress: Called with messages about the progress.
 
     Returns:
-        The design with its recordings and the name of the folder.
+        The result with its recordings and the name of the folder.
     """
     file, rows = design.file, []
-    specimens = DeviceSpecimens.draw(file)
+    sensors = DeviceSensors.draw(file)
     with new_folder(Path(output)) as folder:
         for name, trajectory in design.trajectories.items():
             motors = trajectory.device.joint_names[:-1]
             write_trajectory(folder, _stem(name), partial(_motors, trajectory), ("rad",) * len(motors))
             if trajectory.device.yaw_first != file.yaw_first:
                 write_urdf(folder / "device_axes_swapped.urdf", device_model(trajectory.device, trajectory.load))
-        for simulated in simulate_device(file, specimens):
+        for simulated in simulate_device(file, sensors):
             progress(f"writing {simulated.load.name}: {simulated.trajectory.duration_s:.0f} s")
             rows.append(_write_recording(folder, file, simulated))
-        _write_truth(folder, file, specimens)
+        _write_truth(folder, file, sensors)
     return design.model_copy(update={"recordings": tuple(rows), "folder": str(output)})
 
 
@@ -278,7 +273,7 @@ def _stem(name: str) -> str:
 
 
 def _motors(trajectory: DeviceTrajectory, rate_hz: float) -> tuple[FloatArray, JointMotion]:
-    """What motors do: all joints but the hinge, which gravity moves."""
+    """Motion of all joints but the hinge, which gravity moves."""
     time, motion = trajectory.sampled(rate_hz)
     return time, JointMotion(
         names=motion.names[:-1],
@@ -306,18 +301,18 @@ def _write_recording(folder: Path, file: DeviceFile, simulated: DeviceRecording)
     )
 
 
-def _write_truth(folder: Path, file: DeviceFile, specimens: DeviceSpecimens) -> None:
-    """What is true of the sensors, and the matrices that they had before where experiment files name them."""
+def _write_truth(folder: Path, file: DeviceFile, drawn: DeviceSensors) -> None:
+    """Write true values of the sensors, and their prior matrices where experiment files name them."""
     sensors = {}
-    for name, specimen in specimens.specimens.items():
+    for name, sensor in drawn.sensors.items():
         if file.simulation.prior:
-            write_matrix_file(folder / matrix_file(specimen.serial), encode_matrix(specimen.workbench))
+            write_matrix_file(folder / matrix_file(sensor.serial), encode_matrix(sensor.workbench))
         sensors[name] = {
-            "serial": specimen.serial,
-            "matrix": specimen.sensor.matrix.tolist(),
-            "workbench_matrix": specimen.workbench.tolist(),
-            "offset": specimens.mounted[name].offset.tolist(),
-            "noise_counts": specimen.sensor.noise_counts,
+            "serial": sensor.serial,
+            "matrix": sensor.sensor.matrix.tolist(),
+            "workbench_matrix": sensor.workbench.tolist(),
+            "offset": drawn.mounted[name].offset.tolist(),
+            "noise_counts": sensor.sensor.noise_counts,
         }
     truth = {"schema": TRUTH_SCHEMA, "scenario": file.name, "seed": file.simulation.seed, "sensors": sensors}
     (folder / TRUTH_FILE).write_text(json.dumps(truth, indent=2, allow_nan=False) + "\n", encoding="utf-8")

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether a calibration device excites all six axes, what would help, and which motion informs most."""
+"""Excitation of all six axes by a calibration device, options to improve it, and an optimised motion."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -14,16 +15,21 @@ from forcetorque.base.errors import RobotError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.device.description import Device
 from forcetorque.device.excitation import (
-    Remedy,
-    Run,
+    HELD_OUT_FORCE_N,
+    HELD_OUT_MOMENT_NM,
+    SAMPLES,
+    ExcitationOption,
+    excitation_options,
+    held_out_loads,
     least_excitation,
-    remedies,
+    sample_noise,
+    sampled_poses,
+    still_poses,
     swing_at_yaw_zero,
     uncertain,
     workbench_loads,
 )
-from forcetorque.device.expected_wrench import answer_of
-from forcetorque.device.held_out import HELD_OUT_FORCE_N, HELD_OUT_MOMENT_NM, SAMPLES, held_out_loads, sample_noise
+from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.motion_design import Designer
 from forcetorque.device.tolerances import Tolerances
@@ -33,7 +39,7 @@ from forcetorque.workbench.excitation import MatrixError, Span
 
 
 class SensorSpanRow(Row):
-    """What still poses of a motion excite in a sensor."""
+    """Excitation of a sensor by static poses of a motion."""
 
     sensor: Annotated[str, Shown("sensor")]
     """Name of the sensor."""
@@ -46,37 +52,37 @@ class SensorSpanRow(Row):
     smallest: Annotated[float, Shown("smallest", digits=3)]
     """Smallest singular value that is not zero, of force and moment over their largest, over the root of n."""
     missing: Annotated[str, Shown("missing")]
-    """What no pose has; empty where nothing is missing."""
+    """Moments that no pose excites; empty where all are excited."""
 
 
-class RemedyRow(Row):
-    """What one way to excite a sensor is worth, against held-out loads."""
+class OptionRow(Row):
+    """Excitation by one option, and predicted errors at held-out loads."""
 
     motion: Annotated[str, Shown("motion")]
-    """What it is called."""
-    words: Annotated[str, Shown("what is done")]
-    """What is done."""
+    """Name of the option."""
+    words: Annotated[str, Shown("change")]
+    """What changes, as text."""
     rank: Annotated[int, Shown("rank")]
     """Directions of load that are spanned."""
     smallest: Annotated[float, Shown("smallest", digits=4)]
     """Smallest singular value with the heaviest load, force and moment over their largest, over the root of n."""
     excitation: Annotated[float, Shown("least over bench", digits=3)]
-    """Spread of the loads in the direction in which it is least against that of the 24 positions of the workbench."""
+    """Least ratio, over all directions, of the standard deviations of these loads and those of the workbench."""
     force_N: Annotated[FloatOrNull, Shown("force error", "N", digits=3)]
-    """Predicted root mean square error of a component of the force; without end where a direction is missing."""
+    """Predicted root mean square error of a component of the force; infinite where a direction is not excited."""
     moment_Nm: Annotated[FloatOrNull, Shown("moment error", "N m", digits=4)]
     """The same of the moment."""
 
 
 class DirectionRow(Row):
-    """Predicted standard deviation of readings under a load along one axis: 100 N, or 5 N m."""
+    """Predicted standard deviation of measurements of a load along one axis: 100 N, or 5 N m."""
 
     motion: Annotated[str, Shown("motion")]
-    """What the sensor was calibrated by."""
+    """Motion, or workbench, of the calibration."""
     error: Annotated[str, Shown("error of")]
     """Whether of the force in N or of the moment in N m, its largest component."""
     fx: Annotated[FloatOrNull, Shown("fx", digits=4)]
-    """Under a load along fx; without end where nothing is known of it."""
+    """Under a load along fx; infinite where it is undetermined."""
     fy: Annotated[FloatOrNull, Shown("fy", digits=4)]
     """Under a load along fy."""
     fz: Annotated[FloatOrNull, Shown("fz", digits=4)]
@@ -90,14 +96,14 @@ class DirectionRow(Row):
 
 
 class MotionRow(Row):
-    """A motion against another one of the same time."""
+    """A motion of the comparison, all of one duration."""
 
     motion: Annotated[str, Shown("motion")]
-    """What it is called."""
+    """Name of the motion."""
     duration_s: Annotated[float, Shown("time", "s", digits=1)]
-    """How long it takes."""
+    """Duration."""
     volume: Annotated[float, Shown("log volume", digits=1)]
-    """Logarithm of the determinant of the covariance of the matrix, which is lowered."""
+    """Logarithm of the determinant of the covariance of the matrix, which the optimisation lowers."""
     force_N: Annotated[float, Shown("force error", "N", digits=4)]
     """Predicted root mean square error of a component of the force."""
     moment_Nm: Annotated[float, Shown("moment error", "N m", digits=5)]
@@ -109,16 +115,16 @@ class MotionRow(Row):
 
 
 def sensor_span_row(sensor: str, motion: str, poses: int, span: Span) -> SensorSpanRow:
-    """Sum up what poses span.
+    """Make the record of the span of poses.
 
     Args:
         sensor: Name of the sensor.
-        motion: The motion.
-        poses: How many.
-        span: What they span.
+        motion: Name of the motion.
+        poses: Number of poses.
+        span: Span of their loads.
 
     Returns:
-        The row.
+        The record.
     """
     return SensorSpanRow(
         sensor=sensor,
@@ -126,32 +132,32 @@ def sensor_span_row(sensor: str, motion: str, poses: int, span: Span) -> SensorS
         poses=poses,
         rank=span.rank,
         smallest=float(span.strengths[span.rank - 1]),
-        missing="; ".join(line.words for line in span.missing),
+        missing="; ".join(line.text for line in span.missing),
     )
 
 
 def predicted_rms(error: MatrixError) -> tuple[float, float]:
-    """Give the error that is to be expected of held-out loads.
+    """Predict the error at held-out loads.
 
     Args:
-        error: What is to be expected of the matrix.
+        error: Error of the matrix.
 
     Returns:
         Root mean square over loads and axes, of force and of moment; N, N m.
     """
-    force, moment = np.sqrt(np.array(error.trace(held_out_loads())) / 3.0).tolist()
+    force, moment = np.sqrt(np.array(error.mean_squares(held_out_loads())) / 3.0).tolist()
     return force, moment
 
 
 def direction_rows(motion: str, error: MatrixError) -> tuple[DirectionRow, DirectionRow]:
-    """Say how wrong readings under loads along one axis are.
+    """Predict the error of measurements of loads along one axis.
 
     Args:
-        motion: What the sensor was calibrated by.
-        error: What is to be expected of the matrix.
+        motion: Motion, or workbench, of the calibration.
+        error: Error of the matrix.
 
     Returns:
-        A row for the force, and one for the moment.
+        A record for the force, and one for the moment.
     """
     along = error.error(np.diag(np.repeat([HELD_OUT_FORCE_N, HELD_OUT_MOMENT_NM], 3)))
     return (
@@ -166,75 +172,75 @@ def _direction_row(motion: str, error: str, along: FloatArray) -> DirectionRow:
 
 
 COMPARED_KG = 25.0
-"""Load with which the device is held against the workbench, whose heaviest weight is the same; kg."""
+"""Load with which the device is compared with the workbench, whose heaviest weight is the same; kg."""
 PLACEMENTS = (
     Placement(angle_rad=np.deg2rad(0.2), position_m=1e-3),
     Placement(angle_rad=np.deg2rad(0.05), position_m=2e-4),
 )
-"""How exactly weights of the workbench are placed: as is usual, and as well as can be."""
+"""Placement of weights of the workbench: usual, and as accurate as possible."""
 _MOTION_HZ = 10.0
 
 
 class DeviceSpan(Row):
-    """What a device excites, remedies, and a better motion."""
+    """Excitation by a device, options to improve it, and an optimised motion."""
 
     sensors: tuple[SensorSpanRow, ...]
-    """What the 12 steps excite in every sensor, and what they do with a swing at yaw 0."""
-    remedies: tuple[RemedyRow, ...]
-    """What would help, for the innermost sensor."""
+    """Excitation of every sensor by the 12 steps, without and with a swing at yaw 0."""
+    remedies: tuple[OptionRow, ...]
+    """Options to excite more, for the innermost sensor."""
     directions: tuple[DirectionRow, ...]
     """Predicted errors in every direction of load, the workbench with its two placements among them."""
     motions: tuple[MotionRow, ...] = ()
     """The motion with the third lock and the optimised one; none where the device cannot do the first."""
     impossible: tuple[str, ...] = ()
-    """Why remedies are left out that this device cannot do."""
+    """Rejection reasons of options that this device cannot do."""
     trajectories: dict[str, DeviceTrajectory] = Field(default_factory=dict, exclude=True, repr=False)
-    """The motions by their names."""
+    """The motions by name."""
 
     def blocks(self) -> Iterator[Table | str]:
-        """Give what people read.
+        """Make the text for the terminal.
 
         Yields:
-            Tables and sentences.
+            Tables and messages.
         """
-        yield table_of(self.sensors, "what still poses excite")
-        yield table_of(self.remedies, f"remedies: errors predicted with {COMPARED_KG:g} kg")
+        yield table_of(self.sensors, "excitation by static poses")
+        yield table_of(self.remedies, f"excitation options: errors predicted with {COMPARED_KG:g} kg")
         yield table_of(self.directions, "predicted errors under 100 N or 5 N m along one axis")
         if self.motions:
-            yield table_of(self.motions, "a better motion under the same speeds, ranges and time")
+            yield table_of(self.motions, "an optimised motion under the same speeds, ranges and time")
         yield from self.impossible
         yield _nearest(self.remedies)
 
 
 def device_span(device: Device, *, tolerances: Tolerances | None = None, swaps: int = 1000) -> DeviceSpan:
-    """Say what a device excites and what would excite more.
+    """Compute the excitation by a device, options to improve it, and an optimised motion.
 
     Args:
         device: The device, pitch first, with locks at 0 and 90 degrees.
-        tolerances: How exact it is; 0.1 degree, 0.1 mm and 0.05 % of mass if None.
-        swaps: Changes that are tried of the optimised motion.
+        tolerances: Its tolerances; 0.1 degree, 0.1 mm and 0.05 % of mass if None.
+        swaps: Number of changes that the optimisation tries.
 
     Returns:
-        Ranks, remedies, and motions.
+        Ranks, options, and motions.
     """
-    device = device.changed(turn=None)  # it stays at 0, but where turning is the remedy
+    device = device.changed(turn=None)  # it stays at 0, except in the option that turns the load
     exact = tolerances or Tolerances()
     compared = COMPARED_KG if COMPARED_KG in device.loads_kg else device.loads_kg[-1]
-    heaviest = remedies(device, device.loads_kg[-1])
-    possible, impossible = _possible(remedies(device, compared))
+    heaviest = excitation_options(device, device.loads_kg[-1])
+    possible, impossible = _possible(excitation_options(device, compared))
     bench = [workbench_loads(placement, SAMPLES) for placement in PLACEMENTS]
     sensor = device.sensor_names[0]
-    rows: list[RemedyRow] = []
+    rows: list[OptionRow] = []
     directions: list[DirectionRow] = []
-    for name, remedy in possible.items():
-        loads = uncertain(remedy.sampled(SAMPLES), sensor, exact)
+    for name, option in possible.items():
+        loads = uncertain(option.sampled(SAMPLES), sensor, exact)
         error = loads.matrix_error(sample_noise())
         span = Span.of(np.concatenate([poses.wrench(sensor) for poses in heaviest[name].sampled(SAMPLES)]))
         force, moment = predicted_rms(error)
         rows.append(
-            RemedyRow(
+            OptionRow(
                 motion=name,
-                words=remedy.words,
+                words=option.description,
                 rank=span.rank,
                 smallest=span.least_strength if span.rank == 6 else 0.0,
                 excitation=least_excitation(loads, bench[0]),
@@ -248,7 +254,7 @@ def device_span(device: Device, *, tolerances: Tolerances | None = None, swaps: 
         directions += direction_rows(name, loads.matrix_error(sample_noise()))
     motions, trajectories = _motions(possible, sensor, exact, swaps)
     return DeviceSpan(
-        sensors=tuple(_sensor_rows(device, heaviest["12 steps"].runs[0])),
+        sensors=tuple(_sensor_rows(device, heaviest["12 steps"].trajectories[0])),
         remedies=tuple(rows),
         directions=tuple(directions),
         motions=tuple(motions),
@@ -257,14 +263,16 @@ def device_span(device: Device, *, tolerances: Tolerances | None = None, swaps: 
     )
 
 
-def better_motion(third: Run, sensor: str, *, swaps: int = 1000, tolerances: Tolerances | None = None) -> Run:
-    """Find a motion that teaches more than one with a third lock, in the same time.
+def optimised_motion(
+    third: DeviceTrajectory, sensor: str, *, swaps: int = 1000, tolerances: Tolerances | None = None
+) -> DeviceTrajectory:
+    """Optimise a motion of the same duration as one with a third lock.
 
     Args:
-        third: That motion.
-        sensor: Sensor that is to be calibrated.
-        swaps: Changes that are tried.
-        tolerances: How exact the device is.
+        third: The motion with a third lock.
+        sensor: Sensor to calibrate.
+        swaps: Number of changes that the optimisation tries.
+        tolerances: Tolerances of the device.
 
     Returns:
         The motion.
@@ -273,32 +281,34 @@ def better_motion(third: Run, sensor: str, *, swaps: int = 1000, tolerances: Tol
         device=third.device,
         load=third.load,
         sensor=sensor,
-        seconds=third.trajectory.duration_s,
+        seconds=third.duration_s,
         hold_s=third.hold_s,
         swaps=swaps,
         tolerances=tolerances or Tolerances(),
     )
-    best = designer.better_than(third.sequence.postures)
-    return Run(device=third.device, load=third.load, sequence=best.sequence, hold_s=third.hold_s)
+    best = designer.improve(third.sequence.postures)
+    return replace(third, sequence=best.sequence)
 
 
 def _motions(
-    possible: dict[str, Remedy], sensor: str, tolerances: Tolerances, swaps: int
+    possible: dict[str, ExcitationOption], sensor: str, tolerances: Tolerances, swaps: int
 ) -> tuple[list[MotionRow], dict[str, DeviceTrajectory]]:
     if "third lock" not in possible:
         return [], {}
-    third = possible["third lock"].runs[0]
-    runs = {"third lock": third, "optimised": better_motion(third, sensor, swaps=swaps, tolerances=tolerances)}
+    third = possible["third lock"].trajectories[0]
+    optimised = optimised_motion(third, sensor, swaps=swaps, tolerances=tolerances)
+    trajectories = {"third lock": third, "optimised": optimised}
     rows = []
-    for name, run in runs.items():
-        error = run.sampled(SAMPLES).uncertain(sensor, tolerances).matrix_error(sample_noise())
+    for name, trajectory in trajectories.items():
+        error = sampled_poses(trajectory, SAMPLES).uncertain(sensor, tolerances).matrix_error(sample_noise())
         force, moment = predicted_rms(error)
-        answer = answer_of(run.device, run.load, run.trajectory.sampled(_MOTION_HZ)[1])
-        peaks = [float(np.abs(answer.torque(joint)).max()) for joint in ("pitch", "yaw")]
+        _, motion = trajectory.sampled(_MOTION_HZ)
+        response = device_response(trajectory.device, trajectory.load, motion)
+        peaks = [float(np.abs(response.torque(joint)).max()) for joint in ("pitch", "yaw")]
         rows.append(
             MotionRow(
                 motion=name,
-                duration_s=run.trajectory.duration_s,
+                duration_s=trajectory.duration_s,
                 volume=error.volume,
                 force_N=force,
                 moment_Nm=moment,
@@ -306,34 +316,35 @@ def _motions(
                 yaw_Nm=peaks[1],
             )
         )
-    return rows, {name: run.trajectory for name, run in runs.items()}
+    return rows, trajectories
 
 
-def _possible(every: dict[str, Remedy]) -> tuple[dict[str, Remedy], list[str]]:
+def _possible(options: dict[str, ExcitationOption]) -> tuple[dict[str, ExcitationOption], list[str]]:
+    """The options that the device can do, and rejection reasons of the others."""
     possible, impossible = {}, []
-    for name, remedy in every.items():
+    for name, option in options.items():
         try:
-            for run in remedy.runs:
-                run.sequence.require_possible(run.device, run.load)
+            for trajectory in option.trajectories:
+                trajectory.sequence.require_possible(trajectory.device, trajectory.load)
         except RobotError as error:
             impossible.append(f"{name}: left out, {error}")
         else:
-            possible[name] = remedy
+            possible[name] = option
     return possible, impossible
 
 
-def _sensor_rows(device: Device, run: Run) -> Iterator[SensorSpanRow]:
+def _sensor_rows(device: Device, twelve: DeviceTrajectory) -> Iterator[SensorSpanRow]:
     encoded = device.changed(hinge=device.hinge.model_copy(update={"encoder": True}))
-    swing = Run(device=encoded, load=run.load, sequence=swing_at_yaw_zero(encoded))
+    swing = DeviceTrajectory(device=encoded, load=twelve.load, sequence=swing_at_yaw_zero(encoded))
     for sensor in device.sensor_names:
-        for name, motion in (("12 steps", run), ("and a swing at yaw 0", swing)):
-            poses = motion.still_poses()
+        for name, motion in (("12 steps", twelve), ("and a swing at yaw 0", swing)):
+            poses = still_poses(motion)
             yield sensor_span_row(sensor, name, len(poses.count), Span.of(poses.wrench(sensor)))
 
 
-def _nearest(rows: tuple[RemedyRow, ...]) -> str:
+def _nearest(rows: tuple[OptionRow, ...]) -> str:
     best = max(rows, key=lambda row: row.excitation)
     return (
-        f"nearest to the excitation of the 24 positions of the workbench in every direction: {best.motion!r}, with "
-        f"{best.excitation:.2f} of theirs in the direction in which it has least"
+        f"nearest to the excitation of the 24 positions of the workbench: {best.motion!r}, with at least "
+        f"{best.excitation:.2f} of theirs in every direction"
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far the quantities of a device may be off, and what its sensors then measure at rest, for many postures."""
+"""Tolerances of the quantities of a device, and their effect on the expected wrenches of its poses at rest."""
 
 from __future__ import annotations
 
@@ -13,47 +13,47 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import SensorError
 from forcetorque.device.description import AttachedLoad, Device
-from forcetorque.device.expected_wrench import BRACKET_LENGTH, HINGE, LOAD_LENGTH, MASS, Reference
+from forcetorque.device.expected_wrench import BRACKET_LENGTH, HINGE, LOAD_LENGTH, MASS, ExpectedWrench
 from forcetorque.robot.motion import JointMotion
 from forcetorque.workbench.excitation import UncertainLoads
 
 NOISE_REACH = 3.0
-"""Standard deviations of noise that count as its largest error, as normal noise has no largest one."""
+"""Standard deviations of noise that count as its largest error: normal noise has no bound."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tolerance:
-    """Errors of one quantity, in its unit; full widths are twice what stands behind a plus-minus."""
+    """Errors of one quantity, in its unit; a full width is twice the number after a plus-minus."""
 
     step: float = 0.0
-    """Full width of an even error that is another at every reading: of a quantity in steps, one step."""
+    """Full width of a uniform error that is independent at every sample: one step of a quantised value."""
     noise: float = 0.0
     """Standard deviation of normal noise."""
     zero: float = 0.0
-    """Full width of an even error that stays as it is over the motion."""
+    """Full width of a uniform error that is constant over the motion."""
     fixed: float = 0.0
-    """An error that is known to be there and is not corrected, with its sign."""
+    """A known error that is not corrected, with its sign."""
 
     def __post_init__(self) -> None:
-        for field in ("step", "noise", "zero"):
-            if not 0.0 <= getattr(self, field) < math.inf:
-                raise SensorError(f"tolerance: {field}: expected a width of at least 0, got {getattr(self, field)}")
+        for name in ("step", "noise", "zero"):
+            if not 0.0 <= getattr(self, name) < math.inf:
+                raise SensorError(f"tolerance: {name}: expected a width of at least 0, got {getattr(self, name)}")
         if not math.isfinite(self.fixed):
             raise SensorError(f"tolerance: fixed: expected a finite number, got {self.fixed}")
 
     @property
     def variance(self) -> float:
-        """Variance of what is random: a full width squared over 12 where it is even."""
+        """Variance of the random errors: a full width squared over 12 where they are uniform."""
         return (self.step**2 + self.zero**2) / 12.0 + self.noise**2
 
     @property
     def largest(self) -> float:
-        """Largest magnitude of what is random: half of each width, and `NOISE_REACH` times the noise."""
+        """Largest magnitude of the random errors: half of each width, and `NOISE_REACH` times the noise."""
         return 0.5 * (self.step + self.zero) + NOISE_REACH * self.noise
 
     @property
     def is_zero(self) -> bool:
-        """Whether nothing is off."""
+        """Whether there is no error."""
         return self == Tolerance()
 
     def drawn(self, rng: np.random.Generator, samples: int) -> FloatArray:
@@ -61,45 +61,45 @@ class Tolerance:
 
         Args:
             rng: Source of random numbers.
-            samples: Number of readings, n.
+            samples: Number of samples, n.
 
         Returns:
             Errors; shape (n,).
         """
-        anew = self.step * rng.uniform(-0.5, 0.5, samples) + rng.normal(0.0, self.noise, samples)
-        return np.asarray(self.fixed + self.zero * rng.uniform(-0.5, 0.5) + anew, dtype=np.float64)
+        independent = self.step * rng.uniform(-0.5, 0.5, samples) + rng.normal(0.0, self.noise, samples)
+        return np.asarray(self.fixed + self.zero * rng.uniform(-0.5, 0.5) + independent, dtype=np.float64)
 
 
 _STEP: Final = 1e-4
-"""Step of the differences, in rad, m and shares: their own error is 1e-8 of a load."""
+"""Step of the differences, in rad, m and relative mass: their truncation error is 1e-8 of a load."""
 _SAME_RAD: Final = 1e-9
-"""Samples that are no further apart are of one pose."""
+"""Largest distance of samples of one pose."""
 _AT_LOCK_DEG: Final = 1e-4
-"""A hinge that is no further from a lock is in it; deg."""
+"""Largest distance of a locked hinge from its lock; deg."""
 _FREE: Final = 999.0
-"""Stands for a lock where the hinge hangs freely; deg."""
+"""Marks poses with a free hinge, in place of a lock; deg."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tolerances:
-    """How exact a device is."""
+    """Tolerances of a device."""
 
     encoder_deg: float = 0.1
-    """Full width of a uniform error of pitch and yaw, as in Table 6.3: one at every pose, one that stays; of the angle
-    of every lock, or of the encoder of the hinge, too; deg."""
+    """Full width of uniform errors of pitch and yaw, as in Table 6.3: one independent at every pose, one constant. Also
+    of the angle of every lock, or of the encoder of the hinge; deg."""
     length_m: float = 1e-4
     """Standard deviation of the distances from sensor to hinge, and from hinge to the centre of every load; m."""
     mass_share: float = 5e-4
-    """Standard deviation of the mass of every load, as a share."""
+    """Relative standard deviation of the mass of every load."""
 
     def size_of(self, error: str) -> float:
-        """Give the size of an error.
+        """Compute the standard deviation of an error.
 
         Args:
-            error: One of the names that `Poses.errors` gives.
+            error: One of the names in `Poses.errors`.
 
         Returns:
-            Its standard deviation; rad, m, or a share of the mass.
+            The standard deviation; rad, m, or relative to the mass.
         """
         if error == "height" or error.startswith("distance of "):
             return self.length_m
@@ -111,11 +111,11 @@ class Tolerances:
         """Draw an error: uniform for angles, normal for lengths and masses.
 
         Args:
-            error: One of the names that `Poses.errors` gives.
-            rng: Source of it.
+            error: One of the names in `Poses.errors`.
+            rng: Source of random numbers.
 
         Returns:
-            True less stated value; rad, m, or a share of the mass.
+            True less specified value; rad, m, or relative to the mass.
         """
         if error == "height" or error.startswith(("distance of ", "mass of ")):
             return float(self.size_of(error) * rng.standard_normal())
@@ -137,7 +137,7 @@ class Poses:
 
     @classmethod
     def of_samples(cls, device: Device, load: AttachedLoad, position: FloatArray) -> Poses:
-        """Take samples that follow each other; those of one hold are one pose.
+        """Group consecutive samples into poses; samples of one hold are one pose.
 
         Without an encoder at the hinge, samples with an unlocked hinge are left out: the load's position is unknown.
 
@@ -157,77 +157,78 @@ class Poses:
             position=position[starts],
             count=np.diff(np.append(starts, len(position))).astype(np.float64),
         )
-        return poses if device.hinge.encoder else poses.taken(poses._lock != _FREE)
+        return poses if device.hinge.encoder else poses.select(poses._lock != _FREE)
 
-    def taken(self, which: BoolArray) -> Poses:
-        """Give some of the poses.
+    def select(self, mask: BoolArray) -> Poses:
+        """Select poses.
 
         Args:
-            which: Whether to take each; shape (n,).
+            mask: Whether to keep each pose; shape (n,).
 
         Returns:
-            These alone.
+            The selected poses.
         """
-        return replace(self, position=self.position[which], count=self.count[which])
+        return replace(self, position=self.position[mask], count=self.count[mask])
 
     @property
     def errors(self) -> tuple[str, ...]:
-        """Names of what may be wrong: joints, locks in use, lengths and mass; those of the load bear its name."""
+        """Names of possible errors: joints, locks in use, lengths and mass; those of the load have its name."""
         locks = sorted(set(self._lock.tolist()) - {_FREE})
         hinge = (HINGE,) if (self._lock == _FREE).any() else ()
-        own = (f"distance of {self.load.name}", f"mass of {self.load.name}")
-        return ("pitch", "yaw", *hinge, *(f"lock {lock:g}" for lock in locks), "height", *own)
+        of_load = (f"distance of {self.load.name}", f"mass of {self.load.name}")
+        return ("pitch", "yaw", *hinge, *(f"lock {lock:g}" for lock in locks), "height", *of_load)
 
     def wrench(
-        self, sensor: str, errors: Mapping[str, float] | None = None, fresh_rad: FloatArray | None = None
+        self, sensor: str, errors: Mapping[str, float] | None = None, independent_rad: FloatArray | None = None
     ) -> FloatArray:
-        """Compute what a sensor feels.
+        """Compute the wrench on a sensor.
 
         Args:
             sensor: Name of the sensor.
-            errors: True less stated values of some of `errors`, the mass as a share; rad, m.
-            fresh_rad: True less stated position of pitch, yaw and an unlocked hinge at every pose; shape (n, 3); rad.
+            errors: True less specified values of some of `errors`, relative for the mass; rad, m.
+            independent_rad: True less specified position of pitch, yaw and an unlocked hinge at every pose; shape
+                (n, 3); rad.
 
         Returns:
             Wrenches; shape (n, 6); N, N m.
         """
-        return self._reference(sensor).wrench(self._by_quantity(errors or {}, fresh_rad))
+        return self._expected(sensor).wrench(self._by_quantity(errors or {}, independent_rad))
 
     def uncertain(self, sensor: str, tolerances: Tolerances) -> UncertainLoads:
-        """Say what may be wrong with what a sensor is said to feel, to first order.
+        """Propagate the tolerances to the expected wrench of a sensor, to first order.
 
         Args:
             sensor: Name of the sensor.
-            tolerances: How exact the device is.
+            tolerances: Tolerances of the device.
 
         Returns:
             The loads.
         """
-        reference = self._reference(sensor)
-        stated = reference.wrench()
-        lasting = {
+        expected = self._expected(sensor)
+        wrench = expected.wrench()
+        systematic = {
             name: tolerances.size_of(name)
-            * np.subtract(*(reference.wrench(self._by_quantity({name: step})) for step in (_STEP, -_STEP)))
+            * np.subtract(*(expected.wrench(self._by_quantity({name: step})) for step in (_STEP, -_STEP)))
             / (2.0 * _STEP)
             for name in self.errors
         }
-        still = np.zeros_like(stated)
+        zero = np.zeros_like(wrench)
         return UncertainLoads(
-            wrench=stated,
+            wrench=wrench,
             count=self.count,
-            lasting=lasting,
-            fresh=np.stack([lasting.get(joint, still) for joint in ("pitch", "yaw", "hinge")], axis=2),
+            systematic=systematic,
+            independent=np.stack([systematic.get(joint, zero) for joint in ("pitch", "yaw", "hinge")], axis=2),
         )
 
-    def _reference(self, sensor: str) -> Reference:
+    def _expected(self, sensor: str) -> ExpectedWrench:
         poses = JointMotion.at_rest(self.device.joint_names, self.position)
-        return Reference(device=self.device, load=self.load, poses=poses, sensor=sensor)
+        return ExpectedWrench(device=self.device, load=self.load, poses=poses, sensor=sensor)
 
     def _by_quantity(
-        self, errors: Mapping[str, float], fresh_rad: FloatArray | None = None
+        self, errors: Mapping[str, float], independent_rad: FloatArray | None = None
     ) -> dict[str, FloatArray | float]:
-        """Errors of the quantities of a reference."""
-        pitch, yaw, hinge = np.zeros((3, len(self.position))) if fresh_rad is None else fresh_rad.T
+        """Errors by quantity of the expected wrench."""
+        pitch, yaw, hinge = np.zeros((3, len(self.position))) if independent_rad is None else independent_rad.T
         hinge = np.where(self._lock == _FREE, hinge + errors.get(HINGE, 0.0), 0.0)
         for lock in set(self._lock.tolist()) - {_FREE}:
             hinge[self._lock == lock] = errors.get(f"lock {lock:g}", 0.0)
@@ -242,7 +243,7 @@ class Poses:
 
     @property
     def _lock(self) -> FloatArray:
-        """Lock of every pose, `_FREE` where the hinge hangs; shape (n,); deg."""
+        """Lock of every pose, `_FREE` of a free hinge; shape (n,); deg."""
         hinge = np.rad2deg(self.position[:, -1])
         locks = np.array(self.device.hinge.locks_deg)
         nearest = locks[np.abs(hinge[:, None] - locks).argmin(axis=1)]
@@ -254,22 +255,22 @@ _THIRDS = np.deg2rad([-120.0, 0.0, 120.0])
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RestTable:
-    """Loads of one device with one load at its locks."""
+    """Trigonometric interpolation of the expected wrenches of a device with one load at its locks."""
 
     wrench: Mapping[float, FloatArray]
-    """What pitch and yaw make of the load, by lock in deg; shapes (9, 6); N, N m."""
-    lasting: Mapping[float, Mapping[str, FloatArray]]
-    """The same of every error that stays, by lock in deg and name; shapes (9, 6); N, N m."""
+    """Coefficients of the wrench in the waves of pitch and yaw, by lock in deg; shapes (9, 6); N, N m."""
+    systematic: Mapping[float, Mapping[str, FloatArray]]
+    """The same of every systematic error, by lock in deg and name; shapes (9, 6); N, N m."""
 
     @classmethod
     def of(cls, device: Device, load: AttachedLoad, sensor: str, tolerances: Tolerances) -> RestTable:
-        """Tabulate a device without a turn.
+        """Tabulate a device without the joint `turn`.
 
         Args:
             device: The device.
             load: Load attached to its hinge.
             sensor: Name of the sensor.
-            tolerances: How exact the device is.
+            tolerances: Tolerances of the device.
 
         Returns:
             The table.
@@ -277,17 +278,17 @@ class RestTable:
         pitch, yaw = (angles.ravel() for angles in np.meshgrid(_THIRDS, _THIRDS))
         inverse = np.asarray(np.linalg.inv(_basis(pitch, yaw)), dtype=np.float64)
         wrench: dict[float, FloatArray] = {}
-        lasting: dict[float, dict[str, FloatArray]] = {}
+        systematic: dict[float, dict[str, FloatArray]] = {}
         for lock in device.hinge.locks_deg:
             position = np.column_stack([pitch, yaw, np.full(len(pitch), np.deg2rad(lock))])
             poses = Poses(device=device, load=load, position=position, count=np.ones(len(pitch)))
             loads = poses.uncertain(sensor, tolerances)
             wrench[lock] = inverse @ loads.wrench
-            lasting[lock] = {name: inverse @ change for name, change in loads.lasting.items()}
-        return cls(wrench=wrench, lasting=lasting)
+            systematic[lock] = {name: inverse @ change for name, change in loads.systematic.items()}
+        return cls(wrench=wrench, systematic=systematic)
 
     def loads(self, position: FloatArray) -> UncertainLoads:
-        """Give the loads of samples that follow each other, with what may be wrong of them.
+        """Compute the expected wrenches of consecutive samples, with their errors.
 
         Args:
             position: Pitch, yaw and hinge, at a lock; shape (n, 3); rad.
@@ -298,19 +299,19 @@ class RestTable:
         starts = np.flatnonzero(np.append(True, np.abs(np.diff(position, axis=0)).max(axis=1) > 0.0))
         poses = position[starts]
         basis, hinge = _basis(poses[:, 0], poses[:, 1]), np.rad2deg(poses[:, 2])
-        names = dict.fromkeys(name for errors in self.lasting.values() for name in errors)
+        names = dict.fromkeys(name for errors in self.systematic.values() for name in errors)
         wrench = np.zeros((len(poses), 6))
-        lasting = {name: np.zeros_like(wrench) for name in names}
+        systematic = {name: np.zeros_like(wrench) for name in names}
         for lock, table in self.wrench.items():
             at = np.abs(hinge - lock) < 1.0
             wrench[at] = basis[at] @ table
-            for name, change in self.lasting[lock].items():
-                lasting[name][at] = basis[at] @ change
+            for name, change in self.systematic[lock].items():
+                systematic[name][at] = basis[at] @ change
         return UncertainLoads(
             wrench=wrench,
             count=np.diff(np.append(starts, len(position))),
-            lasting=lasting,
-            fresh=np.stack([lasting["pitch"], lasting["yaw"]], axis=2),
+            systematic=systematic,
+            independent=np.stack([systematic["pitch"], systematic["yaw"]], axis=2),
         )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a log holds, what is wrong with it, and a first experiment file of it."""
+"""Contents of a log, findings about it, and a draft of its experiment file."""
 
 from typing import TYPE_CHECKING
 

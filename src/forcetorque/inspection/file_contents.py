@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What files hold: streams and clocks of a recording, calibrations, and columns that are not declared."""
+"""Contents of files: streams and clocks of a recording, calibrations of makers, and undeclared columns."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from forcetorque.recording.stream import Signal, Stream
 from forcetorque.results.table import Row, Shown, Table, Values
 
 _MOST_SHOWN = 60
-"""Letters of what a stream holds in the table; JSON has all."""
+"""Characters of the signals of a stream in the table; JSON has all."""
 
 
 class StreamRow(Row):
     """One stream."""
 
     samples: int
-    """How many."""
+    """Number of samples."""
     rate_hz: float | None
-    """By the median time between samples; None for fewer than two."""
+    """Rate by the median time between samples; None for fewer than two."""
     longest_gap_s: float | None
     """Longest time between samples; None for fewer than two."""
     clock: str
-    """Clock that stamped them; only streams of one clock are combined."""
+    """Clock of the stamps; only streams of one clock are combined."""
     holds: tuple[str, ...]
     """Its signals: quantity, number of columns, units, frame."""
 
@@ -42,17 +42,17 @@ def stream_rows(streams: Mapping[str, Stream]) -> dict[str, StreamRow]:
         streams: Streams by name.
 
     Returns:
-        A row for each, by name.
+        A record for each, by name.
     """
     return {name: _stream_record(stream) for name, stream in streams.items()}
 
 
 def stream_table(rows: Mapping[str, StreamRow], caption: str) -> Table:
-    """Put streams into a table.
+    """Make the table of streams.
 
     Args:
         rows: Streams by name.
-        caption: What was inspected.
+        caption: Name of the inspected file or folder.
 
     Returns:
         A line per stream.
@@ -99,50 +99,50 @@ class ClockRow(Row):
     """One `[[clock]]` of the experiment file."""
 
     stream: str
-    """Stream that is brought to the other's clock; of several that share one, the first."""
+    """Stream whose stamps are corrected; of several that share a clock, the first."""
     to: str
-    """Stream whose clock stays."""
+    """Stream whose clock is kept."""
     estimated: bool
-    """Whether the delay was to be estimated; else it was stated."""
+    """Whether the delay was to be estimated; else it is specified in the file."""
     delay_s: float | None
-    """By how much its stamps are later, in the middle of the stream; None where the recording does not tell it."""
+    """Delay of its stamps in the middle of the stream; None where the recording does not determine it."""
     delay_half_width_95_s: float | None
-    """Half of its 95 % interval; None where it was stated, or is not told."""
+    """Half of its 95 % interval; None where it was specified, or is undetermined."""
     drift: float | None
-    """Seconds by which the delay grows in a second; None where it is not told."""
+    """Seconds by which the delay grows in a second; None where it is undetermined."""
     drift_half_width_95: float | None
     """Half of its 95 % interval; None where it was not estimated."""
     unasked_drift: float | None
-    """Drift that the recording tells though none was asked for; None for none."""
+    """Drift that the recording shows although the file has none; None for none."""
     shown_by: str | None
-    """What both streams show, by which the delay was estimated; None where it was stated, or is not told."""
+    """Quantity that the delay was estimated from; None where it was specified, or is undetermined."""
     explained: float | None
-    """Share of its movement that the one explains of the other; None likewise."""
+    """Share of the variance of one stream that the other explains; None likewise."""
     untold: str | None
-    """Why the recording does not tell the delay; None where it does, or it was stated."""
+    """Why the recording does not determine the delay; None where it does, or it was specified."""
 
 
 def clock_rows(clocks: Iterable[ClockShift]) -> tuple[ClockRow, ...]:
-    """Put clocks into rows.
+    """Make the records of clocks.
 
     Args:
-        clocks: How stamps differ, in the order of the file.
+        clocks: Shifts of the clocks, in the order of the file.
 
     Returns:
-        A row for each.
+        A record for each.
     """
     return tuple(map(_clock_record, clocks))
 
 
 def _clock_record(shift: ClockShift) -> ClockRow:
-    is_told = shift.untold is None
+    is_determined = shift.untold is None
     return ClockRow(
         stream=shift.stream,
         to=shift.to,
-        estimated=not is_told or shift.shown_by is not None,
-        delay_s=shift.delay_s if is_told else None,
+        estimated=not is_determined or shift.shown_by is not None,
+        delay_s=shift.delay_s if is_determined else None,
         delay_half_width_95_s=shift.delay_half_width_s,
-        drift=shift.drift if is_told else None,
+        drift=shift.drift if is_determined else None,
         drift_half_width_95=shift.drift_half_width,
         unasked_drift=shift.unasked_drift,
         shown_by=shift.shown_by,
@@ -152,19 +152,19 @@ def _clock_record(shift: ClockShift) -> ClockRow:
 
 
 class MatrixRow(Row):
-    """One component of the matrix that a sensor came with."""
+    """One component of the matrix of a maker."""
 
     component: str
     """fx to tz."""
     unit: str
     """N or N m."""
     full_scale: float | None
-    """Full scale, in the unit; None where the file states none."""
+    """Full scale, in the unit; None where the file has none."""
     coefficients: Values
     """Coefficient of every channel, in the unit per raw unit."""
 
     def by_channel(self) -> dict[str, object]:
-        """Give the row as one line of a table of numbers: six channels are no wrench.
+        """Make a flat record, with a key per channel: six channels are not a wrench.
 
         Returns:
             Values by key, `channel_0` and so on among them.
@@ -173,24 +173,24 @@ class MatrixRow(Row):
         return {"component": self.component, "unit": self.unit, "full_scale": self.full_scale, **channels}
 
 
-class SeenCalibration(Row):
-    """The calibration that a sensor came with."""
+class MakerCalibration(Row):
+    """The calibration of a maker."""
 
     form: str
-    """What the file is."""
+    """Kind of the file."""
     serial: str | None
     """Serial number; None where the file has none."""
     date: str | None
-    """When it was calibrated, as the file writes it; None where it does not."""
+    """Date of calibration, as in the file; None where it has none."""
     raw_unit: str
     """Unit of the channels."""
     rows: tuple[MatrixRow, ...]
-    """Its matrix."""
+    """The matrix."""
     notes: tuple[str, ...]
-    """What else is to be known of it."""
+    """Remarks about the file."""
 
     def table(self, caption: str) -> Table:
-        """Put the matrix into a table.
+        """Make the table of the matrix.
 
         Args:
             caption: Name of the file.
@@ -219,13 +219,13 @@ class ColumnRow(Row):
     """A column of a table, or an array, that is not declared."""
 
     column: Annotated[str, Shown("column or array")]
-    """Its name."""
+    """Name."""
     rows: Annotated[int, Shown("rows")]
-    """How many rows it has."""
+    """Number of rows."""
     columns: Annotated[int, Shown("columns")]
-    """How many columns; 1 in a table."""
+    """Number of columns; 1 in a table."""
     unit: Annotated[str | None, Shown("unit")]
-    """Unit that its heading states; None for none."""
+    """Unit in its heading; None for none."""
     smallest: Annotated[float | None, Shown("smallest", digits=4)]
     """Smallest of its numbers; None where none was read."""
     largest: Annotated[float | None, Shown("largest", digits=4)]
@@ -236,17 +236,17 @@ class ColumnRow(Row):
     """What it looks like by its name; None for nothing. Nothing is read by that."""
 
 
-def calibration_row(file: PriorFile) -> SeenCalibration:
-    """Describe the calibration that a sensor came with.
+def calibration_row(file: PriorFile) -> MakerCalibration:
+    """Make the record of the calibration of a maker.
 
     Args:
-        file: What its file says.
+        file: Contents of its file.
 
     Returns:
-        The same as rows.
+        The record.
     """
     full_scale = [None] * 6 if file.full_scale is None else file.full_scale.tolist()
-    return SeenCalibration(
+    return MakerCalibration(
         form=file.form,
         serial=file.serial,
         date=file.date,
@@ -261,34 +261,34 @@ def calibration_row(file: PriorFile) -> SeenCalibration:
     )
 
 
-def column_rows(sketch: LogSketch, likeness: dict[int, str]) -> tuple[ColumnRow, ...]:
+def column_rows(sketch: LogSketch, likely: dict[int, str]) -> tuple[ColumnRow, ...]:
     """Describe columns.
 
     Args:
         sketch: The log.
-        likeness: What columns look like, by their places.
+        likely: Quantities that the names of columns match, by index.
 
     Returns:
-        A row for each.
+        A record for each.
     """
-    return tuple(_column_row(column, likeness.get(k)) for k, column in enumerate(sketch.columns))
+    return tuple(_column_row(column, likely.get(k)) for k, column in enumerate(sketch.columns))
 
 
-def sketch_words(rows: Iterable[ColumnRow], source: str) -> str:
-    """Say what to do with a log that does not say what it holds.
+def sketch_text(rows: Iterable[ColumnRow], source: str) -> str:
+    """Explain the next step for a log that does not describe itself.
 
     Args:
         rows: Its columns.
         source: The log.
 
     Returns:
-        A sentence.
+        A message.
     """
-    stated = sum(row.unit is not None for row in rows)
-    units = f"the headings state {stated} unit(s)" if stated else "it states no unit"
+    with_unit = sum(row.unit is not None for row in rows)
+    units = f"the headings have {with_unit} unit(s)" if with_unit else "it has no units"
     return (
-        f"nothing of it is read until an experiment file says what it is, for {units}: `forcetorque init {source}` "
-        "begins one, with a question for each thing that nobody can tell"
+        f"the log is read with an experiment file that describes it, because {units}: `forcetorque init {source}` "
+        "drafts one, with a question for each value that the log does not have"
     )
 
 

@@ -3,8 +3,8 @@
 
 Against the model: contacts of a free limb, steps, intervals off level, and outliers. The residual is measurement minus
 expectation, less its median over the samples that are in use. A running median of half a second takes vibration out
-and keeps steps sharp. What counts is a tenth of the load that the limb puts on the sensor, or four times the usual
-scatter if that is more: heuristics, chosen so that a lab's log gives few lines and each is worth a look.
+and keeps steps sharp. The limit is a tenth of the load of the limb on the sensor, or four times the usual scatter if
+that is more: heuristics, chosen so that a log of a laboratory gives few and useful findings.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.recording import PatchRecording, patch_recordings
 
 LOAD_SHARE = 0.1
-"""Part of the limb's load on the sensor that makes a residual worth a line."""
+"""Least residual of a finding, as a share of the load of the limb."""
 FIRM_SHARE = 0.5
-"""Part of the limb's weight that a contact carries at its peak to be beyond doubt."""
+"""Least share of the weight of the limb that a certain contact carries at its peak."""
 SCATTERS = 4.0
-"""Robust standard deviations of the smoothed residual that do the same."""
+"""Least residual of a finding, in robust standard deviations of the smoothed residual."""
 CONTACT_SCATTERS = 3.0
-"""Robust standard deviations of the lifting force, which knows its direction, that make a contact."""
+"""Least lifting force of a contact, in robust standard deviations."""
 OUTLIER_SCATTERS = 12.0
-"""Robust standard deviations of what smoothing takes out that make single samples outliers."""
+"""Least deviation of an outlier from the smoothed residual, in robust standard deviations."""
 
 _SMOOTH_S, _LEVEL_S, _EDGE_S, _MERGE_S, _SHORTEST_S = 0.5, 1.0, 0.25, 1.0, 0.5
 _LONGEST_OUTLIER = 3
@@ -74,14 +74,14 @@ class _Residual:
 def model_findings(
     stream: str, stamp_ns: IntArray, measured: FloatArray, expected: FloatArray, *, in_use: BoolArray
 ) -> tuple[Finding, ...]:
-    """Compare the reading of a sensor below which the limb should be free with what the model expects.
+    """Compare the measurements of a sensor, whose distal links should be free, with the expected wrench.
 
     Args:
         stream: Name of the sensor's stream, for the findings.
         stamp_ns: Increasing instants; shape (n,); ns.
-        measured: Readings as wrenches, offset not removed; shape (n, 6); N, N m.
+        measured: Measured wrenches, offset not removed; shape (n, 6); N, N m.
         expected: Expected wrenches; shape (n, 6); N, N m.
-        in_use: Samples that are known to be good, which set the level and the scatter; shape (n,).
+        in_use: Samples of intervals in use, which define level and scatter; shape (n,).
 
     Returns:
         Findings of the kinds `contact` and `light_contact` (something carries part of the limb's
@@ -136,7 +136,7 @@ def _residual(
 
 
 def _carried(residual: _Residual, expected: FloatArray) -> FloatArray:
-    """Force with which something lifts the limb, against the expected weight; shape (n,); N."""
+    """Force that lifts the limb, against the expected weight; shape (n,); N."""
     weight = np.linalg.norm(expected[:, :3], axis=1)
     along = np.einsum("ij,ij->i", residual.smooth[:, :3], expected[:, :3])
     return np.divide(-along, weight, out=np.zeros_like(along), where=weight > 0.0)
@@ -240,32 +240,42 @@ def _outliers(residual: _Residual, free: BoolArray) -> list[Finding]:
     return findings
 
 
-_DOUBTFUL = {"contact", "light_contact", "off_level", "step", "saturation", "frozen", "stuck", "gap", "backward_stamp"}
+_UNRELIABLE = {
+    "contact",
+    "light_contact",
+    "off_level",
+    "step",
+    "saturation",
+    "frozen",
+    "stuck",
+    "gap",
+    "backward_stamp",
+}
 """Kinds of findings that make the samples of their interval unreliable."""
 
 
 def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
-    """Look for what is wrong with a recording, without a robot.
+    """Find faults of a recording, without a robot.
 
     Args:
         recording: The recording.
 
     Returns:
-        Findings of its readers and of every stream by itself.
+        Findings of its readers and of single streams.
     """
     return (*recording.findings, *(f for stream in recording.streams.values() for f in stream_findings(stream)))
 
 
 def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tuple[Finding, ...]:
-    """Look for what is wrong with the recording of an experiment, with its robot and sensors.
+    """Find faults of the recording of an experiment, with its robot and sensors.
 
     The sensors are compared with the model over the whole log where all intervals have one support
-    frame, else inside each interval. Where something touches the robot beyond a sensor, or the model
-    cannot be evaluated, the reason is a finding.
+    frame, else inside each interval. With a distal contact, or where the model cannot be evaluated, the
+    reason is a finding.
 
     Args:
         experiment: The experiment.
-        by_model: Whether sensors are compared with the model, as if nothing but the support touched the robot.
+        by_model: Whether sensors are compared with the model, which has no contact but the support.
 
     Returns:
         Findings in the order of time, those without a time first.
@@ -283,8 +293,10 @@ def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tupl
     return tuple(sorted(findings, key=lambda finding: finding.start_ns or 0))
 
 
-def doubtful_spans(experiment: Experiment, use: Use, *, by_model: bool = True) -> tuple[tuple[Interval, Finding], ...]:
-    """Find what `inspect_experiment` sees inside the intervals of one use.
+def unreliable_intervals(
+    experiment: Experiment, use: Use, *, by_model: bool = True
+) -> tuple[tuple[Interval, Finding], ...]:
+    """Select the findings of `inspect_experiment` inside the intervals of one use.
 
     Args:
         experiment: The experiment.
@@ -292,9 +304,9 @@ def doubtful_spans(experiment: Experiment, use: Use, *, by_model: bool = True) -
         by_model: As of `inspect_experiment`.
 
     Returns:
-        Interval and finding, for findings that make its samples doubtful.
+        Interval and finding, for findings that make its samples unreliable.
     """
-    findings = [finding for finding in inspect_experiment(experiment, by_model=by_model) if finding.kind in _DOUBTFUL]
+    findings = [finding for finding in inspect_experiment(experiment, by_model=by_model) if finding.kind in _UNRELIABLE]
     return tuple(
         (interval, finding)
         for interval in experiment.recording.intervals
@@ -308,16 +320,16 @@ def doubtful_spans(experiment: Experiment, use: Use, *, by_model: bool = True) -
 
 
 def _with_all_frozen(experiment: Experiment, sensor: ExperimentSensor, findings: Sequence[Finding]) -> list[Finding]:
-    """Name the stretches that fits leave out, also those that only the model finds frozen."""
+    """Findings with the frozen intervals that fits leave out, also those that only the model shows."""
     stream = experiment.recording.stream(sensor.stream)
     named = [
         frozen_finding(stream, sensor.quantity, run) for run in true_runs(sample_quality(experiment, sensor).frozen)
     ]
-    frozen = [replace(one, message=f"{one.message}; left out of every fit and evaluation") for one in named]
+    frozen = [replace(finding, message=f"{finding.message}; left out of every fit and evaluation") for finding in named]
 
     def is_named(finding: Finding) -> bool:
         return (finding.stream, finding.channel) == (stream.name, sensor.quantity) and any(
-            finding.start_ns == one.start_ns or finding.kind == "frozen" for one in frozen
+            finding.start_ns == other.start_ns or finding.kind == "frozen" for other in frozen
         )
 
     return [*(finding for finding in findings if not is_named(finding)), *frozen]
@@ -358,7 +370,7 @@ def _model_findings(run: SensorRun) -> Iterator[Finding]:
 
 
 def _over_the_whole_log(experiment: Experiment, supported: Sequence[Interval]) -> list[Interval]:
-    """One span of the whole log if there is one support, else the intervals."""
+    """One interval of the whole log if there is one support, else the intervals."""
     if len({id(interval.support) for interval in supported}) != 1:
         return list(supported)
     start, end = experiment.recording.span_ns
@@ -387,11 +399,11 @@ def _in_use(experiment: Experiment, stamp_ns: IntArray) -> BoolArray:
 
 
 _NAMED = 12
-"""Taxels that a message names; more are counted."""
+"""Largest number of taxels that a message names."""
 
 
 def inspect_patches(experiment: PatchExperiment) -> tuple[Finding, ...]:
-    """Look for what is wrong with a recording of skin, and with its taxels.
+    """Find faults of a recording of skin, and of its taxels.
 
     Args:
         experiment: The experiment.
@@ -403,7 +415,7 @@ def inspect_patches(experiment: PatchExperiment) -> tuple[Finding, ...]:
 
 
 def taxel_findings(experiment: PatchExperiment) -> tuple[Finding, ...]:
-    """Look for what is wrong with the taxels of an experiment.
+    """Find faults of the taxels of an experiment.
 
     Args:
         experiment: The experiment.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inspect a log or the recording of an experiment: what it holds, and what is wrong with it, where and how much."""
+"""Inspection of a log or the recording of an experiment: contents, and findings with their time and size."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from forcetorque.formats.log_format import SketchingFormat, not_read_message
 from forcetorque.formats.prior.prior_file import PriorFile
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.formats.registry import format_named, not_recognised, recognised_format
-from forcetorque.inspection.draft.log import looks
+from forcetorque.inspection.draft.log import likely_quantities
 from forcetorque.inspection.file_contents import (
     ClockRow,
     ColumnRow,
-    SeenCalibration,
+    MakerCalibration,
     StreamRow,
     calibration_row,
     clock_rows,
     column_rows,
-    sketch_words,
+    sketch_text,
     stream_rows,
     stream_table,
 )
@@ -40,69 +40,69 @@ from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Table, table_of
 from forcetorque.skin.experiment import PATCHES, PatchExperiment, load_patches
 
-_MOST_ALIKE = 8
-"""Lines of one kind and channel in the table; the rest is counted. JSON and CSV have them all."""
+_MOST_SHOWN = 8
+"""Largest number of findings of one kind and channel in the table; JSON and CSV have all."""
 
 
 class FindingRow(Row):
     """One finding."""
 
     stream: str
-    """Stream in which it was found."""
+    """Stream of the finding."""
     kind: str
     """Kind, such as `gap`, `saturation`, `step`, `contact`."""
     channel: str | None
-    """Channel, where it is not the whole stream."""
+    """Channel; None for the whole stream."""
     start_s: float | None
-    """First sample concerned; s from the earliest stamp of the recording."""
+    """First sample; s from the earliest stamp of the recording."""
     end_s: float | None
-    """Last sample concerned; s from the earliest stamp of the recording."""
+    """Last sample; s from the earliest stamp of the recording."""
     count: int
-    """Number of samples concerned."""
+    """Number of samples."""
     size: float | None
-    """How large it is, in `unit`."""
+    """Size, in `unit`."""
     unit: str | None
     """Unit of the size."""
     message: str
-    """What was found."""
+    """The finding as text."""
 
     @property
-    def likeness(self) -> tuple[str, str, str]:
-        """What it has in common with others of its kind."""
+    def group(self) -> tuple[str, str, str]:
+        """Stream, kind and channel, which similar findings share."""
         return self.stream, self.kind, self.channel or ""
 
 
 class Inspection(Result):
-    """What a log holds, and what is wrong with it."""
+    """Contents of a log, and findings."""
 
     of_several: ClassVar[tuple[str, ...]] = ("clocks",)
 
     schema_name: Literal["forcetorque/inspect/2"] = Field(default="forcetorque/inspect/2", alias="schema")
     """Form of the result."""
     source: str
-    """What was inspected."""
+    """Name of the inspected file or folder."""
     streams: dict[str, StreamRow]
-    """What there is, by the name of the stream."""
+    """Streams by name."""
     duration_s: float
     """Time from the earliest to the latest stamp."""
     findings: tuple[FindingRow, ...]
     """Findings in the order of time."""
     clocks: tuple[ClockRow, ...] = ()
-    """Clocks that the experiment file brings to one, in its order, of which findings say the same in words."""
+    """Clocks that the experiment file aligns, in its order; findings have the same as text."""
     unread: tuple[ColumnRow, ...] = ()
-    """Columns or arrays of a log that does not say what it holds, in place of streams."""
+    """Columns or arrays of a log that does not describe itself, in place of streams."""
     skipped_arrays: dict[str, str] = {}
-    """Of a file of arrays what no experiment file can state, such as `1 x 3 struct array`, by its name."""
+    """Arrays that no experiment file can specify, such as `1 x 3 struct array`, by name."""
     ranges_of: str | None = None
-    """Of which rows the smallest, largest and mean numbers are, where these are not all, and why."""
-    calibration: SeenCalibration | None = None
-    """The calibration that a sensor came with, where the file is one."""
+    """Rows of the smallest, largest and mean numbers, where these are not all rows, and the reason."""
+    calibration: MakerCalibration | None = None
+    """The calibration of the maker, where the file is one."""
 
     def blocks(self) -> Iterator[Table | str]:
-        """Give a table of streams and one of findings, with a few lines of what comes again and again.
+        """Make the text for the terminal.
 
         Yields:
-            The tables and sentences.
+            Tables and messages.
         """
         if self.calibration is not None:
             yield self.calibration.table(self.source)
@@ -114,20 +114,20 @@ class Inspection(Result):
                 yield f"smallest, largest and mean are {self.ranges_of}"
             if self.skipped_arrays:
                 yield not_read_message(self.skipped_arrays)
-            yield sketch_words(self.unread, self.source)
+            yield sketch_text(self.unread, self.source)
             return
         yield stream_table(self.streams, f"{self.source}: streams")
         yield finding_table(self.findings, self.source)
-        for (stream, kind, channel), count in Counter(row.likeness for row in self.findings).items():
-            if count > _MOST_ALIKE:
-                yield f"{count - _MOST_ALIKE} more of {stream}: {kind} {channel}".rstrip()
+        for (stream, kind, channel), count in Counter(row.group for row in self.findings).items():
+            if count > _MOST_SHOWN:
+                yield f"{count - _MOST_SHOWN} more of {stream}: {kind} {channel}".rstrip()
         yield f"{len(self.findings)} finding(s) in {self.duration_s:.1f} s of {', '.join(self.streams)}"
 
     def records(self) -> list[dict[str, object]]:
-        """Give the answer as flat lines, for CSV.
+        """Make flat records, for CSV.
 
         Returns:
-            A line per finding; per column that is not declared, or component of a calibration, in their place.
+            A record per finding; in their place per undeclared column, or per component of a calibration.
         """
         if self.calibration is not None:
             return [row.by_channel() for row in self.calibration.rows]
@@ -137,21 +137,21 @@ class Inspection(Result):
         """Name the columns of the CSV.
 
         Returns:
-            The keys of a line; of a finding where there is none.
+            The keys of a record; of a finding where there is none.
         """
         return super().columns() or list(FindingRow.model_fields)
 
 
 @with_recording_notes
 def inspect_log(path: Path | str, *, log_format: str | None = None) -> Inspection:
-    """Inspect an experiment file, a log of any format that is recognised by what is there, or a sensor's calibration.
+    """Inspect an experiment file, a log of any known format, or the calibration of a maker.
 
     Args:
-        path: Experiment file, folder or file of a log, or file of a calibration that a sensor came with.
-        log_format: Name of the format of a log; it is recognised by what is there if left out.
+        path: Experiment file, folder or file of a log, or file of the calibration of a maker.
+        log_format: Name of the format of a log; recognised from the files if left out.
 
     Returns:
-        What it holds, and what is wrong with it.
+        Contents and findings.
     """
     source = Path(path)
     unread = _without_experiment(source, log_format)
@@ -168,7 +168,7 @@ def inspected(experiment: Experiment) -> Inspection:
         experiment: The experiment.
 
     Returns:
-        What it holds, and what is wrong with it.
+        Contents and findings.
     """
     findings = _of_experiment(experiment, experiment.section(PATCHES))
     return _inspection(str(experiment.file), experiment.recording, findings)
@@ -186,7 +186,7 @@ def _inspection(source: str, recording: Recording, findings: Iterable[Finding]) 
 
 
 def _without_experiment(source: Path, name: str | None) -> Inspection | None:
-    """What is seen of a calibration, and of a log that does not say what it holds; None for anything else."""
+    """Inspection of a calibration, or of a log that does not describe itself; None for anything else."""
     if not source.exists():
         return None
     if name is None and source.is_file() and holds_prior(source):
@@ -196,7 +196,7 @@ def _without_experiment(source: Path, name: str | None) -> Inspection | None:
     if not (source.is_file() and isinstance(known, SketchingFormat)):
         return None
     sketch = known.sketch(source)
-    unread = column_rows(sketch, looks(sketch))
+    unread = column_rows(sketch, likely_quantities(sketch))
     return Inspection(
         source=str(source),
         streams={},
@@ -209,7 +209,7 @@ def _without_experiment(source: Path, name: str | None) -> Inspection | None:
 
 
 def _prior(source: Path) -> PriorFile:
-    """The calibration; of a table that states no units, as if they were the usual ones, and says so."""
+    """The calibration; of a table without units with the usual ones, and a note."""
     try:
         return read_prior_file(source)
     except FormatError:
@@ -228,11 +228,11 @@ def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding,
         return recording, inspect_recording(recording)
     if source.is_dir():
         raise not_recognised(source)
-    stated = _parsed(source)
-    patches = load_patches(source) if stated.table(PATCHES) else None
-    if patches is not None and not stated.sensor:
+    parsed = _parsed(source)
+    patches = load_patches(source) if parsed.table(PATCHES) else None
+    if patches is not None and not parsed.sensor:
         return patches.recording, inspect_patches(patches)
-    if patches is None and not stated.sensor:
+    if patches is None and not parsed.sensor:
         recording = load_experiment(source, Purpose.DISPLAY).recording
         return recording, inspect_recording(recording)
     try:
@@ -251,7 +251,7 @@ def _of_experiment(experiment: Experiment, patches: PatchExperiment | None) -> t
 
 
 def _parsed(source: Path) -> ExperimentFile:
-    """The experiment file; what is none by its name is said to be no log either."""
+    """The experiment file; the error for another kind of file says that it is not a log either."""
     try:
         return parse_experiment(source)
     except FormatError as error:
@@ -261,14 +261,14 @@ def _parsed(source: Path) -> ExperimentFile:
 
 
 def finding_rows(recording_start: int, findings: Iterable[Finding]) -> tuple[FindingRow, ...]:
-    """Put findings into rows.
+    """Make the records of findings.
 
     Args:
         recording_start: Earliest stamp of the recording, which is 0 s; ns.
         findings: Findings about it.
 
     Returns:
-        A row per finding, in their order.
+        A record per finding, in their order.
     """
 
     def seconds(stamp_ns: int | None) -> float | None:
@@ -291,20 +291,20 @@ def finding_rows(recording_start: int, findings: Iterable[Finding]) -> tuple[Fin
 
 
 def finding_table(findings: Sequence[FindingRow], caption: str) -> Table:
-    """Put findings into a table.
+    """Make the table of findings.
 
     Args:
         findings: Findings, any number.
-        caption: What was inspected.
+        caption: Name of the inspected file or folder.
 
     Returns:
-        A line per finding, of many alike the first few.
+        A line per finding, of many similar ones the first few.
     """
-    alike: Counter[tuple[str, str, str]] = Counter()
+    counts: Counter[tuple[str, str, str]] = Counter()
     lines = []
     for row in findings:
-        alike[row.likeness] += 1
-        if alike[row.likeness] <= _MOST_ALIKE:
+        counts[row.group] += 1
+        if counts[row.group] <= _MOST_SHOWN:
             lines.append(_line(row))
     return Table(
         caption=caption,

@@ -99,7 +99,7 @@ def weighed_alone(campaign: Campaign) -> Iterator[tuple[str, LoadEstimate]]:
     for name, run in zip(campaign.recordings, campaign.runs, strict=True):
         experiment = run.experiment
         if (hanging := link_loads(experiment)) is not None:
-            experiment = hanging.beside.get(name, experiment)
+            experiment = hanging.pool.get(name, experiment)
         if (wrist := wrist_loads(experiment)) is not None:
             yield from ((name, load) for load in wrist.solution(experiment).loads)
         elif (hanging := link_loads(experiment)) is not None and run.has(Use.CALIBRATION):
@@ -119,7 +119,7 @@ def problem_among(campaign: Campaign, run: SensorRun, use: Use) -> LoadProblem:
     """
     hanging, name = hanging_on(run), campaign.recording(run)
     if isinstance(hanging, LinkLoads):
-        return joined_problem({name: run.experiment}, use=use, among=hanging.beside or None)
+        return joined_problem({name: run.experiment}, use=use, among=hanging.pool or None)
     return hanging.problem(run.experiment, use=use)
 
 

@@ -32,15 +32,15 @@ of a point mass does, has a precision by this; one that is much larger hides fro
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class WeighedLoad:
-    """A load that was weighed before."""
+class LoadFromFile:
+    """A load from an earlier result of `forcetorque payload`."""
 
     load: Load
-    """What is known of it."""
+    """Expected parameters and their precision."""
     serial: str
-    """Serial number of the sensor that weighed it."""
-    beside: tuple[str, ...]
-    """Loads that were stated when it was weighed, which tell the scale of the sensor; itself if it was stated."""
+    """Serial number of the sensor that identified it."""
+    known_loads: tuple[str, ...]
+    """Loads of that result that were specified, which determine the scale of the sensor; itself if specified."""
 
 
 class _Row(BaseModel):
@@ -61,20 +61,20 @@ class _Weighed(BaseModel):
     loads: tuple[_Row, ...]
 
 
-def read_weighed(file: Path, name: str, link: str) -> WeighedLoad:
+def read_load_from_file(file: Path, name: str, link: str) -> LoadFromFile:
     """Read a load from a result of `forcetorque payload`.
 
     Args:
         file: JSON file.
-        name: Name of the load; if the file has one only, whatever its name.
-        link: Link that it hangs on, in whose frame it was weighed.
+        name: Name of the load; ignored if the file has one load only.
+        link: Link of the load, in whose frame it was identified.
 
     Returns:
-        The load under this name, and what weighed it.
+        The load under this name, with its sensor.
 
     Raises:
         FormatError: If it is no such result.
-        ExperimentError: If it has no such load, or leaves it open, or weighed it in another frame.
+        ExperimentError: If it has no such load, or the load is undetermined, or in another frame.
     """
     content = read_json(file, expected="a result of `forcetorque payload FILE --format json`, there is none")
     if not isinstance(content, dict) or content.get("schema") != SCHEMA:
@@ -83,8 +83,8 @@ def read_weighed(file: Path, name: str, link: str) -> WeighedLoad:
         weighed = _Weighed.model_validate(content)
     except ValidationError as error:
         first = error.errors()[0]
-        place = ".".join(map(str, first["loc"]))
-        raise FormatError(f"{file}: {place}: {first['msg']}") from error
+        key = ".".join(map(str, first["loc"]))
+        raise FormatError(f"{file}: {key}: {first['msg']}") from error
     names = [row.load for row in weighed.loads]
     if name not in names and len(names) != 1:
         raise ExperimentError(f"{file}: no load {name!r}; {known_names(name, names)}")
@@ -107,8 +107,8 @@ def read_weighed(file: Path, name: str, link: str) -> WeighedLoad:
         expected=row.inertial,
         precision=np.asarray(np.linalg.inv(covariance), dtype=np.float64),
     )
-    stated = tuple(one.load for one in weighed.loads if not one.estimated and one.mass_kg)
-    return WeighedLoad(load=load, serial=weighed.serial, beside=stated)
+    known_loads = tuple(row.load for row in weighed.loads if not row.estimated and row.mass_kg)
+    return LoadFromFile(load=load, serial=weighed.serial, known_loads=known_loads)
 
 
 GYRATION_M: Final = 0.1

@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.wrench import MeasureDirection, reading_sign
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.draft.gravity import hanging
+from forcetorque.inspection.draft.gravity import fit_gravity
 from forcetorque.payload.identification.load_estimates import LoadSolution
 from forcetorque.payload.identification.parameter_vector import six_of
 from forcetorque.payload.load_on_wrist_sensor import inertia_of_stated, wrist_loads
@@ -41,8 +41,8 @@ def _reversed_sense(run: SensorRun) -> Iterator[str]:
     if others or frame is None:
         return
     sensor, stream = experiment.model.sensor(run.sensor.name), experiment.recording.stream(run.sensor.stream)
-    felt = hanging(experiment.model, sensor.joint, frame, experiment.recording, stream)
-    if felt is None or not felt.says_something or felt.direction in (None, sensor.direction):
+    felt = fit_gravity(experiment.model, sensor.joint, frame, experiment.recording, stream)
+    if felt is None or not felt.is_significant or felt.direction in (None, sensor.direction):
         return
     down = felt.weight if felt.direction == MeasureDirection.CHILD_TO_PARENT else -felt.weight
     along = (np.round(down / np.linalg.norm(down), 1) + 0.0).tolist()
@@ -101,7 +101,7 @@ def circular_loads(run: SensorRun) -> Iterator[str]:
         A sentence for every load beside which nothing was stated then that would have told the scale of the matrix.
     """
     for weighed in () if (loads := link_loads(run.experiment)) is None else loads.weighed:
-        if weighed.serial == run.sensor.serial and not weighed.beside:
+        if weighed.serial == run.sensor.serial and not weighed.known_loads:
             yield (
                 f"load {weighed.load.name!r}: weighed before by this sensor itself ({weighed.serial}), beside nothing "
                 "that was stated, so its mass has the error that the sensor has, which no calibration or verdict on it "
@@ -110,7 +110,7 @@ def circular_loads(run: SensorRun) -> Iterator[str]:
 
 
 def _beside(loads: LinkLoads) -> list[LinkLoads]:
-    return [own for one in loads.beside.values() if (own := link_loads(one)) is not None]
+    return [on_links for other in loads.pool.values() if (on_links := link_loads(other)) is not None]
 
 
 def _doubled(run: SensorRun, loads: LinkLoads) -> Iterator[str]:

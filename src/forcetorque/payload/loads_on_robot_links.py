@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Loads on links of a robot: stated, weighed before, or estimated by the sensor that they are beyond."""
+"""Loads on links of a robot: specified, from an earlier result, or estimated by a sensor between support and load."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from forcetorque.experiment.section import Loading
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, together
 from forcetorque.payload.identification.load_estimates import LoadSolution
 from forcetorque.payload.identification.loads_with_intervals import solve
-from forcetorque.payload.load_from_result_file import WeighedLoad, read_weighed, spread_of, with_matrix_in_part
+from forcetorque.payload.load_from_result_file import LoadFromFile, read_load_from_file, spread_of, with_matrix_in_part
 from forcetorque.payload.load_on_wrist_sensor import inertia_of_estimated, inertia_of_stated
-from forcetorque.payload.samples_from_recordings import HungInterval, link_load_problem
+from forcetorque.payload.samples_from_recordings import LoadedInterval, link_load_problem
 from forcetorque.payload.toml_tables import LinkLoad
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.robot.model import RobotModel
@@ -27,7 +27,7 @@ from forcetorque.robot.tree import build_tree, path_to_root
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class LinkLoads:
-    """What hangs on links of a robot, and in which intervals; what nobody stated is estimated when it is asked for."""
+    """Loads on links of a robot, and their intervals; unspecified ones are estimated when they are first needed."""
 
     loads: tuple[Load, ...]
     """Loads in the order of the file, each in the frame of its link."""
@@ -36,26 +36,26 @@ class LinkLoads:
     supports: tuple[tuple[Support | MovingSupport, int], ...]
     """Support of the intervals of each load, with its number."""
     sensor: ExperimentSensor | None
-    """Sensor that weighs: the nearest one that all are beyond; None where there is none."""
-    weighed: tuple[WeighedLoad, ...] = ()
-    """Those among them that were weighed before."""
-    beside: Mapping[str, Experiment] = field(default_factory=dict)
-    """Recordings that weigh these loads together, this one among them, by name; none to ask this one alone."""
+    """Sensor that identifies the loads: the nearest one inboard of all of them; None where there is none."""
+    weighed: tuple[LoadFromFile, ...] = ()
+    """Those of them that come from an earlier result."""
+    pool: Mapping[str, Experiment] = field(default_factory=dict)
+    """Recordings that estimate these loads together, this one included, by name; none to use this one only."""
     _known: dict[str, LoadSolution] = field(default_factory=dict, repr=False)
     _problems: dict[Use, tuple[LoadProblem, int]] = field(default_factory=dict, repr=False)
 
     @property
     def in_place_of_robot(self) -> bool:
-        """Never: they hang on its links."""
+        """Never: the loads are on its links."""
         return False
 
     @property
     def applied(self) -> str | None:
-        """No wrench is stated of loads on links."""
+        """No wrench is specified of loads on links."""
         return None
 
     def nominal_model(self, stated: RobotModel) -> RobotModel:
-        """Give the robot without the loads.
+        """Return the robot without the loads.
 
         Args:
             stated: The robot of the URDF.
@@ -66,54 +66,54 @@ class LinkLoads:
         return stated
 
     def pooled(self, experiments: Mapping[str, Experiment]) -> Mapping[str, Experiment]:
-        """Let recordings identify their loads together where one of them has a load that nobody stated.
+        """Pool recordings, so that they estimate their loads together.
 
         Args:
             experiments: Experiments with one sensor, by the names of their recordings.
 
         Returns:
-            The same; those with loads on links share what is estimated.
+            The same experiments; those with loads on links share the estimate.
 
         Raises:
-            ExperimentError: If files say different things of a load.
+            ExperimentError: If files specify a load differently.
         """
-        return weighed_together(experiments)
+        return identified_together(experiments)
 
     @property
     def are_stated(self) -> bool:
-        """Whether nothing of any load is to be estimated."""
+        """Whether all loads are specified."""
         return all(load.is_known for load in self.loads)
 
     def number_of(self, support: Support | MovingSupport | None) -> int | None:
-        """Say which load hangs on the robot in an interval.
+        """Find the load of an interval.
 
         Args:
             support: Support of the interval.
 
         Returns:
-            Its number; None where the file does not say.
+            Index of the load; None where the file does not specify it.
         """
         if len(self.loads) == 1:
             return 0
-        return next((number for own, number in self.supports if own is support), None)
+        return next((number for other, number in self.supports if other is support), None)
 
-    def hung(self, intervals: Sequence[Interval]) -> list[HungInterval]:
-        """Say what hangs in intervals.
+    def loaded(self, intervals: Sequence[Interval]) -> list[LoadedInterval]:
+        """Find the loads of intervals.
 
         Args:
             intervals: Intervals of the experiment.
 
         Returns:
-            The same with link and number of the load.
+            The intervals with link and index of the load.
         """
         numbers = [self.number_of(interval.support) or 0 for interval in intervals]
         return [
-            HungInterval(interval=interval, number=number, link=self.links[number])
+            LoadedInterval(interval=interval, number=number, link=self.links[number])
             for interval, number in zip(intervals, numbers, strict=True)
         ]
 
     def problem(self, experiment: Experiment, *, use: Use = Use.CALIBRATION) -> LoadProblem:
-        """Ask what intervals tell of the loads, if the matrix were exact.
+        """Set up the estimation of the loads with an exact matrix.
 
         Args:
             experiment: The experiment, of which the recording and its intervals are used.
@@ -123,12 +123,12 @@ class LinkLoads:
             The problem.
 
         Raises:
-            ExperimentError: If no sensor weighs all the loads, or there is no such interval.
+            ExperimentError: If no sensor measures all loads, or there is no such interval.
         """
         return self._problem_and_left_out(experiment, use)[0]
 
     def left_out(self, experiment: Experiment, *, use: Use = Use.CALIBRATION) -> int:
-        """Count samples of intervals that lack a finite reading or motion.
+        """Count samples of intervals without a finite measurement or motion.
 
         Args:
             experiment: The experiment.
@@ -151,14 +151,14 @@ class LinkLoads:
         intervals = sorted(experiment.intervals(use), key=lambda interval: interval.start_ns)
         sessions = [experiment.session_names(interval.label)[-1] for interval in intervals]
         self._problems[use] = link_load_problem(
-            experiment, self.sensor, self.hung(intervals), self.loads, sessions=sessions
+            experiment, self.sensor, self.loaded(intervals), self.loads, sessions=sessions
         )
         return self._problems[use]
 
     def solution(self, experiment: Experiment) -> LoadSolution:
-        """Estimate the loads on the calibration intervals, with the matrix known in part, when it is first asked for.
+        """Estimate the loads on the calibration intervals, with an uncertain matrix, when first needed.
 
-        Recordings beside this one take part.
+        Pooled recordings are used together.
 
         Args:
             experiment: The experiment, of which the recording and its intervals are used.
@@ -167,13 +167,13 @@ class LinkLoads:
             Loads and offsets.
         """
         if "solution" not in self._known:
-            problem = joined_problem(self.beside or {experiment.name: experiment})
+            problem = joined_problem(self.pool or {experiment.name: experiment})
             self._known["solution"] = solve(with_matrix_in_part(problem, spread_of(experiment, self.weigher)))
         return self._known["solution"]
 
     @property
     def weigher(self) -> ExperimentSensor:
-        """Sensor that weighs the loads.
+        """Sensor that identifies the loads.
 
         Raises:
             ExperimentError: If there is none.
@@ -183,7 +183,7 @@ class LinkLoads:
         return self.sensor
 
     def model_on(self, support: Support | MovingSupport, experiment: Experiment) -> RobotModel:
-        """Give the robot with the load of an interval.
+        """Make the robot with the load of an interval.
 
         Args:
             support: Support of the interval.
@@ -193,7 +193,7 @@ class LinkLoads:
             The robot.
 
         Raises:
-            ExperimentError: If the file does not say what hangs, or the recording does not determine it.
+            ExperimentError: If the file does not specify the load, or the recording does not determine it.
         """
         number = self.number_of(support)
         if number is None:
@@ -205,49 +205,49 @@ class LinkLoads:
         if load.is_known:
             return carrying(experiment.model, self.links[number], inertia_of_stated(load))
         solution = self.solution(experiment)
-        estimated = next(one for one in solution.loads if one.name == load.name)
+        estimated = next(estimate for estimate in solution.loads if estimate.name == load.name)
         return carrying(experiment.model, self.links[number], inertia_of_estimated(solution, estimated))
 
 
 def link_loads(experiment: Experiment) -> LinkLoads | None:
-    """Give what hangs on links of a robot beside what its URDF says.
+    """Return the loads on links of a robot beyond those of its URDF.
 
     Args:
         experiment: The experiment.
 
     Returns:
-        The loads; None for nothing.
+        The loads; None where there are none.
     """
     loads = experiment.loads
     return loads if isinstance(loads, LinkLoads) else None
 
 
-def weighed_together(experiments: Mapping[str, Experiment]) -> dict[str, Experiment]:
-    """Let recordings weigh their loads together where one of them has a load that nobody stated.
+def identified_together(experiments: Mapping[str, Experiment]) -> dict[str, Experiment]:
+    """Pool recordings where a load of one of them is not specified.
 
-    Two tools tell more of a matrix, and of each other, than one does.
+    Two tools determine a matrix, and each other, more accurately than one does.
 
     Args:
         experiments: Experiments with one sensor, by the names of their recordings.
 
     Returns:
-        The same; those with loads on links share what is estimated.
+        The same experiments; those with loads on links share the estimate.
 
     Raises:
-        ExperimentError: If files say different things of a load.
+        ExperimentError: If files specify a load differently.
     """
     loads = {name: link_loads(experiment) for name, experiment in experiments.items()}
-    hanging = {name: experiments[name] for name, own in loads.items() if own is not None}
-    known_loads = [own for own in loads.values() if own is not None]
-    if len(hanging) < 2 or all(own.are_stated for own in known_loads) or all(own.beside for own in known_loads):
+    pool = {name: experiments[name] for name, on_links in loads.items() if on_links is not None}
+    present = [on_links for on_links in loads.values() if on_links is not None]
+    if len(pool) < 2 or all(on_links.are_stated for on_links in present) or all(on_links.pool for on_links in present):
         return dict(experiments)
-    _loads_of(hanging)
+    _loads_of(pool)
     known: dict[str, LoadSolution] = {}
     return {
         name: experiments[name]
-        if own is None
-        else experiments[name].with_loads(replace(own, beside=hanging, _known=known))
-        for name, own in loads.items()
+        if on_links is None
+        else experiments[name].with_loads(replace(on_links, pool=pool, _known=known))
+        for name, on_links in loads.items()
     }
 
 
@@ -257,29 +257,29 @@ def joined_problem(
     use: Use = Use.CALIBRATION,
     among: Mapping[str, Experiment] | None = None,
 ) -> LoadProblem:
-    """Ask what recordings together tell of the loads on their robots.
+    """Set up the joint estimation of the loads of recordings.
 
     Args:
         experiments: Experiments with loads on links, by the names of their recordings.
-        use: Use of the intervals; recordings without one are passed over.
-        among: Recordings that number the loads, if those are more.
+        use: Use of the intervals; recordings without such an interval are left out.
+        among: Recordings that define the indices of the loads, if these are more.
 
     Returns:
         The problem.
 
     Raises:
-        ExperimentError: If no recording has such an interval, or files say different things of a load.
+        ExperimentError: If no recording has such an interval, or files specify a load differently.
     """
     loads = _loads_of(among or experiments)
     problems: dict[str, LoadProblem] = {}
     for name, experiment in experiments.items():
-        hanging = link_loads(experiment)
-        if hanging is None or not any(one.use is use for one in experiment.recording.intervals):
+        on_links = link_loads(experiment)
+        if on_links is None or not any(interval.use is use for interval in experiment.recording.intervals):
             continue
-        own = hanging.problem(experiment, use=use)
-        numbers = np.array([list(loads).index(load.name) for load in own.loads])
-        rows = replace(own.rows, load=numbers[own.rows.load])
-        problems[name] = replace(own, loads=tuple(loads.values()), rows=rows)
+        problem = on_links.problem(experiment, use=use)
+        numbers = np.array([list(loads).index(load.name) for load in problem.loads])
+        rows = replace(problem.rows, load=numbers[problem.rows.load])
+        problems[name] = replace(problem, loads=tuple(loads.values()), rows=rows)
     if not problems:
         raise ExperimentError(
             f'{", ".join(experiments)}: expected an interval with use = "{use}", which weighs the loads, got none; '
@@ -292,12 +292,12 @@ def _loads_of(experiments: Mapping[str, Experiment]) -> dict[str, Load]:
     """Loads by name, those of the first recording first."""
     loads: dict[str, tuple[Load, str]] = {}
     for name, experiment in experiments.items():
-        hanging = link_loads(experiment)
-        if hanging is None:
+        on_links = link_loads(experiment)
+        if on_links is None:
             continue
-        for load, link in zip(hanging.loads, hanging.links, strict=True):
-            first, on = loads.setdefault(load.name, (load, link))
-            if on != link or not _alike(first, load):
+        for load, link in zip(on_links.loads, on_links.links, strict=True):
+            first, first_link = loads.setdefault(load.name, (load, link))
+            if first_link != link or not _same_load(first, load):
                 raise ExperimentError(
                     f"{name}: load {load.name!r}: expected the link, mass_kg, centre_of_mass_m and inertia_kgm2 that "
                     "another recording states of it, got others; give another tool another name, and state one alike"
@@ -305,17 +305,17 @@ def _loads_of(experiments: Mapping[str, Experiment]) -> dict[str, Load]:
     return {name: load for name, (load, _) in loads.items()}
 
 
-def _alike(first: Load, other: Load) -> bool:
+def _same_load(first: Load, other: Load) -> bool:
     fields = ("mass", "centre_of_mass", "inertia", "expected", "precision")
     return all(np.array_equal(getattr(first, field), getattr(other, field)) for field in fields)
 
 
 def read_link_loads(tables: Sequence[LinkLoad], loading: Loading) -> LinkLoads | None:
-    """Take the loads of an experiment file.
+    """Check the loads of an experiment file.
 
     Args:
         tables: Tables `[[load]]`.
-        loading: Robot, sensors and recording, whose intervals have a support of their own for every load.
+        loading: Robot, sensors and recording, whose intervals have a different support for every load.
 
     Returns:
         The loads; None where there are none.
@@ -328,7 +328,7 @@ def read_link_loads(tables: Sequence[LinkLoad], loading: Loading) -> LinkLoads |
     if not tables:
         return None
     loads: list[Load] = []
-    weighed: list[WeighedLoad] = []
+    weighed: list[LoadFromFile] = []
     for index, table in enumerate(tables):
         where = f"{file}: load[{index}] {table.name!r}"
         if table.link not in model.links:
@@ -337,24 +337,24 @@ def read_link_loads(tables: Sequence[LinkLoad], loading: Loading) -> LinkLoads |
             )
         with stated_in(where):
             if table.weighed is None:
-                loads.append(_stated(table))
+                loads.append(_specified(table))
             else:
-                weighed.append(read_weighed(loading.inputs.file(table.weighed), table.name, table.link))
+                weighed.append(read_load_from_file(loading.inputs.file(table.weighed), table.name, table.link))
                 loads.append(weighed[-1].load)
     frames = {(support.frame, tables[number].link, number) for support, number in supports}
-    felt: list[set[str]] = []
+    inboard: list[set[str]] = []
     for frame, link, number in sorted(frames):
         names = _inboard_sensors(model, frame, link)
-        felt.append({sensor.name for sensor in sensors if sensor.name in names})
-        if not felt[-1] and tables[number].mass_kg != 0.0:
+        inboard.append({sensor.name for sensor in sensors if sensor.name in names})
+        if not inboard[-1] and tables[number].mass_kg != 0.0:
             raise ExperimentError(
                 f"{file}: load[{number}] {tables[number].name!r}: expected a link beyond a sensor of the file, as seen "
                 f"from the support {frame!r}, got {link!r}, whose load no sensor feels; name the link that the tool is "
                 "fastened to, or the support that the robot stands on"
             )
         # the nearest sensor first
-        sensors = tuple(sorted(sensors, key=lambda one: names.index(one.name) if one.name in names else len(names)))
-    shared = set.intersection(*felt) if felt else set()
+        sensors = tuple(sorted(sensors, key=lambda s: names.index(s.name) if s.name in names else len(names)))
+    shared = set.intersection(*inboard) if inboard else set()
     return LinkLoads(
         loads=tuple(loads),
         links=tuple(table.link for table in tables),
@@ -364,11 +364,11 @@ def read_link_loads(tables: Sequence[LinkLoad], loading: Loading) -> LinkLoads |
     )
 
 
-def _stated(table: LinkLoad) -> Load:
+def _specified(table: LinkLoad) -> Load:
     load = Load(name=table.name, mass=table.mass_kg, centre_of_mass=table.centre_of_mass_m, inertia=table.inertia_kgm2)
     if load.is_known or load.inertia is not None:
         return load
-    # taken for a point, what its inertia does passes for another centre of mass, and that for rows of the matrix
+    # for a point mass, the effect of its inertia would be attributed to its centre of mass, or to the matrix
     return replace(load, inertia="unknown")
 
 
@@ -383,11 +383,11 @@ def _inboard_sensors(model: RobotModel, support: str, link: str) -> list[str]:
 def with_loads_named(
     intervals: Sequence[Interval], named: Sequence[str | None], loads: Sequence[LinkLoad]
 ) -> list[Interval]:
-    """Give the intervals of every load a support of their own, by which it is known what hangs then.
+    """Copy the supports, one for every load, so that the support of an interval determines its load.
 
     Args:
         intervals: Intervals in the order of the file.
-        named: Load that each names.
+        named: Name of the load of each interval.
         loads: Loads of the file.
 
     Returns:
@@ -400,8 +400,8 @@ def with_loads_named(
         if interval.support is None or number is None:
             placed.append(interval)
             continue
-        own = supports.setdefault((id(interval.support), number), replace(interval.support))
-        placed.append(replace(interval, support=own))
+        support = supports.setdefault((id(interval.support), number), replace(interval.support))
+        placed.append(replace(interval, support=support))
     return placed
 
 
@@ -411,8 +411,8 @@ def _number_of(name: str | None, loads: Sequence[LinkLoad]) -> int | None:
 
 
 def _supports_of_loads(tables: Sequence[LinkLoad], loading: Loading) -> tuple[tuple[Support | MovingSupport, int], ...]:
-    """Supports that `with_loads_named` made, each with the number of its load."""
-    named = {span.label: span.load for span in loading.parsed.interval}
+    """Supports of `with_loads_named`, each with the index of its load."""
+    named = {table.label: table.load for table in loading.parsed.interval}
     supports: dict[int, tuple[Support | MovingSupport, int]] = {}
     for interval in loading.recording.intervals:
         number = _number_of(named[interval.label], tables)
@@ -422,7 +422,7 @@ def _supports_of_loads(tables: Sequence[LinkLoad], loading: Loading) -> tuple[tu
 
 
 def carrying(model: RobotModel, link: str, load: Inertia) -> RobotModel:
-    """Fasten a load to a link.
+    """Add a load to a link.
 
     Args:
         model: The robot.
@@ -430,6 +430,6 @@ def carrying(model: RobotModel, link: str, load: Inertia) -> RobotModel:
         load: Inertia of the load in the frame of the link.
 
     Returns:
-        The robot with it.
+        The robot with the load.
     """
     return replace(model, links={**model.links, link: model.links[link] + load})

@@ -89,14 +89,19 @@ _MOTION_END = int(_ENDS[3])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _WristInterval:
-    """Rows of one interval."""
+class _IntervalMeans:
+    """Means over windows of one interval."""
 
-    interval: Interval
     time_s: FloatArray
-    means: FloatArray  # columns that end at `_ENDS`, then variables
+    """Middles of the windows; shape (w,); s."""
+    means: FloatArray
+    """Means of all columns that a problem needs, variables of the sensor last; shape (w, k)."""
     counts: IntArray
+    """Samples of each window; shape (w,)."""
     names: tuple[str, ...]
+    """Name of each window, for messages."""
+    left_out: int
+    """Samples of the interval that lack a value."""
 
 
 def load_problem(
@@ -108,7 +113,7 @@ def load_problem(
     *,
     use: Use = Use.CALIBRATION,
 ) -> LoadProblem:
-    """Ask what intervals tell of the loads on a wrist sensor, and of its bias in every session.
+    """Set up the estimation of the loads on a wrist sensor, and of its bias in every power cycle.
 
     Args:
         experiment: The experiment, of which the recording and its intervals are used.
@@ -119,39 +124,39 @@ def load_problem(
         use: Use of the intervals.
 
     Returns:
-        The problem; samples that lack something, or lie in an ignored interval, are left out.
+        The problem, without samples that lack a value or lie in an ignored interval.
 
     Raises:
         ExperimentError: If there is no such interval, the sensor has raw readings and no prior, or nothing is left.
     """
     intervals = sorted(experiment.intervals(use), key=lambda interval: interval.start_ns)
-    spans = [_wrist_interval(experiment, sensor, interval) for interval in intervals]
-    if not sum(len(span.time_s) for span in spans):
+    blocks = [_wrist_means(experiment, sensor, interval) for interval in intervals]
+    if not sum(len(block.time_s) for block in blocks):
         raise ExperimentError(
             f'sensor {sensor.name!r}: expected samples in an interval with use = "{use}", with a reading and a '
             "motion; the streams have gaps or missing values all over it"
         )
     names = [experiment.session_names(interval.label)[-1] for interval in intervals]
     sessions = tuple(dict.fromkeys(names))
-    lengths = [len(span.time_s) for span in spans]
-    means = np.concatenate([span.means for span in spans])
+    lengths = [len(block.time_s) for block in blocks]
+    means = np.concatenate([block.means for block in blocks])
     wrench, acceleration, turning, products, turned, values = np.split(means, _ENDS, axis=1)
     variables = tuple(f"{one.linear.name} ({one.linear.unit})" for one in sensor.variables)
     turns = bool(turning.any() or products.any())
-    usual = np.median(np.concatenate([span.counts for span in spans]))
+    usual = np.median(np.concatenate([block.counts for block in blocks]))
     rows = LoadRows(
         wrench=wrench,
         proper_acceleration=acceleration,
         angular_velocity_products=products.reshape(-1, 3, 3) if turns else None,
         angular_acceleration=turning if turns else None,
-        time_s=np.concatenate([span.time_s for span in spans]),
+        time_s=np.concatenate([block.time_s for block in blocks]),
         session=np.repeat([sessions.index(name) for name in names], lengths),
-        block=np.repeat(np.arange(len(spans)), lengths),
+        block=np.repeat(np.arange(len(blocks)), lengths),
         load=np.repeat([load_number(interval.support, supports) for interval in intervals], lengths),
-        share=np.concatenate([span.counts for span in spans]) / usual,
+        share=np.concatenate([block.counts for block in blocks]) / usual,
         variables=values if variables else None,
         orientation=turned.reshape(-1, 3, 3) if np.isfinite(turned).all() else None,
-        names=tuple(name for span in spans for name in span.names),
+        names=tuple(name for block in blocks for name in block.names),
     )
     return LoadProblem(
         rows=rows,
@@ -174,9 +179,9 @@ def load_number(support: Support | MovingSupport | None, supports: Sequence[Movi
         supports: Support of the intervals of each load.
 
     Returns:
-        Number of the load; 0 where there is one only.
+        Index of the load; 0 where there is one only.
     """
-    return next((number for number, own in enumerate(supports) if own is support), 0)
+    return next((number for number, other in enumerate(supports) if other is support), 0)
 
 
 def samples_left_out(experiment: Experiment, sensor: ExperimentSensor) -> int:
@@ -195,7 +200,7 @@ def samples_left_out(experiment: Experiment, sensor: ExperimentSensor) -> int:
     )
 
 
-def _wrist_interval(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> _WristInterval:
+def _wrist_means(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> _IntervalMeans:
     stamps, columns = _columns(experiment, sensor, interval)
     numbers = np.searchsorted(experiment.recording.stream(sensor.stream).stamp_ns, stamps)
     needed = np.r_[0:_MOTION_END, _ENDS[-1] : columns.shape[1]]
@@ -210,11 +215,11 @@ def _wrist_interval(experiment: Experiment, sensor: ExperimentSensor, interval: 
         if single
         else tuple(f"{interval.label} at {instant:.2f} s" for instant in middle)
     )
-    return _WristInterval(interval=interval, time_s=middle, means=means, counts=counts, names=names)
+    return _IntervalMeans(time_s=middle, means=means, counts=counts, names=names, left_out=int((~complete).sum()))
 
 
 def _columns(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> tuple[IntArray, FloatArray]:
-    """Instants of the samples of an interval, and all that is needed at them; shape (n,), (n, 30 + variables)."""
+    """Instants of the samples of an interval, shape (n,), and all columns at these, shape (n, 30 + variables)."""
     recording = experiment.recording
     at_ns, reading = weighing_readings(experiment, sensor, interval)
     if interval.support is None:
@@ -244,7 +249,7 @@ def _columns(experiment: Experiment, sensor: ExperimentSensor, interval: Interva
 
 
 def _orientation(recording: Recording, interval: Interval, at_ns: IntArray) -> FloatArray:
-    """`world_R_sensor` row by row, where a motion stream has it; shape (n, 9); NaN where none has."""
+    """`world_R_sensor` row by row, where a motion stream has it; shape (n, 9); NaN otherwise."""
     names: Sequence[str] = getattr(interval.support, "motion_streams", ())
     for stream in (recording.stream(name) for name in names):
         if "orientation" in stream.signals:
@@ -256,127 +261,118 @@ _PARAMETERS = 10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class HungInterval:
-    """An interval, and what hangs on the robot then."""
+class LoadedInterval:
+    """An interval with the load that the robot carries."""
 
     interval: Interval
     """The interval, with a support."""
     number: int
-    """Number of the load among those of the problem."""
+    """Index of the load among those of the problem."""
     link: str | None
-    """Link that it is fastened to; None where the URDF is all there is."""
+    """Link of the load; None where the robot carries none."""
 
 
 def link_load_problem(
     experiment: Experiment,
     sensor: ExperimentSensor,
-    intervals: Sequence[HungInterval],
+    intervals: Sequence[LoadedInterval],
     loads: Sequence[Load],
     *,
     sessions: Sequence[str],
 ) -> tuple[LoadProblem, int]:
-    """Ask what intervals tell of the loads on a robot, and of the offset of a sensor in every session.
+    """Set up the estimation of the loads on a robot, and of the offset of a sensor in every power cycle.
 
     Args:
         experiment: The experiment, of which the recording and the processing are used.
-        sensor: Sensor that the loads are beyond.
+        sensor: Sensor between the support and the loads.
         intervals: Intervals, in the order of time.
         loads: The loads, in the frames of their links.
-        sessions: Session of each interval.
+        sessions: Power cycle of each interval.
 
     Returns:
         The problem, with constant offsets unless the file lets them drift, and the number of samples that are left out
-        because they lack something; those in an ignored interval are not asked for.
+        because they lack a value; samples in an ignored interval are not counted.
 
     Raises:
         ExperimentError: If the sensor has raw readings and no prior, or nothing is left.
     """
-    spans = [_link_interval(experiment, sensor, one) for one in intervals]
-    if not sum(len(span.time_s) for span in spans):
+    blocks = [_link_means(experiment, sensor, loaded) for loaded in intervals]
+    if not sum(len(block.time_s) for block in blocks):
         raise ExperimentError(
             f"sensor {sensor.name!r}: expected samples with a reading and the position of all joints that it needs, "
             "got none in the calibration intervals; the streams have gaps or missing values all over them"
         )
     names = tuple(dict.fromkeys(sessions))
-    lengths = [len(span.time_s) for span in spans]
-    means, counts = (np.concatenate(parts) for parts in zip(*((s.means, s.counts) for s in spans), strict=True))
+    lengths = [len(block.time_s) for block in blocks]
+    means = np.concatenate([block.means for block in blocks])
+    counts = np.concatenate([block.counts for block in blocks])
     ends = np.cumsum([6, 6 * _PARAMETERS, 6])
     wrench, columns, known, variables = np.split(means, ends, axis=1)
     columns = columns.reshape(-1, 6, _PARAMETERS)
-    labels = [one.interval.label for one in intervals]
     rows = LoadRows(
         wrench=wrench,
         proper_acceleration=columns[:, :3, 0],
         columns=columns,
         known=known,
-        time_s=np.concatenate([span.time_s for span in spans]),
+        time_s=np.concatenate([block.time_s for block in blocks]),
         session=np.repeat([names.index(session) for session in sessions], lengths),
-        block=np.repeat(np.arange(len(spans)), lengths),
-        load=np.repeat([one.number for one in intervals], lengths),
+        block=np.repeat(np.arange(len(blocks)), lengths),
+        load=np.repeat([loaded.number for loaded in intervals], lengths),
         share=counts / np.median(counts),
         variables=variables if variables.shape[1] else None,
-        names=tuple(f"{label} at {at:.2f} s" for label, span in zip(labels, spans, strict=True) for at in span.time_s),
+        names=tuple(name for block in blocks for name in block.names),
     )
     problem = LoadProblem(
         rows=rows,
         loads=tuple(loads),
         sessions=names,
-        blocks=tuple(labels),
+        blocks=tuple(loaded.interval.label for loaded in intervals),
         direction=experiment.model.sensor(sensor.name).direction,
         drift=experiment.fit_options.drift,
         variables=tuple(f"{one.linear.name} ({one.linear.unit})" for one in sensor.variables),
     )
-    return problem, sum(span.left_out for span in spans)
+    return problem, sum(block.left_out for block in blocks)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _LinkInterval:
-    """Means of one interval: wrench, columns, known wrench, variables."""
-
-    time_s: FloatArray
-    means: FloatArray
-    counts: IntArray
-    left_out: int
-
-
-def _link_interval(experiment: Experiment, sensor: ExperimentSensor, hung: HungInterval) -> _LinkInterval:
+def _link_means(experiment: Experiment, sensor: ExperimentSensor, loaded: LoadedInterval) -> _IntervalMeans:
     recording = experiment.recording
-    at_ns, reading = weighing_readings(experiment, sensor, hung.interval)
-    columns, known = _expected(experiment, sensor, hung, at_ns)
+    at_ns, reading = weighing_readings(experiment, sensor, loaded.interval)
+    columns, known = _expected(experiment, sensor, loaded, at_ns)
     variables = [one.source.at(recording, at_ns)[:, None] for one in sensor.variables]
     values = np.hstack([reading, columns.reshape(len(at_ns), -1), known, *variables])
     complete = np.isfinite(values).all(axis=1)
     time = seconds_since(at_ns[complete], recording.start_ns)
     middle, means, counts = weighing_means(time, values[complete])
-    return _LinkInterval(time_s=middle, means=means, counts=counts, left_out=int((~complete).sum()))
+    names = tuple(f"{loaded.interval.label} at {instant:.2f} s" for instant in middle)
+    return _IntervalMeans(time_s=middle, means=means, counts=counts, names=names, left_out=int((~complete).sum()))
 
 
 def _expected(
-    experiment: Experiment, sensor: ExperimentSensor, hung: HungInterval, at_ns: IntArray
+    experiment: Experiment, sensor: ExperimentSensor, loaded: LoadedInterval, at_ns: IntArray
 ) -> tuple[FloatArray, FloatArray]:
-    """What each parameter adds to the wrench that moves the load, (n, 6, 10), and what the URDF makes read, (n, 6)."""
+    """Derivative of the load's wrench by each parameter, (n, 6, 10), and the expected wrench by the URDF, (n, 6)."""
     bare = experiment.model
     weightless = replace(bare, links=dict.fromkeys(bare.links, Inertia.zero()))
-    parameters = [] if hung.link is None else [_with(weightless, hung.link, k) for k in range(_PARAMETERS)]
+    parameters = [] if loaded.link is None else [_with(weightless, loaded.link, k) for k in range(_PARAMETERS)]
     sign = reading_sign(bare.sensor(sensor.name).direction, child_is_outboard=True)
     columns = np.zeros((len(at_ns), 6, _PARAMETERS))
-    readings = _readings(experiment, sensor, hung.interval, [bare, *parameters], at_ns)
+    wrenches = _expected_wrenches(experiment, sensor, loaded.interval, [bare, *parameters], at_ns)
     if parameters:
-        columns[:] = sign * np.stack(readings[1:], axis=2)
-    return columns, readings[0]
+        columns[:] = sign * np.stack(wrenches[1:], axis=2)
+    return columns, wrenches[0]
 
 
 def _with(weightless: RobotModel, link: str, parameter: int) -> RobotModel:
-    """A robot that has one inertial parameter, of one link."""
+    """A robot whose only mass is one inertial parameter of one link."""
     unit = np.eye(_PARAMETERS)[parameter]
     inertia = Inertia(mass=float(unit[0]), first_moment=unit[1:4], second_moment=inertia_of(unit[4:]))
     return replace(weightless, links={**weightless.links, link: inertia})
 
 
-def _readings(
+def _expected_wrenches(
     experiment: Experiment, sensor: ExperimentSensor, interval: Interval, models: Sequence[RobotModel], at_ns: IntArray
 ) -> list[FloatArray]:
-    """Expected readings of a sensor on several robots that move alike, unflattened as the calibration does it."""
+    """Expected wrenches of a sensor on several robots with the same motion, corrected for smoothing."""
     support = interval.support
     if support is None:
         raise ExperimentError(f"interval {interval.label!r}: expected a support frame, got none")
@@ -392,9 +388,9 @@ def _readings(
         return [estimate(question, joints, root).expected_of(name) for question in questions]
 
     processing = experiment.processing
-    readings = expected(processing)
+    wrenches = expected(processing)
     if processing.logged_derivatives:
-        return readings
+        return wrenches
     window = processing.derivative_window
     longer = expected(replace(processing, derivative_window=replace(window, window_s=2.0 * window.window_s)))
-    return [one + FLATTENED * np.nan_to_num(one - other) for one, other in zip(readings, longer, strict=True)]
+    return [short + FLATTENED * np.nan_to_num(short - long) for short, long in zip(wrenches, longer, strict=True)]

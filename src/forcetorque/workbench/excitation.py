@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What known loads excite: the directions that they span, and the matrix error that uncertain loads cause."""
+"""Excitation by known loads: the directions that they span, and the matrix error that uncertain loads cause."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only, read_only_mapping
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, mapping, read_only
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.workbench.bench import Placement
-from forcetorque.workbench.fit import moved_loads, turned_loads
+from forcetorque.workbench.fit import rotation_derivatives, shift_derivatives
 from forcetorque.workbench.loads import BenchLoads
 
 RANK_TOLERANCE: Final = 1e-9
@@ -32,19 +32,19 @@ class MissingMoment:
     point_m: FloatArray
     """Point of the line that is nearest to the sensor's origin; shape (3,); m."""
     pitch_m: float
-    """How much force along the line belongs to it; m."""
+    """Coefficient of the force along the line; m."""
     functional: FloatArray
-    """What force and moment are multiplied by to give it; shape (6,); m, 1."""
+    """Coefficients of force and moment; shape (6,); m, 1."""
 
     @classmethod
     def of(cls, functional: FloatArray) -> MissingMoment | None:
-        """Read a line from what vanishes.
+        """Compute the line of a linear functional of wrenches.
 
         Args:
-            functional: What force and moment are multiplied by, up to its size; shape (6,).
+            functional: Coefficients of force and moment, up to a factor; shape (6,).
 
         Returns:
-            The line; None where no moment belongs to it.
+            The line; None where the functional has no moment.
         """
         size = float(np.linalg.norm(functional[3:]))
         if size <= RANK_TOLERANCE * float(np.linalg.norm(functional[:3])):
@@ -59,19 +59,19 @@ class MissingMoment:
             functional=read_only(scaled, name="functional", shape=(6,)),
         )
 
-    def distance_m(self, place_m: Any) -> float:
-        """Say how far a place is from the line.
+    def distance_m(self, position_m: Any) -> float:
+        """Compute the distance of a position from the line.
 
         Args:
-            place_m: The place, in the sensor's frame; shape (3,); m.
+            position_m: The position, in the sensor's frame; shape (3,); m.
 
         Returns:
             The distance; m.
         """
-        return float(np.linalg.norm(np.cross(np.asarray(place_m, dtype=np.float64) - self.point_m, self.axis)))
+        return float(np.linalg.norm(np.cross(np.asarray(position_m, dtype=np.float64) - self.point_m, self.axis)))
 
     @property
-    def words(self) -> str:
+    def text(self) -> str:
         """The line as text."""
         x, y, z = ((1e3 * self.point_m).round(6) + 0.0).tolist()
         along = ", ".join(f"{value:.3f}" for value in (self.axis.round(9) + 0.0).tolist())
@@ -81,16 +81,16 @@ class MissingMoment:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Span:
-    """What loads span, force and moment each over its largest."""
+    """Linear span of loads, with force and moment each over its largest."""
 
     rank: int
     """Directions of load that are spanned, to a share of 1e-9."""
     strengths: FloatArray
     """Singular values of the scaled loads over the root of their number, largest first; shape (6,)."""
     functionals: FloatArray
-    """What vanishes for all loads, one per direction that is not spanned; shape (6 - rank, 6)."""
+    """Linear functionals that vanish for all loads, one per direction that is not spanned; shape (6 - rank, 6)."""
     missing: tuple[MissingMoment, ...]
-    """The same as moments about lines, where they are such."""
+    """The same as moments about lines, where they have a moment."""
 
     @property
     def least_strength(self) -> float:
@@ -99,13 +99,13 @@ class Span:
 
     @classmethod
     def of(cls, wrench: Any) -> Span:
-        """Find what loads span.
+        """Compute the span of loads.
 
         Args:
             wrench: Loads; shape (n, 6), n at least 6; N, N m.
 
         Returns:
-            Rank, singular values, and what is missing.
+            Rank, singular values, and moments that are missing.
 
         Raises:
             ShapeError: If there are fewer than six loads, or all are zero.
@@ -127,7 +127,7 @@ class Span:
 
 
 def load_sizes(wrench: FloatArray) -> FloatArray:
-    """Give the largest force and the largest moment, to compare both.
+    """Compute the largest force and the largest moment, as scales that make both comparable.
 
     Args:
         wrench: Loads; shape (n, 6); N, N m.
@@ -140,32 +140,25 @@ def load_sizes(wrench: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class UncertainLoads:
-    """Loads at n poses."""
+class UncertainLoads(ArrayRecord):
+    """Known loads at n poses, with the effect of errors of the loads."""
 
-    wrench: FloatArray
-    """Loads as the reference says; shape (n, 6); N, N m."""
-    count: FloatArray
-    """Samples at every pose, each with noise of its own; shape (n,)."""
-    lasting: Mapping[str, FloatArray]
-    """What errors that stay the same change, at one standard deviation, by name; shapes (n, 6); N, N m."""
-    fresh: FloatArray
-    """The same of r errors that are others at every pose; shape (n, 6, r); N, N m."""
-
-    def __post_init__(self) -> None:
-        n = len(np.asarray(self.wrench))
-        for field, shape in (("wrench", (n, 6)), ("count", (n,)), ("fresh", (n, 6, None))):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
-        lasting = {name: read_only(change, name=name, shape=(n, 6)) for name, change in self.lasting.items()}
-        object.__setattr__(self, "lasting", read_only_mapping(lasting))
+    wrench: FloatArray = field(metadata=array("n", 6))
+    """Expected wrenches; shape (n, 6); N, N m."""
+    count: FloatArray = field(metadata=array("n"))
+    """Samples at every pose, with independent noise; shape (n,)."""
+    systematic: Mapping[str, FloatArray] = field(metadata=mapping("n", 6))
+    """Change of the wrenches by one standard deviation of errors that all poses share, by name; shapes (n, 6)."""
+    independent: FloatArray = field(metadata=array("n", 6, None))
+    """The same of r errors that are independent at every pose; shape (n, 6, r); N, N m."""
 
     @classmethod
     def of_bench(cls, loads: BenchLoads, placement: Placement, *, samples: int) -> UncertainLoads:
-        """Take the loads of a workbench, each placed anew.
+        """Propagate errors of the placement to the loads of a workbench, independently at every position.
 
         Args:
             loads: Loads of weights.
-            placement: How far they may be off.
+            placement: Standard deviations of the placement.
             samples: Samples of all positions together.
 
         Returns:
@@ -174,42 +167,43 @@ class UncertainLoads:
         return cls(
             wrench=loads.wrench,
             count=np.full(len(loads), samples / len(loads)),
-            lasting={},
-            fresh=np.concatenate(
-                [placement.angle_rad * turned_loads(loads), placement.position_m * moved_loads(loads)], axis=2
+            systematic={},
+            independent=np.concatenate(
+                [placement.angle_rad * rotation_derivatives(loads), placement.position_m * shift_derivatives(loads)],
+                axis=2,
             ),
         )
 
     @classmethod
-    def together(cls, parts: Sequence[UncertainLoads]) -> UncertainLoads:
-        """Join loads; errors of one name are one error.
+    def join(cls, segments: Sequence[UncertainLoads]) -> UncertainLoads:
+        """Join loads; systematic errors of one name are one error.
 
         Args:
-            parts: Loads with as many fresh errors each.
+            segments: Loads with equally many independent errors each.
 
         Returns:
             All of them.
         """
-        names = dict.fromkeys(name for part in parts for name in part.lasting)
-        lasting = {
-            name: np.concatenate([part.lasting.get(name, np.zeros_like(part.wrench)) for part in parts])
+        names = dict.fromkeys(name for loads in segments for name in loads.systematic)
+        systematic = {
+            name: np.concatenate([loads.systematic.get(name, np.zeros_like(loads.wrench)) for loads in segments])
             for name in names
         }
         return cls(
-            wrench=np.concatenate([part.wrench for part in parts]),
-            count=np.concatenate([part.count for part in parts]),
-            lasting=lasting,
-            fresh=np.concatenate([part.fresh for part in parts]),
+            wrench=np.concatenate([loads.wrench for loads in segments]),
+            count=np.concatenate([loads.count for loads in segments]),
+            systematic=systematic,
+            independent=np.concatenate([loads.independent for loads in segments]),
         )
 
     def matrix_error(self, noise: Any) -> MatrixError:
-        """Foretell the error of a matrix that is fitted to them, with an offset of its own.
+        """Predict the error of a matrix that is fitted to the loads together with an offset.
 
         Args:
             noise: Covariance of the noise of a sample, as wrench; shape (6, 6).
 
         Returns:
-            What is to be expected.
+            Covariance of the error.
         """
         size = load_sizes(self.wrench)
         moved = (self.wrench - np.average(self.wrench, axis=0, weights=self.count)) / size
@@ -218,30 +212,30 @@ class UncertainLoads:
         unspanned = np.where(np.abs(directions[~known]) > RANK_TOLERANCE, directions[~known], 0.0)
         # of the inverse second moment, without directions that are not spanned
         root = directions[known].T / values[known]
-        worth = moved @ root @ root.T / size * self.count[:, None]  # (n, 6): of every pose for every column of E
-        pairs = (worth[:, :, None] * worth[:, None, :]).reshape(len(worth), 36)
-        own = (self.fresh @ self.fresh.transpose(0, 2, 1)).reshape(len(worth), 36)
+        gain = moved @ root @ root.T / size * self.count[:, None]  # (n, 6): of every pose for every column of E
+        pairs = (gain[:, :, None] * gain[:, None, :]).reshape(len(gain), 36)
+        by_pose = (self.independent @ self.independent.transpose(0, 2, 1)).reshape(len(gain), 36)
         white = np.outer(np.asarray(noise, dtype=np.float64), pairs.T @ (1.0 / self.count))
         # of rows i, j and columns a, b, put in the order i, a, j, b
-        covariance = (own.T @ pairs + white).reshape(6, 6, 6, 6).transpose(0, 2, 1, 3)
-        for change in self.lasting.values():
-            share = change.T @ worth
+        covariance = (by_pose.T @ pairs + white).reshape(6, 6, 6, 6).transpose(0, 2, 1, 3)
+        for change in self.systematic.values():
+            share = change.T @ gain
             covariance = covariance + share[:, :, None, None] * share
         return MatrixError(covariance=covariance, unspanned=unspanned / size)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class MatrixError:
-    """Covariance of the share E by which a fitted matrix reads wrongly; a load l is read wrongly by `E l`."""
+    """Covariance of the relative error E of a fitted matrix; the measurement of a load l is wrong by `E l`."""
 
     covariance: FloatArray
-    """Of E[i, a] with E[j, b]; shape (6, 6, 6, 6); without what loads do not span."""
+    """Of E[i, a] with E[j, b]; shape (6, 6, 6, 6); without directions that loads do not span."""
     unspanned: FloatArray
-    """Directions of E of which nothing is known, each times a load; shape (6 - rank, 6)."""
+    """Linear functionals of loads for which E is undetermined; shape (6 - rank, 6)."""
 
     @property
     def rank(self) -> int:
-        """Directions of load that are known."""
+        """Number of directions of load that are determined."""
         return 6 - len(self.unspanned)
 
     @property
@@ -255,13 +249,13 @@ class MatrixError:
         return float(np.linalg.slogdet(self.covariance.reshape(36, 36))[1])
 
     def error(self, load: Any) -> FloatArray:
-        """Foretell the error of readings under loads that are changes.
+        """Predict the error of measurements of changes of load.
 
         Args:
             load: Loads; shape (..., 6); N, N m.
 
         Returns:
-            Standard deviations of the components, infinite where a load is not known; shape (..., 6); N, N m.
+            Standard deviations of the components, infinite where undetermined; shape (..., 6); N, N m.
         """
         loads = np.asarray(load, dtype=np.float64)
         variance = np.einsum("iaib,...a,...b->...i", self.covariance, loads, loads)
@@ -269,8 +263,8 @@ class MatrixError:
         beyond = (np.abs(loads @ self.unspanned.T) > RANK_TOLERANCE * terms.sum(axis=-1)).any(axis=-1)
         return np.where(beyond[..., None], np.inf, np.sqrt(np.maximum(variance, 0.0)))
 
-    def trace(self, loads: Any) -> tuple[float, float]:
-        """Foretell the mean square of the error over loads of use.
+    def mean_squares(self, loads: Any) -> tuple[float, float]:
+        """Predict the mean square of the error over operating loads.
 
         Args:
             loads: Loads; shape (n, 6); N, N m.

@@ -33,7 +33,7 @@ def bench_figure(picture: BenchPicture) -> Figure:
     """Draw positions of a workbench, grouped by load [1].
 
     Args:
-        picture: Forces over the weight that is hung, and errors, of one sensor or of many.
+        picture: Forces over the weight of the load, and errors, of one sensor or of many.
 
     Returns:
         The figure: forces seen along each axis, against the circle on which they should lie, and below a histogram of
@@ -73,12 +73,12 @@ def _project(panel: Axes, picture: BenchPicture, first: int, second: int) -> Non
 
 
 def _histogram(panel: Axes, picture: BenchPicture, axis: int) -> None:
-    every = np.concatenate([errors[:, axis] for errors in picture.errors])
-    reach = max(float(np.abs(every).max()), 1e-9)
-    edges = np.linspace(-reach, reach, _BINS + 1).tolist()
+    all_errors = np.concatenate([errors[:, axis] for errors in picture.errors])
+    largest = max(float(np.abs(all_errors).max()), 1e-9)
+    edges = np.linspace(-largest, largest, _BINS + 1).tolist()
     for k, errors in enumerate(picture.errors):
         kind = look(k)
         panel.hist(errors[:, axis], bins=edges, histtype="step", color=kind.colour, linestyle=kind.dashes)
     panel.set_title(f"error of f{_AXES[axis]}")
-    panel.set_xlabel("read less known, N")
+    panel.set_xlabel("measured less known, N")
     panel.set_ylabel("positions")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From a bench to a matrix: the generative fit on means of positions, and the scatter that weights them."""
+"""Fits of a matrix on a bench: the generative fit to means of positions, a robust fit, and the scatter of positions."""
 
 from __future__ import annotations
 
@@ -21,30 +21,30 @@ from forcetorque.workbench.bench import Bench, Placement
 from forcetorque.workbench.loads import BenchLoads
 
 _RANK = 1e-9
-"""Share of the largest singular value below which a column of the design explains nothing by itself."""
+"""Share of the largest singular value below which a column of the design depends on the others."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ResidualSpace:
-    """Readings of n positions without what a line explains."""
+    """Residuals of n positions from a linear fit of loads, with their precision."""
 
     precision: FloatArray
     """G = S^-1 - S^-1 X (X' S^-1 X)^-1 X' S^-1 for design X and scatter S; shape (n, 6, n, 6)."""
 
     @classmethod
     def of(cls, loads: FloatArray, scatter: FloatArray, known_faults: FloatArray | None = None) -> ResidualSpace:
-        """Set up the space.
+        """Compute the precision.
 
         Args:
             loads: Loads; shape (n, 6); N, N m.
             scatter: Covariance of every position; shape (n, 6, 6).
-            known_faults: Columns that are explained besides; shape (6 n, k).
+            known_faults: Further columns of the design; shape (6 n, k).
 
         Returns:
             The space.
 
         Raises:
-            SensorError: If a scatter is none.
+            SensorError: If a covariance is not positive definite.
         """
         n = len(loads)
         require_shape(scatter, name="scatter", shape=(n, 6, 6))
@@ -63,38 +63,38 @@ class ResidualSpace:
         return cls(precision=np.einsum("pki,pkql,qlj->piqj", roots, kept, roots, optimize=True))
 
     @property
-    def own(self) -> FloatArray:
-        """Blocks of the precision of every position with itself; shape (n, 6, 6)."""
+    def blocks(self) -> FloatArray:
+        """Diagonal blocks of the precision, one per position; shape (n, 6, 6)."""
         return np.einsum("pipj->pij", self.precision)
 
-    def weighed(self, residual: FloatArray) -> FloatArray:
-        """Multiply readings by the precision.
+    def weighted(self, residual: FloatArray) -> FloatArray:
+        """Multiply residuals by the precision.
 
         Args:
-            residual: Readings less loads of sensors; shape (s, n, 6).
+            residual: Measurements of sensors less loads; shape (s, n, 6).
 
         Returns:
-            What is left of them, weighed; shape (s, n, 6).
+            Weighted residuals of the linear fit; shape (s, n, 6).
         """
         n = len(self.precision)
         flat = residual.reshape(len(residual), 6 * n) @ self.precision.reshape(6 * n, 6 * n)
         return flat.reshape(residual.shape)
 
-    def distances(self, weighed: FloatArray) -> FloatArray:
-        """Say how far positions are from what all others say of them.
+    def distances(self, weighted: FloatArray) -> FloatArray:
+        """Compute how far each position is from its prediction by all others.
 
         Args:
-            weighed: As of `weighed`; shape (s, n, 6).
+            weighted: Weighted residuals, from `weighted`; shape (s, n, 6).
 
         Returns:
-            Squared distances, chi-squared of 6 for the stated scatter; shape (s, n).
+            Squared distances, chi-squared of 6 if the scatter is true; shape (s, n).
         """
-        inverse = np.linalg.pinv(self.own, rcond=_RANK, hermitian=True)
-        return np.einsum("spi,pij,spj->sp", weighed, inverse, weighed)
+        inverse = np.linalg.pinv(self.blocks, rcond=_RANK, hermitian=True)
+        return np.einsum("spi,pij,spj->sp", weighted, inverse, weighted)
 
 
 def design_columns(loads: FloatArray) -> FloatArray:
-    """Give what E and an offset do to the readings of all positions.
+    """Compute the effect of a relative matrix error E and of an offset on all positions.
 
     Args:
         loads: Loads; shape (n, 6); N, N m.
@@ -107,42 +107,42 @@ def design_columns(loads: FloatArray) -> FloatArray:
 
 
 LEAST_SENSORS = 30
-"""Fewer sensors do not tell the covariance of six components at a position."""
+"""Fewer sensors do not determine the covariance of six components at a position."""
 
 _SCATTER_SWEEPS = 20
 _STEP = 0.7
 """Power of the ratio by which a size is changed in a sweep: with 1 the positions overshoot each other."""
 _TAIL = 30.0
-"""Degrees of freedom of what sensors scatter by: nonlinearity and shapes that are not known make tails long, so that
-with those of the number of sensors one undamaged sensor of fourteen is suspected, not of fifty."""
+"""Degrees of freedom of the scatter of sensors: nonlinearity and unknown shapes make its tails long. With the number of
+sensors in its place, a fault is reported for one undamaged sensor of fourteen, not of fifty."""
 _LEAST_SIZE = 1.0
-"""Share of the median size that no position falls below: a line through few positions hides what they scatter by, and
-with sizes as small as they look, one undamaged sensor of ten is suspected."""
+"""Least scatter of a position, as a share of the median: a fit to few positions hides their scatter. Without this bound
+a fault is reported for one undamaged sensor of ten."""
 _QUANTILE, _DISTANCE = 0.85, 9.446
-"""Share of the sensors by which the size of a position is told, and the chi-squared of 6 that they lie below.
+"""Share of the sensors that determines the scatter of a position, and the chi-squared of 6 at this quantile.
 
-By the median, errors with long tails, as nonlinearity makes them, alarm two to three times too often.
+With the median, errors with long tails, as nonlinearity makes them, raise false alarms two to three times too often.
 """
 _EFFICIENCY = 0.37
-"""What a median of magnitudes tells of a deviation, over what all values tell of it."""
+"""Efficiency of a median of magnitudes as an estimate of a standard deviation."""
 _FLOOR = 1e-6
-"""Share of the largest load that any position scatters by at least."""
+"""Least standard deviation of a position, as a share of the largest load."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Scatter:
-    """Covariances of positions, and how well they are known."""
+    """Covariances of positions, with their degrees of freedom."""
 
     covariance: FloatArray
     """Covariance of every position; shape (n, 6, 6); N, N m."""
     degrees_of_freedom: float
-    """How many independent values tell it; infinite where it is stated."""
+    """Number of independent values that it is estimated from; infinite where it is specified."""
     source: str
-    """Text that says where it comes from."""
+    """Source of the covariances, as text."""
 
 
-def turned_loads(loads: BenchLoads) -> FloatArray:
-    """Say what turning gravity does to the loads; the weights hang where they did.
+def rotation_derivatives(loads: BenchLoads) -> FloatArray:
+    """Compute the derivatives of the loads by a rotation of gravity, with the weights at their positions.
 
     Args:
         loads: Loads of weights.
@@ -154,14 +154,14 @@ def turned_loads(loads: BenchLoads) -> FloatArray:
         SensorError: If no geometry is known.
     """
     if loads.weights is None:
-        raise SensorError("loads: expected weights with place and direction, got wrenches alone")
-    turned = [-skew(force) for force in loads.wrench[:, :3]]
-    arms = [skew(place) for place in loads.weights.position_m]
-    return np.stack([np.vstack([turn, arm @ turn]) for turn, arm in zip(turned, arms, strict=True)])
+        raise SensorError("loads: expected weights with position and direction, got wrenches alone")
+    forces = [-skew(force) for force in loads.wrench[:, :3]]
+    arms = [skew(position) for position in loads.weights.position_m]
+    return np.stack([np.vstack([force, arm @ force]) for force, arm in zip(forces, arms, strict=True)])
 
 
-def moved_loads(loads: BenchLoads) -> FloatArray:
-    """Say what moving the weights does to the loads.
+def shift_derivatives(loads: BenchLoads) -> FloatArray:
+    """Compute the derivatives of the loads by a shift of the weights.
 
     Args:
         loads: Loads.
@@ -172,40 +172,44 @@ def moved_loads(loads: BenchLoads) -> FloatArray:
     return np.stack([np.vstack([np.zeros((3, 3)), -skew(force)]) for force in loads.wrench[:, :3]])
 
 
-def stated_scatter(bench: Bench, matrix: FloatArray, placement: Placement) -> Scatter:
-    """Work out how loads scatter that are placed as is stated.
+def specified_scatter(bench: Bench, matrix: FloatArray, placement: Placement) -> Scatter:
+    """Compute the scatter of positions from the specified placement.
 
     Args:
         bench: The bench; its loads are of weights.
-        matrix: Matrix of the sensor, roughly; shape (6, c).
-        placement: How far loads may be off.
+        matrix: Approximate matrix of the sensor; shape (6, c).
+        placement: Standard deviations of the placement.
 
     Returns:
         The scatter.
     """
-    turned, moved = turned_loads(bench.loads), moved_loads(bench.loads)
     counts = np.hypot(placement.nonlinearity * bench.raw, bench.standard_error)
-    spread = np.concatenate(
-        [placement.angle_rad * turned, placement.position_m * moved, matrix * counts[:, None, :]], axis=2
+    errors = np.concatenate(
+        [
+            placement.angle_rad * rotation_derivatives(bench.loads),
+            placement.position_m * shift_derivatives(bench.loads),
+            matrix * counts[:, None, :],
+        ],
+        axis=2,
     )
-    covariance = spread @ spread.transpose(0, 2, 1) + _floor(bench.loads.wrench)
+    covariance = errors @ errors.transpose(0, 2, 1) + _floor(bench.loads.wrench)
     return Scatter(covariance=covariance, degrees_of_freedom=np.inf, source="as stated of the bench")
 
 
 def _floor(loads: FloatArray) -> FloatArray:
-    sizes = np.repeat([np.abs(loads[:, part]).max() for part in FORCE_AND_MOMENT], 3)
+    sizes = np.repeat([np.abs(loads[:, half]).max() for half in FORCE_AND_MOMENT], 3)
     return np.diag((_FLOOR * np.where(sizes > 0.0, sizes, 1.0)) ** 2)
 
 
-def own_scatter(loads: FloatArray, residual: FloatArray) -> Scatter:
+def residual_scatter(loads: FloatArray, residual: FloatArray) -> Scatter:
     """Estimate the scatter from one sensor, the same for all positions.
 
     Args:
         loads: Loads; shape (n, 6); N, N m.
-        residual: Readings less loads; shape (n, 6); N, N m.
+        residual: Measurements less loads; shape (n, 6); N, N m.
 
     Returns:
-        The scatter, by medians, so that a few faults count little.
+        The scatter, by medians, so that a few faults hardly change it.
     """
     n = len(loads)
     design = np.hstack([loads, np.ones((n, 1))])
@@ -220,15 +224,14 @@ def own_scatter(loads: FloatArray, residual: FloatArray) -> Scatter:
 
 
 def scatter_of_sensors(loads: FloatArray, residuals: FloatArray, shape: FloatArray) -> Scatter:
-    """Estimate by how much every position scatters from many sensors.
+    """Estimate the scatter of every position from many sensors.
 
-    Only the size is: 21 covariances of each of 24 positions, of which lines hide some, are too many for any number of
-    sensors that there is. Sizes are by a quantile, so that faults of one sensor in ten count little.
+    Only its size is estimated: 21 covariances of each of 24 positions are too many for any number of sensors that there
+    is. The sizes are by a quantile, so that faults of one sensor in ten hardly change them.
 
     Args:
-        loads: Loads, which all sensors had; shape (n, 6); N, N m.
-        residuals: Readings less loads, by matrices that no fault bends; shape (s, n, 6), s at least `LEAST_SENSORS`;
-            N, N m.
+        loads: Loads, the same for all sensors; shape (n, 6); N, N m.
+        residuals: Measurements by robust matrices less loads; shape (s, n, 6), s at least `LEAST_SENSORS`; N, N m.
         shape: Covariance of every position up to its size; shape (n, 6, 6).
 
     Returns:
@@ -243,40 +246,40 @@ def scatter_of_sensors(loads: FloatArray, residuals: FloatArray, shape: FloatArr
     size = np.ones(n)
     for _ in range(_SCATTER_SWEEPS):
         space = ResidualSpace.of(loads, size[:, None, None] * shape)
-        distance = np.quantile(space.distances(space.weighed(residuals)), _QUANTILE, axis=0)
+        distance = np.quantile(space.distances(space.weighted(residuals)), _QUANTILE, axis=0)
         size = size * (distance / _DISTANCE) ** _STEP
         size = np.maximum(size, _LEAST_SIZE * np.median(size))
     return Scatter(covariance=size[:, None, None] * shape, degrees_of_freedom=_TAIL, source=f"by {s} sensors")
 
 
 SESSION = "bench"
-"""Name of the one session of a bench: every block is taken from its own bias."""
+"""Name of the one power cycle of a bench: every block has its bias."""
 
 _SURE = 1e-9
-"""Share of the full scale that no mean reading is more certain than."""
+"""Least standard error of a mean raw sample, as a share of the full scale."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class BenchFit:
-    """A sensor that was fitted on a bench."""
+    """A fit of a sensor to known loads."""
 
     bench: Bench
-    """What was fitted: positions whose load and reading are known."""
+    """The data: positions whose load and raw samples are known."""
     means: WindowMeans
-    """The same as the estimator took it."""
+    """The data as the input of the estimator."""
     fit: GenerativeFit
-    """The fit; its offset is that of readings less bias."""
+    """The fit; its offset is that of raw samples less bias."""
 
     @property
     def offset(self) -> FloatArray:
-        """Offset for readings as they come, with the last bias; shape (6,); N, N m."""
+        """Offset for raw samples that include the last bias; shape (6,); N, N m."""
         return self.fit.model.offset - self.fit.model.matrix @ self.bench.bias
 
 
 def fit_bench(bench: Bench) -> BenchFit:
     """Fit a sensor to known loads.
 
-    Rows are linear: 24 positions, of which each may hold a fault, do not tell quadratic terms from placement.
+    The model is linear: 24 positions, each of which may hold a fault, do not separate quadratic terms from placement.
 
     Args:
         bench: The bench; without a prior its loads must have rank 6.
@@ -308,7 +311,7 @@ def _means(bench: Bench, weight: FloatArray) -> WindowMeans:
 
 
 def fit_means(bench: Bench, means: WindowMeans) -> GenerativeFit:
-    """Fit means of positions with what is known of their sensor.
+    """Fit means of positions, with full scale and prior matrix of their sensor.
 
     Args:
         bench: The sensor.
@@ -317,7 +320,7 @@ def fit_means(bench: Bench, means: WindowMeans) -> GenerativeFit:
     Returns:
         The fit.
     """
-    # what loads are off by differs from position to position: it shows in the residual, and is no lasting error
+    # errors of the loads differ from position to position: they are in the residual, and are not systematic
     assumptions = Assumptions(full_scale=bench.full_scale, accuracy=np.zeros(6))
     # the instant is unknown: the error of one position does not predict that of the next
     shapes = CANDIDATES if bench.time_s is not None else CANDIDATES[:1]
@@ -329,7 +332,7 @@ def _fitted(bench: Bench, weight: FloatArray) -> GenerativeFit:
 
 
 def _weights(bench: Bench, fit: GenerativeFit) -> FloatArray:
-    """Weight of each position: what its own scatter adds to what positions differ by anyway."""
+    """Weight of each position, from its standard error and the residual that all positions share."""
     response = np.linalg.pinv(fit.model.matrix)
     left = bench.raw - (bench.loads.wrench - fit.model.offset) @ response.T
     scatter, between = bench.standard_error / bench.full_scale, (left / bench.full_scale) ** 2
@@ -345,68 +348,68 @@ _MEDIAN_OF_SIX = 5.348
 """Median of a chi-squared of 6."""
 _TINY = 1e-12
 _SWAPS = 12
-"""Swaps to begin from."""
+"""Pairs of permuted positions that the search starts from."""
 
 
-def reading_matrix(bench: Bench, scatter: Scatter) -> FloatArray:
-    """Fit a matrix to those positions that agree.
+def robust_matrix(bench: Bench, scatter: Scatter) -> FloatArray:
+    """Fit a matrix by robust weights, so that few faulty positions hardly change it.
 
     Args:
         bench: The bench; its loads have rank 6.
-        scatter: How positions scatter, up to its size.
+        scatter: Scatter of positions, up to its size.
 
     Returns:
         The matrix; shape (6, c); N/count, N m/count.
     """
     loads, counts = bench.loads.wrench, bench.raw / bench.full_scale
     precision = np.asarray(np.linalg.inv(scatter.covariance), dtype=np.float64)
-    starts = np.stack([*([] if bench.prior is None else [_of_prior(bench)]), *_by_swaps(loads, counts)])
-    matrices, worth = _settled(loads, counts, precision, starts)
-    return matrices[int(np.argmin(worth))] / bench.full_scale
+    starts = np.stack([*([] if bench.prior is None else [_prior_start(bench)]), *_permuted_starts(loads, counts)])
+    matrices, cost = _reweighted(loads, counts, precision, starts)
+    return matrices[int(np.argmin(cost))] / bench.full_scale
 
 
-def _of_prior(bench: Bench) -> FloatArray:
+def _prior_start(bench: Bench) -> FloatArray:
     prior = np.asarray(bench.prior) * bench.full_scale
     residual = bench.raw / bench.full_scale @ prior.T - bench.loads.wrench
     return np.hstack([prior, -np.median(residual, axis=0)[:, None]])
 
 
-def _by_swaps(loads: FloatArray, counts: FloatArray) -> Iterator[FloatArray]:
-    """Matrices with offset by least squares, with loads as stated and with two of them swapped; shape (6, c + 1)."""
+def _permuted_starts(loads: FloatArray, counts: FloatArray) -> Iterator[FloatArray]:
+    """Matrices with offset by least squares, of the loads as specified and of two permuted; shape (6, c + 1)."""
     design = np.hstack([loads, np.ones((len(loads), 1))])
     left = np.linalg.svd(design, full_matrices=False)[0]
     kept = np.eye(len(loads)) - left @ left.T
     first, second = np.triu_indices(len(loads), k=1)
-    apart, residual, own = counts[second] - counts[first], kept @ counts, np.diag(kept)
-    change = 2.0 * ((residual[first] - residual[second]) * apart).sum(axis=1) + (apart**2).sum(axis=1) * (
-        own[first] + own[second] - 2.0 * kept[first, second]
+    difference, residual, diagonal = counts[second] - counts[first], kept @ counts, np.diag(kept)
+    change = 2.0 * ((residual[first] - residual[second]) * difference).sum(axis=1) + (difference**2).sum(axis=1) * (
+        diagonal[first] + diagonal[second] - 2.0 * kept[first, second]
     )
-    yield _lines(design, counts, np.ones((1, len(loads))))[0]
-    for place in np.argsort(change)[:_SWAPS]:
-        swapped = counts.copy()
-        swapped[[first[place], second[place]]] = counts[[second[place], first[place]]]
-        yield _lines(design, swapped, np.ones((1, len(loads))))[0]
+    yield _weighted_fits(design, counts, np.ones((1, len(loads))))[0]
+    for pair in np.argsort(change)[:_SWAPS]:
+        permuted = counts.copy()
+        permuted[[first[pair], second[pair]]] = counts[[second[pair], first[pair]]]
+        yield _weighted_fits(design, permuted, np.ones((1, len(loads))))[0]
 
 
-def _settled(
+def _reweighted(
     loads: FloatArray, counts: FloatArray, precision: FloatArray, starts: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Weigh anew until it settles, from every start; matrices without offset, and how badly they fit."""
+    """Iteratively reweighted fits from every start; matrices without offset, and the cost of each."""
     design = np.hstack([loads, np.ones((len(loads), 1))])
     size = np.einsum("pii->p", precision)
-    matrices, worth = starts, np.zeros(len(starts))
+    matrices, cost = starts, np.zeros(len(starts))
     for _ in range(_SWEEPS):
         residual = counts @ matrices[:, :, :-1].transpose(0, 2, 1) + matrices[:, None, :, -1] - loads
         distance = np.einsum("spi,pij,spj->sp", residual, precision, residual, optimize=True)
-        # a scatter estimated from a line that follows a fault is far too large: its size is estimated separately
+        # a scatter estimated from a fit that follows a fault is far too large: its size is estimated separately
         scale = np.median(distance, axis=1, keepdims=True) / _MEDIAN_OF_SIX + _TINY
-        worth = 6.0 * len(loads) * np.log(scale[:, 0]) + (_STUDENT + 6.0) * np.log1p(distance / scale).sum(axis=1)
-        matrices = _lines(design, counts, size * (_STUDENT + 6.0) / (_STUDENT + distance / scale))
-    return matrices[:, :, :-1], worth
+        cost = 6.0 * len(loads) * np.log(scale[:, 0]) + (_STUDENT + 6.0) * np.log1p(distance / scale).sum(axis=1)
+        matrices = _weighted_fits(design, counts, size * (_STUDENT + 6.0) / (_STUDENT + distance / scale))
+    return matrices[:, :, :-1], cost
 
 
-def _lines(design: FloatArray, counts: FloatArray, weights: FloatArray) -> FloatArray:
-    """Matrix and offset that undo the response of counts to loads, for every set of weights; shape (s, 6, c + 1)."""
+def _weighted_fits(design: FloatArray, counts: FloatArray, weights: FloatArray) -> FloatArray:
+    """Matrix and offset that invert the response of counts to loads, for every set of weights; shape (s, 6, c + 1)."""
     scale = np.linalg.norm(design, axis=0)
     unit = design / scale
     moments = np.einsum("sp,pi,pj->sij", weights, unit, unit, optimize=True)

@@ -6,49 +6,47 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from importlib import resources
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, read_only
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, check_arrays, names, read_only
 from forcetorque.base.errors import FormatError, SensorError, ShapeError, UnitError, known_names
 from forcetorque.base.input_file import read_text
 from forcetorque.base.wrench import MeasureDirection, reading_sign
 
 LONGEST_LEVER_M = 10.0
-"""A weight farther from the sensor than this is on no bench: its place was typed in another unit."""
+"""No weight of a bench is farther from the sensor: its position was typed in another unit."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Weights:
+class Weights(ArrayRecord):
     """Weights at n positions, one at a time."""
 
-    mass_kg: FloatArray
-    """Mass of the weight alone; shape (n,); kg."""
-    structure_kg: FloatArray
-    """Mass of the mounting structure that hangs there besides; shape (n,); kg."""
-    position_m: FloatArray
+    mass_kg: FloatArray = field(metadata=array("n"))
+    """Mass of the weight without the structure; shape (n,); kg."""
+    structure_kg: FloatArray = field(metadata=array("n"))
+    """Mass of the mounting structure that hangs there too; shape (n,); kg."""
+    position_m: FloatArray = field(metadata=array("n", 3))
     """Where the load acts, in the sensor's frame; shape (n, 3); m."""
-    direction: FloatArray
+    direction: FloatArray = field(metadata=array("n", 3))
     """Where gravity points in the sensor's frame, normalised to length 1; shape (n, 3)."""
     gravity: float
     """Magnitude of gravity; m/s2."""
 
     def __post_init__(self) -> None:
-        n = len(np.asarray(self.mass_kg))
-        shapes = {"mass_kg": (n,), "structure_kg": (n,), "position_m": (n, 3), "direction": (n, 3)}
-        for field, shape in shapes.items():
-            values = read_only(getattr(self, field), name=field, shape=shape)
+        check_arrays(self)
+        for name in ("mass_kg", "structure_kg", "position_m", "direction"):
+            values = getattr(self, name)
             if not np.isfinite(values).all():
                 row = int(np.argwhere(~np.isfinite(values))[0, 0])
-                raise SensorError(f"weight {row + 1}: {field}: expected finite numbers, got {values[row]}")
-            object.__setattr__(self, field, values)
+                raise SensorError(f"weight {row + 1}: {name}: expected finite numbers, got {values[row]}")
         _require_weights(self)
-        lengths = np.linalg.norm(self.direction, axis=1, keepdims=True)
-        object.__setattr__(self, "direction", read_only(self.direction / lengths, name="direction", shape=(n, 3)))
+        unit = self.direction / np.linalg.norm(self.direction, axis=1, keepdims=True)
+        object.__setattr__(self, "direction", read_only(unit, name="direction", shape=(None, 3)))
 
     @property
     def total_kg(self) -> FloatArray:
@@ -56,10 +54,10 @@ class Weights:
         return self.mass_kg + self.structure_kg
 
     def wrench(self, *, measure_direction: MeasureDirection) -> FloatArray:
-        """Give what a sensor reads of each weight: force along gravity, moment `position x force`.
+        """Compute what a sensor measures of each weight: force along gravity, moment `position x force`.
 
         Args:
-            measure_direction: Who acts on whom in the reading; the load is the child.
+            measure_direction: Who acts on whom in the measurement; the load is the child.
 
         Returns:
             Wrenches in the sensor's frame, about its origin; shape (n, 6); N, N m.
@@ -77,14 +75,12 @@ def _require_weights(weights: Weights) -> None:
     for k, (mass, structure) in enumerate(zip(weights.mass_kg, weights.structure_kg, strict=True)):
         where = f"weight {k + 1}"
         if not mass > 0.0:
-            raise SensorError(
-                f"{where}: expected a mass above 0 kg, got {mass:g}; what is recorded without a weight is bias"
-            )
+            raise SensorError(f"{where}: expected a mass above 0 kg, got {mass:g}; a block without a weight is bias")
         if structure < 0.0:
             raise SensorError(f"{where}: expected a structure of at least 0 kg, got {structure:g}")
         if levers[k] > LONGEST_LEVER_M:
             raise SensorError(
-                f"{where}: expected a place within {LONGEST_LEVER_M:g} m of the sensor, got {levers[k]:g} m; "
+                f"{where}: expected a position within {LONGEST_LEVER_M:g} m of the sensor, got {levers[k]:g} m; "
                 "is it in mm? State the unit in the heading"
             )
         if not lengths[k] > 0.0:
@@ -92,21 +88,21 @@ def _require_weights(weights: Weights) -> None:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class BenchLoads:
-    """What a sensor is known to read at n positions."""
+class BenchLoads(ArrayRecord):
+    """Known wrenches on a sensor at n positions."""
 
-    names: tuple[str, ...]
+    names: tuple[str, ...] = field(metadata=names("n"))
     """Name of every position, unique."""
-    wrench: FloatArray
+    wrench: FloatArray = field(metadata=array("n", 6))
     """Wrenches in the sensor's frame and direction; shape (n, 6); N, N m; NaN where a component is not known."""
     series: tuple[str, ...]
-    """Series that each belongs to: positions that are set up together."""
+    """Series of every position: positions of one series are set up together."""
     weights: Weights | None = None
-    """Geometry that the wrenches come from; None where wrenches were stated."""
+    """Geometry that the wrenches come from; None where wrenches were specified."""
 
     def __post_init__(self) -> None:
+        check_arrays(self)
         n = len(self.names)
-        object.__setattr__(self, "wrench", read_only(self.wrench, name="wrench", shape=(n, 6)))
         if len(set(self.names)) < n:
             twice = next(name for name in self.names if self.names.count(name) > 1)
             raise SensorError(f"loads: expected every name once, got {twice!r} again")
@@ -120,12 +116,12 @@ class BenchLoads:
     def of_weights(
         cls, names: Sequence[str], weights: Weights, *, measure_direction: MeasureDirection, series: Sequence[str] = ()
     ) -> BenchLoads:
-        """Make loads of weights.
+        """Compute the loads of weights.
 
         Args:
             names: Name of every position.
             weights: The weights.
-            measure_direction: Who acts on whom in the reading; the load is the child.
+            measure_direction: Who acts on whom in the measurement; the load is the child.
             series: Series of every position; one for all if left out.
 
         Returns:
@@ -143,35 +139,35 @@ class BenchLoads:
         """Whether all six components of a position are known; shape (n,)."""
         return np.asarray(np.isfinite(self.wrench).all(axis=1), dtype=np.bool_)
 
-    def taken(self, positions: Any) -> BenchLoads:
-        """Give some of the positions.
+    def select(self, positions: Any) -> BenchLoads:
+        """Select positions.
 
         Args:
-            positions: Which, by number; shape (k,).
+            positions: Indices of the positions; shape (k,).
 
         Returns:
             Their loads.
         """
-        places = np.asarray(positions, dtype=np.int64)
+        indices = np.asarray(positions, dtype=np.int64)
         weights = self.weights
         if weights is not None:
-            weights = Weights(
-                mass_kg=weights.mass_kg[places],
-                structure_kg=weights.structure_kg[places],
-                position_m=weights.position_m[places],
-                direction=weights.direction[places],
-                gravity=weights.gravity,
+            weights = replace(
+                weights,
+                mass_kg=weights.mass_kg[indices],
+                structure_kg=weights.structure_kg[indices],
+                position_m=weights.position_m[indices],
+                direction=weights.direction[indices],
             )
         return BenchLoads(
-            names=tuple(self.names[k] for k in places),
-            wrench=self.wrench[places],
-            series=tuple(self.series[k] for k in places),
+            names=tuple(self.names[k] for k in indices),
+            wrench=self.wrench[indices],
+            series=tuple(self.series[k] for k in indices),
             weights=weights,
         )
 
 
 THESIS_TABLE: Final = "thesis-6.1"
-"""Name of the bundled table: direction and place of its 24 positions, not its printed labels, which follow no rule."""
+"""Name of the bundled table: direction and position of the 24 loads, not the printed labels, which follow no rule."""
 
 _MASS_UNITS: Final = {"kg": 1.0, "g": 1e-3}
 _LENGTH_UNITS: Final = {"m": 1.0, "mm": 1e-3, "cm": 1e-2}
@@ -183,11 +179,11 @@ def read_loads(source: Path | str, *, measure_direction: MeasureDirection) -> Be
     """Read a table of weights: `# gravity_m_per_s2: 9.81`, a heading, and a row per position.
 
     The heading has `name`, `mass_kg`, `x_m y_m z_m`, `dx dy dz` (where gravity points in the sensor's frame), and may
-    have `structure_kg` and `series`; masses may be in g, places in mm or cm, one unit for all three.
+    have `structure_kg` and `series`; masses may be in g, positions in mm or cm, one unit for all three.
 
     Args:
         source: File, or `thesis-6.1` for the bundled table.
-        measure_direction: Who acts on whom in the reading; the load is the child.
+        measure_direction: Who acts on whom in the measurement; the load is the child.
 
     Returns:
         The loads.
@@ -211,17 +207,17 @@ class _Table:
 
     def __init__(self, where: str, text: str) -> None:
         self._where = where
-        stated = [
-            (line, [word.strip() for word in next(csv.reader([content]))])
+        rows = [
+            (line, [cell.strip() for cell in next(csv.reader([content]))])
             for line, content in enumerate(text.splitlines(), start=1)
             if content.strip() and not content.startswith("#")
         ]
-        if len(stated) < 2:
-            raise FormatError(f"{where}: expected a heading and a row per position, got {len(stated)} lines")
-        (self._heading_line, self._heading), self._rows = stated[0], stated[1:]
-        for line, words in self._rows:
-            if len(words) != len(self._heading):
-                raise FormatError(f"{where}:{line}: expected {len(self._heading)} fields, got {len(words)}")
+        if len(rows) < 2:
+            raise FormatError(f"{where}: expected a heading and a row per position, got {len(rows)} lines")
+        (self._heading_line, self._heading), self._rows = rows[0], rows[1:]
+        for line, cells in self._rows:
+            if len(cells) != len(self._heading):
+                raise FormatError(f"{where}:{line}: expected {len(self._heading)} fields, got {len(cells)}")
 
     def loads(self, gravity: float, measure_direction: MeasureDirection) -> BenchLoads:
         """The table as loads."""
@@ -240,11 +236,11 @@ class _Table:
             direction=np.column_stack([self._column(name) for name in _DIRECTION]),
             gravity=gravity,
         )
-        series = self._words("series") if "series" in self._heading else ()
-        return BenchLoads.of_weights(self._words("name"), weights, measure_direction=measure_direction, series=series)
+        series = self._cells("series") if "series" in self._heading else ()
+        return BenchLoads.of_weights(self._cells("name"), weights, measure_direction=measure_direction, series=series)
 
     def _with_unit(self, name: str, units: dict[str, float], *, optional: bool = False) -> tuple[str, float]:
-        headings = [word for word in self._heading if word.startswith(f"{name}_")]
+        headings = [heading for heading in self._heading if heading.startswith(f"{name}_")]
         if optional and not headings:
             return "", 1.0
         unit = headings[0].removeprefix(f"{name}_") if len(headings) == 1 else ""
@@ -255,24 +251,24 @@ class _Table:
             )
         return headings[0], units[unit]
 
-    def _words(self, name: str) -> list[str]:
+    def _cells(self, name: str) -> list[str]:
         if name not in self._heading:
             raise FormatError(
                 f"{self._where}:{self._heading_line}: expected a column {name!r}; {known_names(name, self._heading)}"
             )
-        place = self._heading.index(name)
-        return [words[place] for _, words in self._rows]
+        index = self._heading.index(name)
+        return [cells[index] for _, cells in self._rows]
 
     def _column(self, name: str) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-        words = zip(self._rows, self._words(name), strict=True)
-        return np.array([_number(f"{self._where}:{line}: {name}", word) for (line, _), word in words])
+        cells = zip(self._rows, self._cells(name), strict=True)
+        return np.array([_number(f"{self._where}:{line}: {name}", cell) for (line, _), cell in cells])
 
 
-def _number(where: str, word: str) -> float:
+def _number(where: str, cell: str) -> float:
     try:
-        number = float(word)
+        number = float(cell)
     except ValueError:
         number = np.nan
     if not np.isfinite(number):
-        raise FormatError(f"{where}: expected a finite number, got {word!r}")
+        raise FormatError(f"{where}: expected a finite number, got {cell!r}")
     return number

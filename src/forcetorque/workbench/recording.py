@@ -33,40 +33,12 @@ from forcetorque.workbench.workbench_file import (
 )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Recorded:
-    """A block at a position and the block without load before it."""
-
-    block: Block
-    """The position."""
-    bias: Block
-    """The bias."""
-
-
-def recorded_blocks(
-    readings: BlockReadings | LogReadings, names: tuple[str, ...], full_scale: FloatArray, inputs: Inputs
-) -> list[Recorded]:
-    """Read the blocks that there are.
-
-    Args:
-        readings: How they are stated.
-        names: Names of all positions in their order.
-        full_scale: Largest magnitude of a reading of every channel; shape (c,); counts.
-        inputs: Resolves the files.
-
-    Returns:
-        Blocks as they were recorded.
-    """
-    if isinstance(readings, LogReadings):
-        return list(_from_log(readings, names, full_scale, inputs))
-    return list(_from_files(readings, names, full_scale, inputs))
-
-
-def _from_files(
+def _blocks_of_files(
     readings: BlockReadings, names: tuple[str, ...], full_scale: FloatArray, inputs: Inputs
-) -> Iterator[Recorded]:
+) -> Iterator[Block]:
+    """Blocks of positions with their bias, in the order of the files that exist."""
     left = list(names)
-    for file, stated in _files(readings, names, inputs):
+    for file, position in _files(readings, names, inputs):
         path = inputs.file(Path(file))
         (stream,) = read_table(path, _layout(readings), stream=file, clock=file).streams
         samples = _raw(stream)
@@ -77,25 +49,22 @@ def _from_files(
                 f"{path}: expected a block of {rows} rows without load, then blocks of {rows} rows, got {len(samples)} "
                 "rows; was the recording cut? See block_rows"
             )
-        positions = [stated] if stated is not None else left[: count - 1]
+        positions = [position] if position is not None else left[: count - 1]
         if len(positions) != count - 1:
             raise FormatError(f"{path}: expected {len(positions)} positions after the bias, got {count - 1} blocks")
         left = left[len(positions) :]
-        bias, *blocks = (
-            Block.of(
-                position,
-                samples[k * rows : (k + 1) * rows],
-                full_scale,
-                source=f"{file}, rows {k * rows + 1}-{(k + 1) * rows}",
-            )
-            for k, position in enumerate([BIAS, *positions])
-        )
-        for block in blocks:
-            yield Recorded(block=block, bias=bias)
+        bias = None
+        for k, name in enumerate([BIAS, *positions]):
+            source = f"{file}, rows {k * rows + 1}-{(k + 1) * rows}"
+            block = Block.of(name, samples[k * rows : (k + 1) * rows], full_scale, source=source, bias=bias)
+            if bias is None:
+                bias = block
+            else:
+                yield block
 
 
 def _files(readings: BlockReadings, names: tuple[str, ...], inputs: Inputs) -> Iterator[tuple[str, str | None]]:
-    """Files that exist, with the position of each where its name tells it."""
+    """Files that exist, with the position of each where the name of the file determines it."""
     if not isinstance(readings.files, str):
         yield from ((file, None) for file in readings.files)
         return
@@ -103,68 +72,59 @@ def _files(readings: BlockReadings, names: tuple[str, ...], inputs: Inputs) -> I
     yield from ((file, name) for file, name in numbered if (inputs.folder / file).is_file())
 
 
-def _from_log(
+def _blocks_of_log(
     readings: LogReadings, names: tuple[str, ...], full_scale: FloatArray, inputs: Inputs
-) -> Iterator[Recorded]:
+) -> Iterator[Block]:
+    """Blocks of positions with their bias, in the order of the intervals."""
     path = inputs.file(readings.file)
     stamp = StampColumn(column=readings.time, unit=readings.time_unit)
     (stream,) = read_table(path, _layout(readings, stamp), stream=readings.file.name, clock="log").streams
     samples, time = _raw(stream), 1e-9 * (stream.stamp_ns - stream.stamp_ns[0])
     bias = None
-    for stretch in readings.block:
-        if stretch.position not in (BIAS, *names):
+    for interval in readings.block:
+        if interval.position not in (BIAS, *names):
             raise ExperimentError(
-                f"readings.block: no position is called {stretch.position!r}; "
-                f"{known_names(stretch.position, (BIAS, *names))}"
+                f"readings.block: no position is called {interval.position!r}; "
+                f"{known_names(interval.position, (BIAS, *names))}"
             )
-        within = (time >= stretch.start_s) & (time < stretch.end_s)
-        source = f"{readings.file}, {stretch.start_s:g}-{stretch.end_s:g} s"
+        within = (time >= interval.start_s) & (time < interval.end_s)
+        source = f"{readings.file}, {interval.start_s:g}-{interval.end_s:g} s"
         if not within.any():
             raise ExperimentError(f"readings.block: {source}: expected rows of the log, there is none")
-        block = Block.of(stretch.position, samples[within], full_scale, source=source, time_s=time[within])
-        if stretch.position == BIAS:
+        is_bias = interval.position == BIAS
+        block = Block.of(
+            interval.position,
+            samples[within],
+            full_scale,
+            source=source,
+            time_s=time[within],
+            bias=None if is_bias else bias,
+        )
+        if is_bias:
             bias = block
         elif bias is not None:
-            yield Recorded(block=block, bias=bias)
+            yield block
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class RecordedRows:
-    """A table of mean readings, and the loads that it states."""
-
-    raw: FloatArray
-    """Mean readings; shape (n, c); counts; NaN where there is none."""
-    loads: BenchLoads | None
-    """Loads by line of the file; None where the table states none."""
-
-
-def recorded_rows(readings: RowReadings, inputs: Inputs) -> RecordedRows:
-    """Read a table of mean readings.
-
-    Args:
-        readings: How it is stated.
-        inputs: Resolves the file.
-
-    Returns:
-        Readings and loads.
-    """
+def _table_of_means(readings: RowReadings, inputs: Inputs) -> tuple[FloatArray, BenchLoads | None]:
+    """Mean raw samples, shape (n, c), counts, NaN where missing; and loads by line, where the table has them."""
     path = inputs.file(readings.file)
     (stream,) = read_table(path, _row_layout(readings), stream=readings.file.name, clock="rows").streams
     raw = _raw(stream)
     if readings.known is None:
-        return RecordedRows(raw=raw, loads=None)
+        return raw, None
     wrench = stream.signal("wrench").values
     first = 1 if readings.columns is not None else 2
     lines = [str(first + k) for k in range(len(raw))]
-    stated = np.flatnonzero(np.isfinite(raw).any(axis=1) | np.isfinite(wrench).any(axis=1))
-    begins = np.cumsum(~wrench[stated].any(axis=1)) if readings.series_from_zero else np.zeros(len(stated), dtype=int)
-    names = {number: lines[stated[np.flatnonzero(begins == number)[0]]] for number in np.unique(begins)}
+    filled = np.flatnonzero(np.isfinite(raw).any(axis=1) | np.isfinite(wrench).any(axis=1))
+    series = np.cumsum(~wrench[filled].any(axis=1)) if readings.series_from_zero else np.zeros(len(filled), dtype=int)
+    first_lines = {number: lines[filled[np.flatnonzero(series == number)[0]]] for number in np.unique(series)}
     loads = BenchLoads(
-        names=tuple(lines[k] for k in stated),
-        wrench=wrench[stated],
-        series=tuple(f"from line {names[number]}" for number in begins),
+        names=tuple(lines[k] for k in filled),
+        wrench=wrench[filled],
+        series=tuple(f"from line {first_lines[number]}" for number in series),
     )
-    return RecordedRows(raw=raw[stated], loads=loads)
+    return raw[filled], loads
 
 
 def _raw(stream: Stream) -> FloatArray:
@@ -193,7 +153,7 @@ def _row_layout(readings: RowReadings) -> TableLayout:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class BenchRecording:
-    """What one workbench file says, and what was recorded so far."""
+    """Contents of one workbench file, and what was recorded so far."""
 
     file: str
     """The file."""
@@ -203,24 +163,24 @@ class BenchRecording:
     """All loads, recorded or not."""
     left_out: tuple[str, ...]
     """Positions that the file leaves out."""
-    recorded: tuple[Recorded, ...]
-    """Blocks as they came; none of a table of means."""
+    blocks: tuple[Block, ...]
+    """Blocks of positions in the order of the recording; none of a table of means."""
     bench: Bench | None
-    """What was read of loads; None before anything is."""
+    """Measurements of the loads; None before the first."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every file that was read."""
 
     @classmethod
     def of(cls, bench: Bench, *, measure_direction: MeasureDirection, frame: str = "sensor") -> BenchRecording:
-        """Take what a sensor read from arrays, without a file.
+        """Make a recording of arrays, without a file.
 
         Args:
-            bench: What it read.
-            measure_direction: Who acts on whom in the reading; the load is the child.
-            frame: Frame along whose axes loads are stated.
+            bench: Measurements of the sensor.
+            measure_direction: Who acts on whom in the measurement; the load is the child.
+            frame: Frame along whose axes loads are specified.
 
         Returns:
-            The same as of a file.
+            The recording.
         """
         sensor = BenchSensorTable(
             name=bench.sensor,
@@ -234,7 +194,7 @@ class BenchRecording:
             sensor=sensor,
             loads=bench.loads,
             left_out=(),
-            recorded=(),
+            blocks=(),
             bench=bench,
             inputs_sha256={},
         )
@@ -249,79 +209,83 @@ def read_bench(path: Path | str) -> BenchRecording:
     Returns:
         Loads, blocks and readings.
     """
-    stated = read_toml(path, BenchFile, what="a workbench file")
+    content = read_toml(path, BenchFile, what="a workbench file")
     inputs = Inputs(Path(path).parent)
     with stated_in(str(path)):
-        return _recording(str(path), stated, inputs)
+        return _recording(str(path), content, inputs)
 
 
-def _recording(file: str, stated: BenchFile, inputs: Inputs) -> BenchRecording:
-    sensor, readings = stated.sensor, stated.readings
+def _recording(file: str, content: BenchFile, inputs: Inputs) -> BenchRecording:
+    sensor, readings = content.sensor, content.readings
     full_scale = _full_scale(sensor, len(readings.channels))
-    recorded: list[Recorded] = []
+    blocks: list[Block] = []
     if isinstance(readings, RowReadings):
-        rows = recorded_rows(readings, inputs)
-        loads = rows.loads or _loads(stated, inputs)
-        if len(rows.raw) > len(loads):
-            raise ExperimentError(
-                f"readings.file: expected a row for each of {len(loads)} positions, got {len(rows.raw)}"
-            )
-        names, raw, error, bias, time = loads.names[: len(rows.raw)], rows.raw, None, None, None
+        raw, known = _table_of_means(readings, inputs)
+        loads = known or _loads(content, inputs)
+        if len(raw) > len(loads):
+            raise ExperimentError(f"readings.file: expected a row for each of {len(loads)} positions, got {len(raw)}")
+        names, error, bias, time = loads.names[: len(raw)], None, None, None
     else:
-        loads = _loads(stated, inputs)
-        recorded = recorded_blocks(readings, loads.names, full_scale, inputs)
-        names = tuple(entry.block.position for entry in recorded)
-        raw = np.array([entry.block.mean - entry.bias.mean for entry in recorded])
-        error = np.array([np.hypot(entry.block.standard_error, entry.bias.standard_error) for entry in recorded])
-        bias = recorded[-1].bias.mean if recorded else None
-        times = [entry.block.time_s for entry in recorded]
+        loads = _loads(content, inputs)
+        if isinstance(readings, LogReadings):
+            blocks = list(_blocks_of_log(readings, loads.names, full_scale, inputs))
+        else:
+            blocks = list(_blocks_of_files(readings, loads.names, full_scale, inputs))
+        names = tuple(block.position for block in blocks)
+        biases = [block.bias for block in blocks if block.bias is not None]
+        raw = np.array([block.change for block in blocks])
+        error = np.array(
+            [np.hypot(block.standard_error, bias.standard_error) for block, bias in zip(blocks, biases, strict=True)]
+        )
+        bias = biases[-1].mean if biases else None
+        times = [block.time_s for block in blocks]
         time = None if None in times else np.array(times, dtype=np.float64)
-    used = _used(names, loads, stated.loads.leave_out)
-    taken = [k for k, _ in used]
+    pairs = _used(names, loads, content.loads.leave_out)
+    used = [k for k, _ in pairs]
     bench = None
-    if used:
+    if pairs:
         bench = Bench(
             sensor=sensor.name,
             serial=sensor.serial,
-            loads=loads.taken([place for _, place in used]),
-            raw=raw[taken],
-            standard_error=None if error is None else error[taken],
+            loads=loads.select([position for _, position in pairs]),
+            raw=raw[used],
+            standard_error=None if error is None else error[used],
             full_scale=full_scale,
             bias=bias,
-            time_s=None if time is None else time[taken],
+            time_s=None if time is None else time[used],
             prior=_prior(sensor, len(readings.channels), inputs),
-            placement=None if stated.placement is None else _placement(stated.placement),
+            placement=None if content.placement is None else _placement(content.placement),
         )
     return BenchRecording(
         file=file,
         sensor=sensor,
         loads=loads,
-        left_out=stated.loads.leave_out,
-        recorded=tuple(recorded),
+        left_out=content.loads.leave_out,
+        blocks=tuple(blocks),
         bench=bench,
         inputs_sha256=inputs.sha256(),
     )
 
 
-def _loads(stated: BenchFile, inputs: Inputs) -> BenchLoads:
-    table = stated.loads.table
+def _loads(content: BenchFile, inputs: Inputs) -> BenchLoads:
+    table = content.loads.table
     source = table if table == THESIS_TABLE else inputs.file(Path(table))
-    return read_loads(source, measure_direction=stated.sensor.measure_direction)
+    return read_loads(source, measure_direction=content.sensor.measure_direction)
 
 
 def _full_scale(sensor: BenchSensorTable, channels: int) -> FloatArray:
-    stated = sensor.full_scale
-    if isinstance(stated, float):
-        return np.full(channels, stated)
-    if len(stated) != channels:
+    limits = sensor.full_scale
+    if isinstance(limits, float):
+        return np.full(channels, limits)
+    if len(limits) != channels:
         raise ExperimentError(
-            f"sensor.full_scale: expected a number for each of {channels} channels, got {len(stated)}"
+            f"sensor.full_scale: expected a number for each of {channels} channels, got {len(limits)}"
         )
-    return np.array(stated)
+    return np.array(limits)
 
 
 def _used(names: Sequence[str], loads: BenchLoads, left_out: Sequence[str]) -> list[tuple[int, int]]:
-    """Numbers of blocks that are used, with those of their positions; of a repeated position the last block."""
+    """Indices of blocks that are used, with those of their positions; of a repeated position the last block."""
     for name in left_out:
         if name not in loads.names:
             raise ExperimentError(f"loads.leave_out: no position {name!r}; {known_names(name, loads.names)}")
@@ -329,11 +293,11 @@ def _used(names: Sequence[str], loads: BenchLoads, left_out: Sequence[str]) -> l
     return [(k, loads.names.index(name)) for name, k in last.items() if name not in left_out]
 
 
-def _placement(stated: PlacementTable) -> Placement:
+def _placement(table: PlacementTable) -> Placement:
     return Placement(
-        angle_rad=math.radians(stated.angle_deg),
-        position_m=1e-3 * stated.position_mm,
-        nonlinearity=stated.nonlinearity,
+        angle_rad=math.radians(table.angle_deg),
+        position_m=1e-3 * table.position_mm,
+        nonlinearity=table.nonlinearity,
     )
 
 

@@ -22,7 +22,7 @@ from forcetorque.results.number_text import number
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, FloatOrNull, Row, Shown, ShownWrench, Table, WrenchValues, table_of
 from forcetorque.workbench.bench import block_findings
-from forcetorque.workbench.faults import Examined, FaultRow
+from forcetorque.workbench.faults import FaultRow, FaultSearch
 from forcetorque.workbench.recording import BenchRecording
 
 
@@ -38,29 +38,29 @@ class BenchSensorRow(Row):
     positions: Annotated[int, Shown("positions")]
     """Positions that were fitted."""
     without_load: tuple[str, ...]
-    """Positions whose load, or reading, is not known: they are not used."""
+    """Positions whose load, or raw sample, is unknown: they are not used."""
     rank: Annotated[int, Shown("rank")]
-    """Directions of load that the positions move."""
-    unmoved: Annotated[tuple[str, ...], Shown("loads that nothing moves")]
-    """The others: there the matrix is the prior matrix, or undetermined."""
+    """Number of directions of load that the positions excite."""
+    unmoved: Annotated[tuple[str, ...], Shown("loads not excited")]
+    """The other directions: there the matrix is the prior matrix, or undetermined."""
     unseen: str
-    """Directions of the raw readings that no load moves; empty for none."""
+    """Directions of the raw samples that no load excites; empty for none."""
     fitted: Annotated[bool, Shown("fitted")]
     """Whether there is a matrix."""
     reason: str
     """Why there is none; empty where there is one."""
     held_out: Annotated[WrenchValues | None, ShownWrench(digits=3)]
-    """Root mean square error of positions that are left out one by one; N, N m."""
+    """Root mean square error of positions that are left out of the fit one by one; N, N m."""
     folds_mean: WrenchValues | None
-    """The same of a fifth at a time, mean over twenty deals; N, N m."""
+    """The same of a fifth at a time, mean over twenty random partitions; N, N m."""
     folds_least: WrenchValues | None
-    """Smallest of the deals."""
+    """Smallest of the partitions."""
     folds_largest: WrenchValues | None
-    """Largest of the deals."""
+    """Largest of the partitions."""
     prior: WrenchValues | None
-    """Root mean square error with the prior; None without one."""
+    """Root mean square error with the prior matrix; None without one."""
     scatter: str
-    """Where the scatter is from that positions are held against."""
+    """Source of the scatter that positions are compared with."""
 
 
 class BlockRow(Row):
@@ -71,17 +71,17 @@ class BlockRow(Row):
     position: Annotated[str, Shown("position")]
     """Position."""
     source: Annotated[str, Shown("source")]
-    """File and place in it."""
+    """File, and rows or times in it."""
     samples: Annotated[int, Shown("samples")]
     """Number of samples."""
     standard_error_counts: Annotated[float, Shown("mean ±", "counts", digits=2)]
     """Largest standard error of the mean over the channels."""
     movement_counts: Annotated[float, Shown("moves by", "counts", digits=1)]
-    """Largest less smallest mean of a tenth of it, of the channel that moves most."""
-    sound: Annotated[bool, Shown("sound")]
-    """Whether nothing is wrong with it."""
+    """Largest less smallest mean of a tenth of the block, of the channel that moves most."""
+    sound: Annotated[bool, Shown("valid")]
+    """Whether there are no findings."""
     findings: tuple[str, ...]
-    """What is."""
+    """Messages about the block."""
 
 
 class SeriesRow(Row):
@@ -92,13 +92,13 @@ class SeriesRow(Row):
     series: Annotated[str, Shown("series left out")]
     """The series."""
     error: Annotated[WrenchValues | None, ShownWrench(digits=3)]
-    """Root mean square error with a fit to the others; N, N m; None where they do not tell it."""
+    """Root mean square error with a fit to the others; N, N m; None where they do not determine it."""
     largest_force_N: Annotated[float | None, Shown("largest", "N", digits=2)]
     """Largest norm of the force error."""
     ratio: FloatOrNull
     """Largest ratio to the error of positions that are left out one by one."""
     reason: str
-    """Why the others do not tell it; empty where they do."""
+    """Why the others do not determine it; empty where they do."""
 
 
 class PositionRow(Row):
@@ -107,13 +107,13 @@ class PositionRow(Row):
     position: Annotated[str, Shown("position")]
     """Position."""
     load_kg: Annotated[float | None, Shown("load", "kg", digits=1)]
-    """Mass of weight and structure; None where wrenches were stated."""
+    """Mass of weight and structure; None where wrenches were specified."""
     error_median: Annotated[WrenchValues, ShownWrench(digits=3)]
-    """Median over the sensors of the read less the known wrench; N, N m."""
+    """Median over the sensors of the measured less the known wrench; N, N m."""
     error_spread: WrenchValues
-    """1.4826 times the median absolute deviation from it; N, N m."""
-    suspected: Annotated[int, Shown("sensors in which it is suspected")]
-    """Number of sensors whose faults are about it."""
+    """1.4826 times the median absolute deviation from the median; N, N m."""
+    suspected: Annotated[int, Shown("sensors with a fault there")]
+    """Number of sensors with a fault at this position."""
 
 
 class SphereRow(Row):
@@ -124,24 +124,24 @@ class SphereRow(Row):
     positions: Annotated[int, Shown("positions")]
     """Positions with this load."""
     radius_N: Annotated[float, Shown("weight", "N", digits=3)]
-    """Weight that is hung."""
-    read_N: Annotated[float, Shown("read", "N", digits=3, error="spread_N")]
-    """Median over sensors and positions of the force that is read."""
+    """Weight of the load."""
+    read_N: Annotated[float, Shown("measured", "N", digits=3, error="spread_N")]
+    """Median over sensors and positions of the measured force."""
     spread_N: float
-    """1.4826 times the median absolute deviation from it."""
+    """1.4826 times the median absolute deviation from the median."""
     farthest: Annotated[str, Shown("farthest")]
     """Position whose force is farthest from the sphere, in the median over sensors."""
 
 
 class UnusualRow(Row):
-    """A sensor among the others."""
+    """A matrix compared with those of the other sensors."""
 
     serial: Annotated[str, Shown("serial")]
     """Serial number."""
     feature: Annotated[str, Shown("most unusual feature of its matrix")]
-    """As of `forcetorque accept`."""
+    """Name of the feature, as in `forcetorque accept`."""
     robust_z: Annotated[FloatOrNull, Shown("robust z", digits=1)]
-    """Its distance from the median of the others."""
+    """Distance of the feature from the median of the others."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -153,19 +153,18 @@ class BenchPicture:
     on_sphere: tuple[FloatArray, ...]
     """Forces over the weight; shape (k, 3) each."""
     errors: tuple[FloatArray, ...]
-    """Read less known wrenches; shape (k, 6) each; N, N m."""
+    """Measured less known wrenches; shape (k, 6) each; N, N m."""
 
 
 def block_rows(recording: BenchRecording) -> tuple[BlockRow, ...]:
     """Check the blocks of a sensor.
 
     Args:
-        recording: Its blocks.
+        recording: The recording of the sensor.
 
     Returns:
-        A row per block.
+        A record per block.
     """
-    blocks, biases = ([getattr(one, name) for one in recording.recorded] for name in ("block", "bias"))
     nominal = None if recording.bench is None else recording.bench.prior
     return tuple(
         BlockRow(
@@ -178,21 +177,23 @@ def block_rows(recording: BenchRecording) -> tuple[BlockRow, ...]:
             sound=not findings,
             findings=findings,
         )
-        for block, findings in zip(blocks, block_findings(blocks, biases, recording.loads, nominal), strict=True)
+        for block, findings in zip(
+            recording.blocks, block_findings(recording.blocks, recording.loads, nominal), strict=True
+        )
     )
 
 
-def position_rows(examined: Sequence[Examined]) -> tuple[PositionRow, ...]:
-    """Sum up positions over sensors at the same loads.
+def position_rows(searches: Sequence[FaultSearch]) -> tuple[PositionRow, ...]:
+    """Compute statistics of positions over sensors at the same loads.
 
     Args:
-        examined: The sensors.
+        searches: The sensors.
 
     Returns:
-        A row per position.
+        A record per position.
     """
-    loads = examined[0].bench.loads
-    errors = np.array([one.error for one in examined])
+    loads = searches[0].bench.loads
+    errors = np.array([search.error for search in searches])
     median = np.median(errors, axis=0)
     spread = MAD_TO_DEVIATION * np.median(np.abs(errors - median), axis=0)
     kilograms = None if loads.weights is None else loads.weights.total_kg
@@ -202,56 +203,56 @@ def position_rows(examined: Sequence[Examined]) -> tuple[PositionRow, ...]:
             load_kg=None if kilograms is None else float(kilograms[k]),
             error_median=median[k],
             error_spread=spread[k],
-            suspected=sum(any(k in suspect.positions for suspect in one.suspects) for one in examined),
+            suspected=sum(any(k in fault.positions for fault in search.detected) for search in searches),
         )
         for k, name in enumerate(loads.names)
     )
 
 
-def sphere_rows(examined: Sequence[Examined]) -> tuple[SphereRow, ...]:
-    """Project positions to the spheres of their loads.
+def sphere_rows(searches: Sequence[FaultSearch]) -> tuple[SphereRow, ...]:
+    """Compare measured forces with the weights of their loads.
 
     Args:
-        examined: Sensors at the same loads.
+        searches: Sensors at the same loads.
 
     Returns:
-        A row per mass; none where wrenches were stated.
+        A record per mass; none where wrenches were specified.
     """
-    loads = examined[0].bench.loads
+    loads = searches[0].bench.loads
     if loads.weights is None:
         return ()
-    lengths = np.array([np.linalg.norm(one.read[:, :3], axis=1) for one in examined])
+    lengths = np.array([np.linalg.norm(search.measured[:, :3], axis=1) for search in searches])
     rows = []
     for mass in np.unique(loads.weights.total_kg):
-        places = np.flatnonzero(loads.weights.total_kg == mass)
+        positions = np.flatnonzero(loads.weights.total_kg == mass)
         radius = float(mass * loads.weights.gravity)
-        median = float(np.median(lengths[:, places]))
-        beside = np.abs(np.median(lengths[:, places], axis=0) - radius)
+        median = float(np.median(lengths[:, positions]))
+        distance = np.abs(np.median(lengths[:, positions], axis=0) - radius)
         rows.append(
             SphereRow(
                 load_kg=float(mass),
-                positions=len(places),
+                positions=len(positions),
                 radius_N=radius,
                 read_N=median,
-                spread_N=MAD_TO_DEVIATION * float(np.median(np.abs(lengths[:, places] - median))),
-                farthest=loads.names[places[int(np.argmax(beside))]],
+                spread_N=MAD_TO_DEVIATION * float(np.median(np.abs(lengths[:, positions] - median))),
+                farthest=loads.names[positions[int(np.argmax(distance))]],
             )
         )
     return tuple(rows)
 
 
-def picture_of(examined: Sequence[Examined]) -> BenchPicture:
+def picture_of(searches: Sequence[FaultSearch]) -> BenchPicture:
     """Collect forces and errors by load.
 
     Args:
-        examined: Sensors.
+        searches: The sensors.
 
     Returns:
-        What the figure shows.
+        The content of the figure.
     """
-    names: dict[str, list[tuple[FloatArray, FloatArray]]] = {}
-    for one in examined:
-        loads = one.bench.loads
+    groups: dict[str, list[tuple[FloatArray, FloatArray]]] = {}
+    for search in searches:
+        loads = search.bench.loads
         force = np.linalg.norm(loads.wrench[:, :3], axis=1)
         labels = (
             np.full(len(loads), "all loads")
@@ -259,41 +260,41 @@ def picture_of(examined: Sequence[Examined]) -> BenchPicture:
             else np.array([f"{mass:g} kg" for mass in loads.weights.total_kg])
         )
         for label in dict.fromkeys(labels.tolist()):
-            places = (labels == label) & (force > 1e-3 * force.max())
-            scaled = one.read[places, :3] / force[places, None]
-            names.setdefault(label, []).append((scaled, one.error[labels == label]))
+            loaded = (labels == label) & (force > 1e-3 * force.max())
+            scaled = search.measured[loaded, :3] / force[loaded, None]
+            groups.setdefault(label, []).append((scaled, search.error[labels == label]))
     return BenchPicture(
-        loads=tuple(names),
-        on_sphere=tuple(np.concatenate([scaled for scaled, _ in parts]) for parts in names.values()),
-        errors=tuple(np.concatenate([errors for _, errors in parts]) for parts in names.values()),
+        loads=tuple(groups),
+        on_sphere=tuple(np.concatenate([scaled for scaled, _ in group]) for group in groups.values()),
+        errors=tuple(np.concatenate([errors for _, errors in group]) for group in groups.values()),
     )
 
 
 _NEVER = 1e-6
-"""Probability below which its size says nothing more."""
+"""Probability below which the message gives a bound only."""
 
 
 class Workbench(Result):
-    """What a workbench says of sensors, and what sensors say of it."""
+    """Calibrations of sensors on a workbench, with faults of the bench."""
 
     schema_name: Literal["forcetorque/workbench/1"] = Field(default="forcetorque/workbench/1", alias="schema")
     """Form of the result."""
     sensors: tuple[BenchSensorRow, ...]
     """One per file with readings."""
     faults: tuple[FaultRow, ...]
-    """Faults of every sensor, the plainest first."""
+    """Faults of every sensor, the most significant first."""
     series: tuple[SeriesRow, ...]
     """Series that were left out as a whole; of one sensor."""
     blocks_checked: tuple[BlockRow, ...]
     """One per recorded block."""
     next: str | None
-    """What to hang next; None where all is recorded, or there are several sensors."""
+    """The next position to record; None where the file has means, or there are several sensors."""
     positions: tuple[PositionRow, ...] = ()
     """One per position; of several sensors at the same loads."""
     spheres: tuple[SphereRow, ...] = ()
     """One per load; of several sensors at the same loads."""
     unusual: tuple[UnusualRow, ...] = ()
-    """One per sensor, where there are enough to compare with."""
+    """One per sensor, where there are enough sensors to compare with."""
     criteria: tuple[Criterion, ...] = ()
     """One per limit of an acceptance file; none where there is no such file."""
     file: str | None = None
@@ -301,20 +302,20 @@ class Workbench(Result):
     figure: str | None = None
     """File of the figure; None where none was drawn."""
     calibrations: tuple[Calibration, ...] = Field(default=(), exclude=True, repr=False)
-    """Calibrations of all sensors that have a matrix, in their order."""
+    """Calibrations of the sensors that have a matrix, in the order of the files."""
     picture: BenchPicture | None = Field(default=None, exclude=True, repr=False)
-    """What the figure shows; None where nothing was read."""
+    """Content of the figure; None where nothing was measured."""
 
     def blocks(self) -> Iterator[Table | str]:
-        """Give what people read.
+        """Make the text for the terminal.
 
         Yields:
-            Tables and sentences.
+            Tables and messages.
         """
-        wrong = [row for row in self.blocks_checked if not row.sound]
-        if wrong:
-            yield table_of(wrong, "blocks to look at")
-            yield from (f"{row.serial}, position {row.position}: {words}" for row in wrong for words in row.findings)
+        invalid = [row for row in self.blocks_checked if not row.sound]
+        if invalid:
+            yield table_of(invalid, "blocks with findings")
+            yield from (f"{row.serial}, position {row.position}: {text}" for row in invalid for text in row.findings)
         if len(self.sensors) == 1 and self.calibrations:
             yield from calibration_blocks(self.calibrations[0])
         if len(self.sensors) == 1:
@@ -322,18 +323,18 @@ class Workbench(Result):
         elif self.sensors:
             yield table_of(self.sensors, "sensors: error of positions that are left out one by one")
         for rows, caption in (
-            (self.positions, "positions: read less known wrench, median over sensors"),
-            (self.spheres, "loads: force that is read"),
-            (self.unusual, "matrices among the others"),
+            (self.positions, "positions: measured less known wrench, median over sensors"),
+            (self.spheres, "loads: measured force"),
+            (self.unusual, "matrices compared with the others"),
         ):
             if rows:
                 yield table_of(rows, caption)
         yield from (f"{row.sentence} ({_chance(row.probability)})" for row in self.faults)
         if self.sensors and not self.faults:
-            yield "no fault of the bench is seen"
+            yield "no fault of the bench is detected"
         if self.criteria:
             yield criteria_table(self.criteria, "acceptance")
-        yield from (words for words in (self.next, self.file and f"written to {self.file}") if words)
+        yield from (text for text in (self.next, self.file and f"written to {self.file}") if text)
         if self.figure is not None:
             yield f"drawn to {self.figure}"
 
@@ -350,9 +351,9 @@ class Workbench(Result):
             OutputError: As of `Calibration.save`.
         """
         if len(self.sensors) > 1:
-            raise ExperimentError(f"{path}: expected one sensor, got {len(self.sensors)}; write each by itself")
+            raise ExperimentError(f"{path}: expected one sensor, got {len(self.sensors)}; write one file per sensor")
         if not self.calibrations:
-            reason = self.sensors[0].reason if self.sensors else "nothing was read yet"
+            reason = self.sensors[0].reason if self.sensors else "nothing was measured yet"
             raise FitError(f"{path}: expected a matrix to write, there is none: {reason}")
         self.calibrations[0].save(path, force=force)
 
@@ -361,8 +362,8 @@ def _error_table(sensor: BenchSensorRow, series: Sequence[SeriesRow]) -> Table:
     errors = {
         "prior": sensor.prior,
         "left out one by one": sensor.held_out,
-        "a fifth left out, mean of 20 deals": sensor.folds_mean,
-        "the same, worst deal": sensor.folds_largest,
+        "a fifth left out, mean of 20 partitions": sensor.folds_mean,
+        "the same, worst partition": sensor.folds_largest,
     } | {f"series {row.series} left out": row.error for row in series}
     return Table(
         caption=f"{sensor.serial}: root mean square error of {sensor.positions} positions",
@@ -376,5 +377,5 @@ def _error_table(sensor: BenchSensorRow, series: Sequence[SeriesRow]) -> Table:
 
 def _chance(probability: float) -> str:
     if probability < _NEVER:
-        return "as in fewer than one sound sensor of a million"
-    return f"as in one sound sensor of {1.0 / probability:.0f}"
+        return "by chance in fewer than one sensor of a million"
+    return f"by chance in one sensor of {1.0 / probability:.0f}"

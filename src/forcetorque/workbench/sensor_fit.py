@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One sensor of a workbench: its fit, errors at positions that were not fitted, and its calibration file."""
+"""One sensor of a workbench: its fit, errors at positions that were left out of the fit, and its calibration."""
 
 from __future__ import annotations
 
@@ -23,29 +23,29 @@ from forcetorque.workbench.recording import BenchRecording
 from forcetorque.workbench.result import BenchSensorRow, SeriesRow
 
 FOLDS = 5
-"""Parts that positions are dealt into."""
+"""Folds that positions are divided into."""
 SHUFFLES = 20
-"""Times that they are dealt: a single deal may err by twice the mean."""
+"""Number of random partitions: the error of a single one may be twice the mean."""
 
 
-def held_out_errors(fitted: BenchFit, parts: Sequence[IntArray]) -> FloatArray:
-    """Predict the errors of positions from all others.
+def held_out_errors(fitted: BenchFit, folds: Sequence[IntArray]) -> FloatArray:
+    """Compute the errors of positions with fits to all others.
 
-    Exact for sizes of deviations and noise as the whole bench tells them, without fitting again: what a position adds
-    to its own prediction is known, `e = (1 - H)^-1 residual`.
+    Exact, without fitting again, for prior and noise variances that are estimated from the whole bench: the leverage of
+    a position is known, `e = (1 - H)^-1 residual`.
 
     Args:
         fitted: The fit of all positions.
-        parts: Positions that are left out together, by number; every one once.
+        folds: Indices of positions that are left out together; every position once.
 
     Returns:
-        Measured less known wrench, of a fit to all other parts; shape (n, 6); N, N m.
+        Measured less known wrench, of a fit to all other folds; shape (n, 6); N, N m.
     """
     posterior, means = fitted.fit.posterior, fitted.means
     loads = means.reference
     design = np.hstack([loads, np.ones((len(loads), 1))])
     response = _response(fitted)
-    left = np.zeros_like(response)
+    errors = np.zeros_like(response)
     for row, noise in enumerate(posterior.noise):
         variance = noise.white**2 * (1.0 + noise.ratio) * np.median(means.count) / means.count
         information = design.T @ (design / variance[:, None])
@@ -53,14 +53,14 @@ def held_out_errors(fitted: BenchFit, parts: Sequence[IntArray]) -> FloatArray:
             information[:6, :6] += np.linalg.inv(posterior.prior_covariance[row])
         covariance = np.linalg.pinv(information, hermitian=True)
         residual = response[:, row] - design @ (covariance @ (design.T @ (response[:, row] / variance)))
-        for part in parts:
-            itself = design[part] @ covariance @ (design[part] / variance[part, None]).T
-            left[part, row] = np.linalg.solve(np.eye(len(part)) - itself, residual[part])
-    return left @ posterior.to_wrench.T
+        for fold in folds:
+            leverage = design[fold] @ covariance @ (design[fold] / variance[fold, None]).T
+            errors[fold, row] = np.linalg.solve(np.eye(len(fold)) - leverage, residual[fold])
+    return errors @ posterior.to_wrench.T
 
 
 def _response(fitted: BenchFit) -> FloatArray:
-    """What the rows of the posterior are regressed on, less what they are expected to be; shape (n, rows)."""
+    """Data that the rows of the posterior are fitted to, less their prior expectation; shape (n, rows)."""
     prior, means = fitted.bench.prior, fitted.means
     if fitted.fit.posterior.space == "wrench":
         return means.raw @ np.asarray(prior).T - means.reference
@@ -72,7 +72,7 @@ def _response(fitted: BenchFit) -> FloatArray:
 
 
 def one_by_one(fitted: BenchFit) -> FloatArray:
-    """Leave out every position by itself.
+    """Compute the error of every position with a fit to all others.
 
     Args:
         fitted: The fit of all positions.
@@ -84,28 +84,28 @@ def one_by_one(fitted: BenchFit) -> FloatArray:
 
 
 def in_folds(fitted: BenchFit, rng: np.random.Generator) -> FloatArray:
-    """Deal the positions into folds, again and again.
+    """Compute the errors of cross-validation for random partitions of the positions into folds.
 
     Args:
         fitted: The fit of all positions.
-        rng: Source of the deals.
+        rng: Source of the partitions.
 
     Returns:
-        Root mean square errors of every deal; shape (`SHUFFLES`, 6); N, N m.
+        Root mean square errors of every partition; shape (`SHUFFLES`, 6); N, N m.
     """
-    deals = (np.array_split(rng.permutation(len(fitted.bench)), FOLDS) for _ in range(SHUFFLES))
-    return np.stack([rms(held_out_errors(fitted, deal)) for deal in deals])
+    partitions = (np.array_split(rng.permutation(len(fitted.bench)), FOLDS) for _ in range(SHUFFLES))
+    return np.stack([rms(held_out_errors(fitted, folds)) for folds in partitions])
 
 
 def whole_series(fitted: BenchFit) -> dict[str, FloatArray | str]:
-    """Leave out every series by itself, and fit the others again.
+    """Compute the error of every series with a new fit to the others.
 
     Args:
         fitted: The fit of all positions.
 
     Returns:
-        By name of the series, its errors, shape (k, 6), N, N m; or why the others cannot foretell it. None where there
-        is one series.
+        By name of the series, its errors, shape (k, 6), N, N m; or the reason why the others do not predict it. Empty
+        where there is one series.
     """
     series = np.array(fitted.bench.loads.series)
     names = list(dict.fromkeys(fitted.bench.loads.series))
@@ -126,7 +126,7 @@ _BY_POSITION = ("time_s", "count", "raw", "reference", "flattening", "variables"
 
 
 def rms(errors: FloatArray) -> FloatArray:
-    """Give the root mean square.
+    """Compute the root mean square.
 
     Args:
         errors: Errors; shape (n, 6); N, N m.
@@ -137,28 +137,28 @@ def rms(errors: FloatArray) -> FloatArray:
     return np.sqrt((errors**2).mean(axis=0))
 
 
-_SWAPPED = 0.5
-"""Error with forces and moments exchanged, over that as stated, below which they were exchanged."""
+_PERMUTED = 0.5
+"""Ratio of errors, with forces and moments exchanged over as specified, below which they were exchanged."""
 _SAMPLES = 10
 """Samples that a position counts for where neighbours are compared."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class FittedBench:
-    """A sensor with its fit."""
+class SensorFit:
+    """A sensor with its fit and the errors of the fit."""
 
     recording: BenchRecording
-    """What it read."""
+    """The recording of the sensor."""
     row: BenchSensorRow
-    """What its bench says of it, for people."""
+    """Errors and directions, as in the result."""
     bench: Bench
-    """Positions whose load and reading are known."""
+    """Positions whose load and raw sample are known."""
     fitted: BenchFit | None
-    """The fit; None where the loads do not tell a matrix."""
+    """The fit; None where the loads do not determine a matrix."""
     series: tuple[SeriesRow, ...]
     """Series left out as a whole."""
-    doubts: tuple[str, ...] = ()
-    """Warnings about its data."""
+    warnings: tuple[str, ...] = ()
+    """Warnings about the data."""
 
     @property
     def matrix(self) -> FloatArray | None:
@@ -166,29 +166,29 @@ class FittedBench:
         return None if self.fitted is None else self.fitted.fit.model.matrix
 
 
-def fit_recording(recording: BenchRecording, rng: np.random.Generator, *, with_series: bool) -> FittedBench:
-    """Fit a sensor.
+def fit_sensor(recording: BenchRecording, rng: np.random.Generator, *, with_series: bool) -> SensorFit:
+    """Fit a sensor and validate the fit.
 
     Args:
-        recording: What it read.
-        rng: Source of the deals into folds.
-        with_series: Whether whole series are left out, too, which takes a fit for each.
+        recording: The recording of the sensor.
+        rng: Source of the partitions into folds.
+        with_series: Whether whole series are left out too, which takes a fit for each.
 
     Returns:
         The fit.
 
     Raises:
-        ExperimentError: If nothing was read.
+        ExperimentError: If nothing was measured.
     """
     if recording.bench is None:
-        raise ExperimentError(f"{recording.file}: expected readings at positions, there is none yet")
+        raise ExperimentError(f"{recording.file}: expected raw samples at positions, there are none yet")
     bench = recording.bench.usable()
-    _require_halves(bench, recording.file)
+    _require_force_first(bench, recording.file)
     unmoved = unmoved_directions(bench.loads.wrench, [len(bench)])
     fitted, reason = None, ""
-    doubts: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     try:
-        doubts = _implausible(bench) if len(unmoved) < len(WRENCH_COMPONENTS) else ()
+        warnings = _plausibility_warnings(bench) if len(unmoved) < len(WRENCH_COMPONENTS) else ()
         fitted = fit_bench(bench)
     except FitError as error:
         reason = str(error)
@@ -201,7 +201,7 @@ def fit_recording(recording: BenchRecording, rng: np.random.Generator, *, with_s
         sensor=bench.sensor,
         serial=bench.serial,
         positions=len(bench),
-        without_load=tuple(_not_known(recording.bench)),
+        without_load=tuple(_unused_positions(recording.bench)),
         rank=6 - len(unmoved),
         unmoved=unmoved,
         unseen=excitation.describe_unexcited(channel_names=channels) if len(channels) > 6 else "",
@@ -211,17 +211,17 @@ def fit_recording(recording: BenchRecording, rng: np.random.Generator, *, with_s
         folds_mean=None if folds is None else folds.mean(axis=0),
         folds_least=None if folds is None else folds.min(axis=0),
         folds_largest=None if folds is None else folds.max(axis=0),
-        prior=None if bench.prior is None else rms(bench.read_by(bench.prior) - bench.loads.wrench),
+        prior=None if bench.prior is None else rms(bench.wrenches(bench.prior) - bench.loads.wrench),
         scatter="",
     )
     series: tuple[SeriesRow, ...] = ()
     if with_series and fitted is not None and held_out is not None:
         series = _series_rows(fitted, held_out)
-    return FittedBench(recording=recording, row=row, bench=bench, fitted=fitted, series=series, doubts=doubts)
+    return SensorFit(recording=recording, row=row, bench=bench, fitted=fitted, series=series, warnings=warnings)
 
 
-def _not_known(bench: Bench) -> Iterator[str]:
-    """Positions that are not used, with the components that are missing where others are there."""
+def _unused_positions(bench: Bench) -> Iterator[str]:
+    """Positions that are not used, with the components of the load that are missing where others are there."""
     for name, wrench, raw in zip(bench.loads.names, bench.loads.wrench, bench.raw, strict=True):
         missing = [c for c, known in zip(WRENCH_COMPONENTS, np.isfinite(wrench), strict=True) if not known]
         if 0 < len(missing) < len(WRENCH_COMPONENTS):
@@ -231,7 +231,6 @@ def _not_known(bench: Bench) -> Iterator[str]:
 
 
 def _series_rows(fitted: BenchFit, held_out: FloatArray) -> tuple[SeriesRow, ...]:
-    rows: Sequence[tuple[str, FloatArray | str]] = tuple(whole_series(fitted).items())
     return tuple(
         SeriesRow(
             serial=fitted.bench.serial,
@@ -241,12 +240,12 @@ def _series_rows(fitted: BenchFit, held_out: FloatArray) -> tuple[SeriesRow, ...
             ratio=float("nan") if isinstance(outcome, str) else float((rms(outcome) / held_out).max()),
             reason=outcome if isinstance(outcome, str) else "",
         )
-        for name, outcome in rows
+        for name, outcome in whole_series(fitted).items()
     )
 
 
-def _implausible(bench: Bench) -> tuple[str, ...]:
-    """What makes it doubtful that the readings are those of a sensor under the known loads, each position a block."""
+def _plausibility_warnings(bench: Bench) -> tuple[str, ...]:
+    """Warnings of the plausibility checks, which raise an error where measurements are implausible."""
     from forcetorque.calibration.plausibility.checks import examine
     from forcetorque.calibration.plausibility.compared_wrenches import WORKBENCH
 
@@ -258,17 +257,19 @@ def _implausible(bench: Bench) -> tuple[str, ...]:
     return tuple(doubt.message for doubt in examine([blocks], bench.prior, setup=WORKBENCH))
 
 
-def _require_halves(bench: Bench, file: str) -> None:
-    """Refuse known wrenches whose forces and moments were exchanged, as far as a prior can tell."""
+def _require_force_first(bench: Bench, file: str) -> None:
+    """Refuse known wrenches whose forces and moments were exchanged, where a prior matrix shows it."""
     if bench.prior is None:
         return
-    read, known = bench.read_by(bench.prior), bench.loads.wrench
-    sizes = np.repeat([max(float(np.abs(read[:, part]).max()), 1e-12) for part in FORCE_AND_MOMENT], 3)
-    stated, exchanged = (float((((read - loads) / sizes) ** 2).sum()) for loads in (known, np.roll(known, 3, axis=1)))
-    if exchanged < _SWAPPED**2 * stated:
+    measured, known = bench.wrenches(bench.prior), bench.loads.wrench
+    sizes = np.repeat([max(float(np.abs(measured[:, half]).max()), 1e-12) for half in FORCE_AND_MOMENT], 3)
+    as_specified, exchanged = (
+        float((((measured - loads) / sizes) ** 2).sum()) for loads in (known, np.roll(known, 3, axis=1))
+    )
+    if exchanged < _PERMUTED**2 * as_specified:
         raise ExperimentError(
-            f"{file}: expected known wrenches as force, then moment, got what the prior reads as moment, then force; "
-            "exchange the columns of readings.known, or of readings.channels"
+            f"{file}: expected known wrenches as force, then moment, got what the prior matrix measures as moment, "
+            "then force; exchange the columns of readings.known, or of readings.channels"
         )
 
 
@@ -276,24 +277,24 @@ _RULE = "readings of known loads regressed on them; sizes of prior deviations by
 
 
 def bench_calibration(
-    recording: BenchRecording, fitted: BenchFit, *, code_version: str, created: str, doubts: tuple[str, ...] = ()
+    recording: BenchRecording, fitted: BenchFit, *, code_version: str, created: str, warnings: tuple[str, ...] = ()
 ) -> Calibration:
-    """Make the artefact of a bench.
+    """Make the calibration of a sensor on a bench.
 
     Args:
-        recording: What the fit is of.
+        recording: The recording that was fitted.
         fitted: The fit.
         code_version: Version of this library, for the record.
         created: Date and time, ISO 8601, for the record.
-        doubts: What makes it doubtful.
+        warnings: Warnings about the data.
 
     Returns:
-        The calibration; its offset holds for readings as they come, after the last bias.
+        The calibration; its offset holds for raw samples that include the last bias.
     """
     bench, fit, sensor = fitted.bench, fitted.fit, recording.sensor
     posterior, matrix = fit.posterior, fit.model.matrix
     error = posterior.offset_error(fit.model.offset, SESSION)
-    readings = bench.raw + bench.bias
+    raw = bench.raw + bench.bias
     prior = _prior(recording, bench)
     session = SessionOffset(
         name=SESSION,
@@ -320,22 +321,22 @@ def bench_calibration(
         lambda_counts2=None,
         prior=prior,
         validity=validity_of(
-            readings.min(axis=0),
-            readings.max(axis=0),
+            raw.min(axis=0),
+            raw.max(axis=0),
             excitation_of(Moments.of(bench.raw, bench.loads.wrench)),
             [fit.model.wrench(bench.raw)],
         ),
         selection=Selection(rule=_RULE),
-        doubts=doubts,
+        doubts=warnings,
         provenance=_provenance(recording, bench, code_version=code_version, created=created),
     )
 
 
 def _prior(recording: BenchRecording, bench: Bench) -> Prior | None:
-    """The matrix so far, with the offset at which it reads the loads of the bench in the mean; None where none is."""
+    """The prior matrix with the offset of least mean error at the loads of the bench; None without a prior matrix."""
     if bench.prior is None:
         return None
-    offset = (bench.loads.wrench - bench.read_by(bench.prior)).mean(axis=0) - bench.prior @ bench.bias
+    offset = (bench.loads.wrench - bench.wrenches(bench.prior)).mean(axis=0) - bench.prior @ bench.bias
     return Prior(matrix=bench.prior, offset=offset, source=str(recording.sensor.prior or "given"))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sensors with known truth on a bench with known faults."""
+"""Simulated sensors with known response on a bench with known faults."""
 
 from __future__ import annotations
 
@@ -20,31 +20,31 @@ _LIMIT_COUNTS = 32767.0
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class BenchFaults:
-    """What goes wrong beside placement; nothing by default. Positions by number."""
+    """Faults of a bench beyond the scatter of placement; none by default. Positions are indices."""
 
     swapped: tuple[int, int] | None = None
     """Two positions whose loads are exchanged."""
     weight: Mapping[int, float] = field(default_factory=dict)
-    """Share by which the mass at a position differs from what is stated."""
+    """Relative error of the mass at a position."""
     no_structure: tuple[int, ...] = ()
     """Positions where the mounting structure is not there."""
     tilted_rad: Mapping[int, float] = field(default_factory=dict)
-    """Angle by which gravity points elsewhere at a position, about a random axis across it; rad."""
+    """Angle between true and specified gravity at a position, about a random axis across it; rad."""
     plate_rad: float = 0.0
-    """Angle by which it points elsewhere at all positions, about one random axis of the sensor; rad."""
+    """The same at all positions, about one random axis of the sensor; rad."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Specimen:
-    """A sensor and what it read on the bench."""
+class SimulatedBench:
+    """Measurements of a simulated sensor on a bench, and its true response."""
 
     bench: Bench
-    """What is known of it."""
+    """The measurements."""
     response: FloatArray
     """True response; shape (6, 6); counts/N, counts/(N m)."""
 
 
-def simulate_specimen(
+def simulate_bench(
     loads: BenchLoads,
     placement: Placement,
     rng: np.random.Generator,
@@ -55,29 +55,29 @@ def simulate_specimen(
     noise_counts: float = 0.3,
     with_prior: bool = False,
     response: FloatArray | None = None,
-) -> Specimen:
-    """Hang weights on a simulated sensor.
+) -> SimulatedBench:
+    """Simulate the measurements of a sensor under weights.
 
     Args:
-        loads: Loads of weights, as a reading of `child_to_parent`.
-        placement: How far weights are off where they are said to be; its nonlinearity is that of every channel at the
-            largest reading of the bench, and falls with the square of the reading.
+        loads: Loads of weights, measured as `child_to_parent`.
+        placement: Standard deviations of the placement; its nonlinearity is that of every channel at the largest raw
+            sample of the bench, and falls with the square of the raw sample.
         rng: Source of sensor, placement and noise.
-        faults: What goes wrong besides; None for nothing.
+        faults: Faults of the bench; None for none.
         family: Family that the sensor is drawn from.
-        serial: Its serial number.
-        noise_counts: Standard deviation of the mean reading at a position; counts.
-        with_prior: Whether the nominal matrix of the family is known.
+        serial: Serial number of the sensor.
+        noise_counts: Standard deviation of the mean raw sample at a position; counts.
+        with_prior: Whether the nominal matrix of the family is the prior matrix.
         response: Response of the sensor in place of one of the family; shape (c, 6); counts/N, counts/(N m).
 
     Returns:
-        The sensor, and what is known of it.
+        The measurements with the true response.
 
     Raises:
         SensorError: If no weights are known.
     """
     if loads.weights is None:
-        raise SensorError("loads: expected weights with place and direction, got wrenches alone")
+        raise SensorError("loads: expected weights with position and direction, got wrenches alone")
     drawn = FAMILIES[family].draw(rng) if response is None else response
     wrench = _placed(loads.weights, placement, faults or BenchFaults(), rng)
     counts = wrench @ drawn.T
@@ -95,11 +95,11 @@ def simulate_specimen(
         prior=prior,
         placement=placement,
     )
-    return Specimen(bench=bench, response=drawn)
+    return SimulatedBench(bench=bench, response=drawn)
 
 
 def _placed(weights: Weights, placement: Placement, faults: BenchFaults, rng: np.random.Generator) -> FloatArray:
-    """Wrenches that act in truth; shape (n, 6)."""
+    """True wrenches; shape (n, 6)."""
     n = len(weights.mass_kg)
     mass, structure = weights.mass_kg.copy(), weights.structure_kg.copy()
     turn = placement.angle_rad * rng.standard_normal((n, 3))

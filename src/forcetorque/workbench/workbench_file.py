@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The workbench file: one sensor, the loads that hang on it, how far they may be off, and what it read of them."""
+"""The workbench file: one sensor, its loads, their uncertainty, and the measurements."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ class BenchSensorTable(Table):
     serial: Text
     """Serial number."""
     measure_direction: MeasureDirection
-    """Who acts on whom in the reading; the load is the child."""
+    """Who acts on whom in the measurement; the load is the child."""
     frame: Text = "sensor"
-    """Frame along whose axes loads are stated."""
+    """Frame along whose axes loads are specified."""
     full_scale: tuple[Positive, ...] | Positive
-    """Largest magnitude of a reading, one for all channels or one for each; counts."""
+    """Largest magnitude of a raw sample, one for all channels or one for each; counts."""
     prior: Path | Literal["identity"] | None = None
-    """Nominal matrix: a matrix file or a calibration; `identity` where readings are wrenches already."""
+    """Nominal matrix: a matrix file or a calibration; `identity` where the raw samples are wrenches already."""
 
 
 class LoadsTable(Table):
@@ -45,14 +45,14 @@ class LoadsTable(Table):
 
 
 class PlacementTable(Table):
-    """How far loads may be from where they are stated to be, one standard deviation each."""
+    """Standard deviations of loads about their specified placement."""
 
     angle_deg: NotNegative
     """Direction of gravity about each axis across it; deg."""
     position_mm: NotNegative
-    """Place along each axis; mm."""
+    """Position along each axis; mm."""
     nonlinearity: NotNegative = 0.0
-    """Departure of a channel from a line, as a share of its reading."""
+    """Departure of a channel from a line, as a share of its raw sample."""
 
 
 class _Readings(Table):
@@ -75,14 +75,14 @@ class BlockReadings(_Readings):
     """Rows of every block."""
 
     @model_validator(mode="after")
-    def _has_a_place_for_the_number(self) -> BlockReadings:
+    def _require_placeholder(self) -> BlockReadings:
         if isinstance(self.files, str) and self.files.count("{}") != 1:
             raise PydanticCustomError("no_number", 'expected one "{}" for the number of the position, or a list')
         return self
 
 
 class LogBlock(Table):
-    """A stretch of a log."""
+    """An interval of a log."""
 
     position: Text
     """Name of the position, or `bias`."""
@@ -93,7 +93,7 @@ class LogBlock(Table):
 
 
 class LogReadings(_Readings):
-    """A log with instants, and which stretch of it is at which position."""
+    """A log with instants, and the position of each interval."""
 
     format: Literal["log"]
     """This form."""
@@ -104,17 +104,17 @@ class LogReadings(_Readings):
     time_unit: StampUnit
     """Its unit; `iso8601` for dates with a time of day."""
     block: Annotated[tuple[LogBlock, ...], Field(min_length=1)]
-    """Stretches in the order of time; the first is `bias`."""
+    """Intervals in the order of time; the first is `bias`."""
 
     @model_validator(mode="after")
-    def _begins_with_bias(self) -> LogReadings:
+    def _require_bias_first(self) -> LogReadings:
         if self.block[0].position != BIAS:
             raise PydanticCustomError("no_bias", 'expected the first block to be "bias", without a load')
         return self
 
 
 class RowReadings(_Readings):
-    """A table with a row of mean readings per position, of which the line in the file is the name."""
+    """A table with a row of mean raw samples per position; the line in the file is the name of the position."""
 
     format: Literal["rows"]
     """This form."""
@@ -125,10 +125,10 @@ class RowReadings(_Readings):
     known_units: _Six | None = None
     """Unit of each."""
     series_from_zero: bool = False
-    """Whether every row without load begins a series that was set up by itself."""
+    """Whether every row without load begins a series of its own."""
 
     @model_validator(mode="after")
-    def _states_units(self) -> RowReadings:
+    def _require_units(self) -> RowReadings:
         if (self.known is None) != (self.known_units is None):
             raise PydanticCustomError("half_known", "give known and known_units, or neither")
         return self
@@ -144,6 +144,6 @@ class BenchFile(Table):
     loads: LoadsTable = LoadsTable()
     """The loads."""
     placement: PlacementTable | None = None
-    """How far loads may be off."""
+    """Uncertainty of the loads."""
     readings: Annotated[BlockReadings | LogReadings | RowReadings, Field(discriminator="format")]
-    """What it read."""
+    """The measurements."""

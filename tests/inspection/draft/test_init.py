@@ -22,7 +22,7 @@ from forcetorque.formats.headings import read_heading
 from forcetorque.formats.signals import OrientationTable
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.draft.joints import joint_rows
-from forcetorque.inspection.draft.streams import likenesses
+from forcetorque.inspection.draft.streams import column_matches
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
@@ -200,13 +200,13 @@ def test_columns_look_like_what_they_are_called() -> None:
     names = ["t", "wrench.force.x", "wrench.force.y", "wrench.force.z", "wrench.torque.x", "wrench.torque.y"]
     names += ["wrench.torque.z", "gx", "gy", "gz", "actual_q_elbow", "elbow_vel", "qx", "qy", "qz", "qw"]
     names += [f"ch{k}" for k in range(6)]
-    seen = {one.quantity: one for one in likenesses([read_heading(name) for name in names], ["elbow"])}
+    seen = {one.quantity: one for one in column_matches([read_heading(name) for name in names], ["elbow"])}
     assert seen["wrench"].columns == (1, 2, 3, 4, 5, 6)
     assert (seen["position"].columns, seen["velocity"].columns) == ((10,), (11,))
     assert seen["?"].words == "gravity or angular_velocity"
     assert seen["orientation"].form == "quat_xyzw"
     assert seen["raw"].columns == tuple(range(16, 22))
-    assert likenesses([read_heading(name) for name in ("fx", "fy", "fz", "note")], []) == ()
+    assert column_matches([read_heading(name) for name in ("fx", "fy", "fz", "note")], []) == ()
 
 
 def test_messages_of_joints_as_a_table_are_of_joints() -> None:
@@ -214,7 +214,7 @@ def test_messages_of_joints_as_a_table_are_of_joints() -> None:
     robot = ["shoulder", "elbow", "wrist"]
     names = ["/arm/joint_states/elbow/position", "/arm/joint_states/wrist/position", "/arm/joint_states/elbow/effort"]
     names += ["/target/elbow/position", "field.name0", "field.velocity0", "field.velocity1", "field.wanted0"]
-    seen = {one.quantity: one for one in likenesses([read_heading(name) for name in names], robot)}
+    seen = {one.quantity: one for one in column_matches([read_heading(name) for name in names], robot)}
     assert (seen["position"].columns, seen["position"].names) == ((0, 1), ("elbow", "wrist"))
     assert (seen["torque"].columns, seen["torque"].names) == ((2,), ("elbow",))
     assert (seen["velocity"].columns, seen["velocity"].names) == ((5, 6), None)
@@ -226,7 +226,7 @@ def test_joints_by_number_are_joints_however_many() -> None:
     robot = ["shoulder", "elbow", "wrist"]
 
     def seen(*names: str) -> dict[str, tuple[int, ...]]:
-        return {one.quantity: one.columns for one in likenesses([read_heading(name) for name in names], robot)}
+        return {one.quantity: one.columns for one in column_matches([read_heading(name) for name in names], robot)}
 
     assert seen("j1_rad", "j2_rad", "j3_rad") == {"position": (0, 1, 2)}
     assert seen("joint1", "joint2") == {"position": (0, 1)}
@@ -248,7 +248,7 @@ def test_roll_pitch_and_yaw_are_an_orientation_where_no_joint_tells_it(tmp_path:
     assert signal["units"] == ["deg"] * 3
     table = {**signal["orientation"], "gravity": 9.8}
     assert OrientationTable.model_validate(table).layout().axes == "xyz"
-    assert likenesses([read_heading(f"neck_{name}") for name in ("roll", "pitch", "yaw")], []) == ()
+    assert column_matches([read_heading(f"neck_{name}") for name in ("roll", "pitch", "yaw")], []) == ()
 
 
 def test_forces_and_moments_without_units_have_ranges_of_their_own(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.inspection.draft.gravity import Hanging, free_spans, hanging
+from forcetorque.inspection.draft.gravity import GravityFit, fit_gravity, free_intervals
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.dynamics import expected_wrenches
@@ -41,8 +41,8 @@ def arm() -> RobotModel:
 class Trial:
     """A minute of random motion with an unknown tool, a sensor that is 3 % off, and one push."""
 
-    seen: Hanging | None
-    other: Hanging | None
+    seen: GravityFit | None
+    other: GravityFit | None
     direction: MeasureDirection
     worst_push: float
 
@@ -92,8 +92,8 @@ def _trial(arm: RobotModel, seed: int, speed: float) -> Trial:
         },
     )
     recording = Recording(streams={"log": stream})
-    seen, other = (hanging(arm, joint, "base_link", recording, stream) for joint in (JOINT, OTHER))
-    spans = [] if seen is None else free_spans(seen.stamp_ns, seen.is_free)
+    seen, other = (fit_gravity(arm, joint, "base_link", recording, stream) for joint in (JOINT, OTHER))
+    spans = [] if seen is None else free_intervals(seen.stamp_ns, seen.is_free)
     inside = [_push(np.linspace(first * 1e-9, last * 1e-9, 400), start).max() for first, last in spans]
     return Trial(seen=seen, other=other, direction=direction, worst_push=float(max(inside, default=0.0)))
 
@@ -110,7 +110,7 @@ def _outcomes(arm: RobotModel, speed: float, trials: int) -> Counter[str]:
         trial = _trial(arm, seed, speed)
         assert trial.seen is not None
         assert trial.other is not None
-        outcomes["speaks"] += trial.seen.says_something
+        outcomes["speaks"] += trial.seen.is_significant
         said = trial.seen.direction
         outcomes["silent" if said is None else "right" if said == trial.direction else "wrong"] += 1
         sign = 1.0 if trial.direction is MeasureDirection.CHILD_TO_PARENT else -1.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Write the first experiment file of a log: what can be told, and a question a line for what cannot."""
+"""Draft of an experiment file from a log: known values, and a question for each value that the log does not have."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.formats.log_format import not_read_message
 from forcetorque.formats.registry import format_named
-from forcetorque.inspection.draft.gravity import Hanging, hanging
+from forcetorque.inspection.draft.gravity import GravityFit, fit_gravity
 from forcetorque.inspection.draft.intervals import (
     DraftedInterval,
     clock_lines,
@@ -50,22 +50,22 @@ from forcetorque.robot.urdf import read_urdf
 
 _INERTIAL = ("proper_acceleration", "angular_velocity")
 _MOST_JOINTS = 12
-"""Fixed joints that a reading is held against."""
+"""Largest number of fixed joints whose orientation a force is fitted to."""
 
 
 class QuestionRow(Row):
-    """A line that somebody has to fill in."""
+    """A line to fill in."""
 
     line: Annotated[int, Shown("line")]
-    """Its line in the file."""
+    """Line in the file."""
     key: Annotated[str, Shown("key")]
     """The key."""
     question: Annotated[str, Shown("question")]
-    """What is asked, and what is known about it."""
+    """The question, with evidence from the log."""
 
 
 class Draft(Result):
-    """A first experiment file."""
+    """A draft of an experiment file."""
 
     schema_name: Literal["forcetorque/init/1"] = Field(default="forcetorque/init/1", alias="schema")
     """Form of the result."""
@@ -74,19 +74,19 @@ class Draft(Result):
     format: str
     """Format of the log."""
     streams: dict[str, StreamRow]
-    """Streams of the log, where all about it is known."""
+    """Streams of the log, where it can be read already."""
     questions: tuple[QuestionRow, ...]
-    """What is to be answered."""
+    """Questions to answer."""
     notes: tuple[str, ...]
-    """What was found out without asking, and what could not be."""
+    """Findings about the log, and reasons for what is unknown."""
     content: str = Field(exclude=True, repr=False)
     """Content of the file."""
 
     def blocks(self) -> Iterator[Table | str]:
-        """Give what was found, and the questions.
+        """Make the text for the terminal.
 
         Yields:
-            The tables and sentences.
+            Tables and messages.
         """
         if self.streams:
             yield stream_table(self.streams, f"{self.file}: streams")
@@ -122,24 +122,24 @@ def draft_experiment(
     log_format: str | None = None,
     force: bool = False,
 ) -> Draft:
-    """Write the first experiment file of a log.
+    """Draft the experiment file of a log.
 
-    What the log and the robot's model say is written down; what they do not is the value `"?"` with a comment, which no
-    command takes for an answer. Spans in which nothing seems to touch are offered where the reading could be held
-    against the orientation of the sensor.
+    Values that the log and the robot model determine are written; all others are `"?"` with a comment, which every
+    command refuses. Intervals without an apparent contact are proposed where the force could be fitted to the
+    orientation of the sensor.
 
     Args:
         logs: A log of any format, or several tables of one recording.
         output: File to write; None to write none.
         urdf: The robot; None for a wrist sensor whose pose is logged.
-        log_format: Name of the format; it is recognised by what is there if None.
-        force: Whether a file that is there already may be replaced.
+        log_format: Name of the format; recognised from the files if None.
+        force: Whether an existing file may be replaced.
 
     Returns:
         The file, and its questions.
 
     Raises:
-        OutputError: If there is such a file already.
+        OutputError: If the file exists already.
         ExperimentError: If no log is given.
         FormatError: If the log is of no known format.
     """
@@ -216,7 +216,7 @@ def _written(
 def _read(
     text: str, folder: Path, sensors: Sequence[DraftedSensor], model: RobotModel | None
 ) -> tuple[Recording | None, str]:
-    """The recording that the table states, once nothing of it is open; else why it is not known."""
+    """The recording of the table without questions; else the reason why it cannot be read."""
     if unanswered_keys(text):
         return None, "the log is read once the questions of [recording] are answered"
     try:
@@ -239,18 +239,18 @@ def _read(
 def _with_evidence(
     sensor: DraftedSensor, recording: Recording | None, model: RobotModel | None, base: str | None
 ) -> DraftedSensor:
-    """Hold the reading against the orientation of each link that it may be along."""
+    """The sensor with a fit of its force to the orientation of each joint that it may be in."""
     if recording is None or model is None or base is None or sensor.is_raw or sensor.tags:
         return sensor
     joints = sensor_joints(sensor, model)[:_MOST_JOINTS]
     stream = recording.stream(sensor.stream)
-    hangings = {joint: hanging(model, joint, base, recording, stream) for joint in joints}
-    evidence = {joint: one for joint, one in hangings.items() if one is not None and one.says_something}
+    fits = {joint: fit_gravity(model, joint, base, recording, stream) for joint in joints}
+    evidence = {joint: fit for joint, fit in fits.items() if fit is not None and fit.is_significant}
     return replace(sensor, evidence=evidence)
 
 
-def _best(sensor: DraftedSensor) -> Hanging | None:
-    return min(sensor.evidence.values(), key=lambda one: one.typical, default=None)
+def _best(sensor: DraftedSensor) -> GravityFit | None:
+    return min(sensor.evidence.values(), key=lambda fit: fit.median_residual, default=None)
 
 
 def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel | None) -> Iterator[str]:
@@ -262,7 +262,7 @@ def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel 
     if log.skipped_arrays:
         yield not_read_message(log.skipped_arrays)
     if log.description is not None:
-        left_out = [one.stream for one in log.description.reading.findings if one.kind == "not_read"]
+        left_out = [finding.stream for finding in log.description.reading.findings if finding.kind == "not_read"]
         if left_out:
             yield f"not read, or not all of it: {listed(left_out, 12)}; `forcetorque inspect {log.paths[0]}` says what"
     if model is None:
@@ -277,11 +277,11 @@ def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel 
         yield f"joints of the robot by name: {len(known)} of {len(moving)}{without}"
 
 
-def _about_intervals(intervals: Sequence[DraftedInterval], evidence: Sequence[Hanging]) -> str:
+def _about_intervals(intervals: Sequence[DraftedInterval], evidence: Sequence[GravityFit]) -> str:
     if not intervals:
         return ""
-    seconds = sum((one.end_s or 0.0) - one.start_s for one in intervals)
-    tolerance = max(hanging.tolerance for hanging in evidence)
+    seconds = sum((interval.end_s or 0.0) - interval.start_s for interval in intervals)
+    tolerance = max(fit.tolerance for fit in evidence)
     return (
         f"intervals: {len(intervals)} of {seconds:.0f} s together, in which the force goes with the orientation within "
         f"{tolerance:.2g} N; a steady push in a fixed direction of the sensor would not show, so look at them"
@@ -292,7 +292,7 @@ def _why_no_interval(
     recording: Recording | None,
     sensors: Sequence[DraftedSensor],
     model: RobotModel | None,
-    evidence: Sequence[Hanging],
+    evidence: Sequence[GravityFit],
 ) -> str:
     if recording is None or not sensors:
         return "no interval is offered: the reading was not held against anything"
@@ -311,7 +311,7 @@ def _imus(log: DraftedLog) -> list[str]:
 
 
 def _wrist_lines(log: DraftedLog, sensors: Sequence[DraftedSensor]) -> list[str]:
-    """What hangs on a wrist sensor whose pose is logged."""
+    """The `[load]` table of a wrist sensor whose pose is logged."""
     if not sensors:
         return []
     posed = [s.name for s in log.streams if {"orientation", "gravity"} & set(s.quantities)]

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a reading says of gravity by itself: force as the weight of whatever hangs on the sensor, plus a bias.
+"""Fit of a force to gravity alone: the weight of the distal links and load of a sensor, plus a bias.
 
-A sensor that nothing touches reads `f = R h + mu R a + b` along its axes: R turns vectors of the support to those of
-the sensor, a is the acceleration of the centre of mass of what hangs on it, h the weight in the axes of the support (up
-or down, by who acts on whom), mu the mass with that sign. Neither mass nor direction need be known, and a contact shows
-as what is left, once the matrix of a sensor that is not calibrated yet is allowed for.
+Without contact a sensor measures `f = R h + mu R a + b` along its axes: R turns vectors of the support to those of the
+sensor, a is the acceleration of the centre of mass of the distal links, h their weight in the axes of the support (up
+or down, by who acts on whom), mu their mass with that sign. Neither mass nor direction need be known. A contact shows
+in the residual, once the errors of an uncalibrated matrix are estimated too.
 """
 
 from __future__ import annotations
@@ -28,20 +28,20 @@ from forcetorque.robot.motion import JointMotion, RootMotion, joint_motion_at
 from forcetorque.robot.tree import build_tree, required_joints
 
 WINDOW_S = 0.2
-"""Readings are averaged over so long, against noise and vibration; s."""
+"""Window of the means, against noise and vibration; s."""
 MARGIN_S = 0.4
-"""So long before and after what does not seem free nothing is offered: a push begins and ends gently; s."""
+"""Margin to a contact, because a push starts and ends gently; s."""
 SHORTEST_S = 2.0
-"""Shortest span that is offered; s."""
+"""Shortest interval; s."""
 LARGE_SHARE = 0.02
-"""What is left may be this share of the weight, for a sensor that is not calibrated yet."""
+"""Largest residual without contact, as a share of the weight, for a sensor that is not calibrated yet."""
 
 CROSS_TALK = 0.05
-"""What is expected of the errors of a matrix that a sensor came with: share of a load that shows where it is not."""
+"""Expected cross-talk of a prior matrix: share of a load that it measures in another component."""
 LEVER_M = 0.05
-"""Moment over force of full scales, by which shares of moments are shares of forces; m."""
+"""Ratio of full scales of moment and force, which converts shares of moments to shares of forces; m."""
 LIGHT_KG = 1e-3
-"""Less than this beyond a joint is no load."""
+"""Mass beyond a joint below which there is no load."""
 
 _PROBE = "probe"
 _FEWEST = 20
@@ -55,47 +55,47 @@ _FILTER = SavitzkyGolay(window_s=0.3, order=3)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Hanging:
-    """How a raw sample depends on the orientation of its sensor."""
+class GravityFit:
+    """Fit of the force of a sensor to its orientation."""
 
     stamp_ns: IntArray
     """Middles of the n windows; ns."""
     weight: FloatArray
-    """Weight in the axes of the support, as it is read; shape (3,); N."""
+    """Measured weight in the axes of the support; shape (3,); N."""
     inertia: float
-    """Mass with the sign of the reading, by its acceleration: minus for child_to_parent; kg."""
+    """Mass by the accelerations, with the sign of the measurement: minus for child_to_parent; kg."""
     inertia_deviation: float
-    """Standard deviation of that; kg."""
+    """Standard deviation of that mass; kg."""
     left: FloatArray
-    """Magnitude of the force that is left; shape (n,); N."""
+    """Magnitude of the residual force; shape (n,); N."""
     turned: float
     """Standard deviation of the force that the orientation explains; N."""
     tolerance: float
-    """Force that is taken for none; N."""
+    """Largest residual force without contact; N."""
 
     @property
     def is_free(self) -> BoolArray:
-        """Windows in which nothing seems to touch; shape (n,)."""
+        """Windows without an apparent contact; shape (n,)."""
         return self.left <= self.tolerance
 
     @property
-    def typical(self) -> float:
-        """Median of the force that is left; N."""
+    def median_residual(self) -> float:
+        """Median of the residual force; N."""
         return float(np.median(self.left))
 
     @property
     def share_free(self) -> float:
-        """Share of the windows in which nothing seems to touch."""
+        """Share of the windows without an apparent contact."""
         return float(self.is_free.mean())
 
     @property
-    def says_something(self) -> bool:
-        """Whether orientation moves the reading by far more than what is left, in most of the time."""
-        return self.turned > 3.0 * self.typical and self.share_free > 0.5
+    def is_significant(self) -> bool:
+        """Whether the orientation explains far more of the force than the residual, most of the time."""
+        return self.turned > 3.0 * self.median_residual and self.share_free > 0.5
 
     @property
     def direction(self) -> str | None:
-        """Who acts on whom, where accelerations tell it surely and agree with the weight."""
+        """Who acts on whom, where accelerations determine it and agree with the weight."""
         mass = float(np.linalg.norm(self.weight)) / 9.8
         sure = abs(self.inertia) > _SURE * self.inertia_deviation
         if not (sure and 0.5 * mass < abs(self.inertia) < 2.0 * mass):
@@ -103,18 +103,18 @@ class Hanging:
         return "child_to_parent" if self.inertia < 0.0 else "parent_to_child"
 
 
-def hanging(model: RobotModel, joint: str, support: str, recording: Recording, stream: Stream) -> Hanging | None:
-    """Hold the forces of a stream against the orientation of a sensor that may sit in a joint.
+def fit_gravity(model: RobotModel, joint: str, support: str, recording: Recording, stream: Stream) -> GravityFit | None:
+    """Fit the forces of a stream to the orientation of a sensor in a joint.
 
     Args:
-        model: The robot; where it has no mass beyond the joint a point mass at the child link stands for it.
+        model: The robot; without a mass beyond the joint, a point mass at the child link is used.
         joint: Fixed joint, with a sensor or without.
-        support: Link that is taken to stand still.
-        recording: Streams with the joints between them, and those that move what is beyond.
+        support: Link that is assumed to be at rest.
+        recording: Streams with the joints from the support to the distal links.
         stream: Stream with the wrench.
 
     Returns:
-        What the readings say; None where too few windows have all joints.
+        The fit; None where too few windows have all joints.
     """
     probe = _probe(model, joint)
     tree = build_tree(probe, support)
@@ -130,37 +130,37 @@ def hanging(model: RobotModel, joint: str, support: str, recording: Recording, s
     moving = motion.samples(np.flatnonzero(whole))
     mass = mass_beyond(probe, joint)
 
-    def read(motion: JointMotion, pull: FloatArray) -> FloatArray:
-        """Force by the acceleration of free fall, which is what a probe reads as child_to_parent; per kg."""
+    def force_of(motion: JointMotion, pull: FloatArray) -> FloatArray:
+        """Force of a probe by the acceleration of free fall, as child_to_parent; per kg."""
         root = RootMotion(proper_acceleration=-pull, angular_velocity=np.zeros(3), angular_acceleration=np.zeros(3))
         return expected_wrenches(tree, motion, root, [_PROBE])[_PROBE][:, :3] / mass
 
-    still = JointMotion.at_rest(moving.names, moving.position)
-    link_R_support = np.stack([read(still, axis) for axis in np.eye(3)], axis=-1)
-    return _fitted(at_ns[whole], wrench[whole], link_R_support, -read(moving, np.zeros(3)))
+    static = JointMotion.at_rest(moving.names, moving.position)
+    link_R_support = np.stack([force_of(static, axis) for axis in np.eye(3)], axis=-1)
+    return _fitted(at_ns[whole], wrench[whole], link_R_support, -force_of(moving, np.zeros(3)))
 
 
-def felt_joints(model: RobotModel, joint: str, support: str) -> tuple[str, ...]:
-    """Name the joints that move what a sensor in a joint reads.
+def required_joints_of_sensor(model: RobotModel, joint: str, support: str) -> tuple[str, ...]:
+    """Find the joints that the expected wrench of a sensor in a joint depends on.
 
     Args:
         model: The robot.
         joint: Fixed joint, with a sensor or without.
-        support: Link that is taken to stand still.
+        support: Link that is assumed to be at rest.
 
     Returns:
-        Joints between the two, and those that move what hangs beyond.
+        Joints between support and sensor, and those of the distal links.
     """
     return required_joints(build_tree(_probe(model, joint), support), _PROBE)
 
 
 def _probe(model: RobotModel, joint: str) -> RobotModel:
-    """The robot with one sensor, at the joint, read as child_to_parent, and something that hangs on it."""
+    """The robot with one sensor, at the joint, child_to_parent, with a mass beyond it."""
     tags = [sensor for sensor in model.sensors.values() if sensor.joint == joint]
     bare = replace(model, sensors={})
     if tags:
-        place = replace(tags[0], name=_PROBE, direction=MeasureDirection.CHILD_TO_PARENT, aliases=())
-        bare = replace(bare, sensors={_PROBE: place})
+        probe = replace(tags[0], name=_PROBE, direction=MeasureDirection.CHILD_TO_PARENT, aliases=())
+        bare = replace(bare, sensors={_PROBE: probe})
     else:
         bare = bare.with_sensor(_PROBE, joint=joint, direction=MeasureDirection.CHILD_TO_PARENT)
     if mass_beyond(model, joint) >= LIGHT_KG:
@@ -171,14 +171,14 @@ def _probe(model: RobotModel, joint: str) -> RobotModel:
 
 
 def mass_beyond(model: RobotModel, joint: str) -> float:
-    """Add up what hangs on a joint.
+    """Add up the masses beyond a joint.
 
     Args:
         model: The robot.
         joint: One of its joints.
 
     Returns:
-        Mass of all links beyond it; kg.
+        Mass of all distal links; kg.
     """
     outward: dict[str, list[str]] = {}
     for entry in model.joints.values():
@@ -206,30 +206,30 @@ def _windows(stream: Stream) -> tuple[IntArray, FloatArray]:
     return middle.astype(np.int64), mean
 
 
-def _fitted(at_ns: IntArray, wrench: FloatArray, link_R_support: FloatArray, moved: FloatArray) -> Hanging:
+def _fitted(at_ns: IntArray, wrench: FloatArray, link_R_support: FloatArray, moved: FloatArray) -> GravityFit:
     n = len(at_ns)
     force, moment = wrench[:, :3], wrench[:, 3:]
     ideal = np.concatenate([link_R_support, moved[:, :, None], np.broadcast_to(np.eye(3), (n, 3, 3))], axis=2)
     ideal = ideal.reshape(3 * n, 7)
-    exact = _robust(ideal, force.reshape(-1))
+    exact = _robust_fit(ideal, force.reshape(-1))
     load = (ideal[:, :4] @ exact[:4]).reshape(n, 3)
-    design = np.hstack([ideal, _spread(load), _spread(moment - np.median(moment, axis=0))])
+    design = np.hstack([ideal, _share_columns(load), _share_columns(moment - np.median(moment, axis=0))])
     noise = MAD_TO_DEVIATION * float(np.median(np.abs(force.reshape(-1) - ideal @ exact)))
-    # rows that say how near one the matrix is expected to be: else its errors look like mass and direction
+    # rows of the prior distribution of the matrix: without them its errors are attributed to mass and direction
     expected = np.repeat([np.inf, CROSS_TALK, CROSS_TALK / LEVER_M], [7, 9, 9])
-    for _ in range(2):  # the noise is what the expected errors of the matrix do not explain
+    for _ in range(2):  # the noise is the residual that the expected errors of the matrix do not explain
         prior = np.diag(max(noise, 1e-9) / expected)
-        coefficients = _robust(design, force.reshape(-1), prior)
+        coefficients = _robust_fit(design, force.reshape(-1), prior)
         left = np.linalg.norm((force.reshape(-1) - design @ coefficients).reshape(n, 3), axis=1)
         noise = float(np.median(left)) / _MEDIAN_OF_NORM
-    # a matrix that is not one and a weight that is larger are the same: the size is that of the matrix one
+    # the gain of the matrix and the weight are not separable: the size is that for a matrix of gain one
     size = float(np.linalg.norm(exact[:3])) / max(float(np.linalg.norm(coefficients[:3])), 1e-9)
     weight = size * coefficients[:3]
     tolerance = max(_DEVIATIONS * noise, LARGE_SHARE * float(np.linalg.norm(weight)))
     rows = np.vstack([design[np.repeat(left <= tolerance, 3)], prior])
     covariance = np.linalg.pinv(rows.T @ rows) * noise**2
     turned = link_R_support @ weight
-    return Hanging(
+    return GravityFit(
         stamp_ns=at_ns,
         weight=weight,
         inertia=float(size * coefficients[3]),
@@ -240,52 +240,52 @@ def _fitted(at_ns: IntArray, wrench: FloatArray, link_R_support: FloatArray, mov
     )
 
 
-def _spread(values: FloatArray) -> FloatArray:
-    """Columns by which every component of three may have a share of each of these; shape (3 n, 9)."""
+def _share_columns(values: FloatArray) -> FloatArray:
+    """Columns of the shares of each value in each of three components; shape (3 n, 9)."""
     return np.einsum("ij,nk->nijk", np.eye(3), values).reshape(3 * len(values), 9)
 
 
-def _robust(design: FloatArray, reading: FloatArray, prior: FloatArray | None = None) -> FloatArray:
-    """Coefficients that few large errors do not move: Cauchy's weights, for rows of the reading alone."""
+def _robust_fit(design: FloatArray, force: FloatArray, prior: FloatArray | None = None) -> FloatArray:
+    """Coefficients by Cauchy's weights, which few large errors hardly change; rows of the prior keep their weight."""
     scale = np.maximum(np.abs(design).max(axis=0), 1e-9)
     scaled: FloatArray = design / scale
-    beliefs = np.empty((0, design.shape[1])) if prior is None else prior / scale
-    target = np.append(reading, np.zeros(len(beliefs)))
-    weights = np.ones(len(reading))
+    prior_rows = np.empty((0, design.shape[1])) if prior is None else prior / scale
+    target = np.append(force, np.zeros(len(prior_rows)))
+    weights = np.ones(len(force))
     coefficients = np.zeros(design.shape[1])
     for _ in range(_ROUNDS):
-        rows = np.vstack([weights[:, None] * scaled, beliefs])
-        coefficients = np.linalg.lstsq(rows, np.append(weights, np.ones(len(beliefs))) * target, rcond=None)[0]
-        rest = scaled @ coefficients - reading
-        noise = max(MAD_TO_DEVIATION * float(np.median(np.abs(rest))), 1e-9)
-        weights = 1.0 / np.sqrt(1.0 + (rest / noise) ** 2)
+        rows = np.vstack([weights[:, None] * scaled, prior_rows])
+        coefficients = np.linalg.lstsq(rows, np.append(weights, np.ones(len(prior_rows))) * target, rcond=None)[0]
+        residual = scaled @ coefficients - force
+        noise = max(MAD_TO_DEVIATION * float(np.median(np.abs(residual))), 1e-9)
+        weights = 1.0 / np.sqrt(1.0 + (residual / noise) ** 2)
     return coefficients / scale
 
 
-def free_spans(stamp_ns: IntArray, free: BoolArray) -> list[tuple[int, int]]:
-    """Find spans of time in which nothing seems to touch.
+def free_intervals(stamp_ns: IntArray, free: BoolArray) -> list[tuple[int, int]]:
+    """Find intervals without an apparent contact.
 
     Args:
         stamp_ns: Instants, in order; shape (n,); ns.
-        free: Whether nothing seems to touch then; shape (n,).
+        free: Whether there is no apparent contact; shape (n,).
 
     Returns:
-        First and last instant of every span that is long enough; ns.
+        First and last instant of every interval that is long enough; ns.
     """
     if len(stamp_ns) < 2:
         return []
     step = float(np.median(np.diff(stamp_ns)))
     breaks = np.flatnonzero(np.diff(stamp_ns) > 5.0 * step) + 1
     runs: list[tuple[int, int]] = []
-    for part in np.split(np.arange(len(stamp_ns)), breaks):
-        for a, b in true_runs(free[part]):
-            early, late = (0 if edge else int(MARGIN_S * 1e9) for edge in (a == 0, b == len(part) - 1))
-            runs.append((int(stamp_ns[part[a]]) + early, int(stamp_ns[part[b]]) - late))
+    for segment in np.split(np.arange(len(stamp_ns)), breaks):
+        for a, b in true_runs(free[segment]):
+            early, late = (0 if edge else int(MARGIN_S * 1e9) for edge in (a == 0, b == len(segment) - 1))
+            runs.append((int(stamp_ns[segment[a]]) + early, int(stamp_ns[segment[b]]) - late))
     return [(first, last) for first, last in runs if last - first >= SHORTEST_S * 1e9]
 
 
 def joint_speed(recording: Recording, at_ns: IntArray) -> FloatArray | None:
-    """Give the fastest joint at given instants, to tell rest from motion.
+    """Compute the speed of the fastest joint at given instants.
 
     Args:
         recording: Streams, of which those with positions are used.

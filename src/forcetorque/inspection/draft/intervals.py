@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.inspection.draft.gravity import SHORTEST_S, Hanging, free_spans, joint_speed
+from forcetorque.inspection.draft.gravity import SHORTEST_S, GravityFit, free_intervals, joint_speed
 from forcetorque.inspection.draft.streams import DraftedLog
 from forcetorque.inspection.draft.toml_lines import line, question, remark
 from forcetorque.recording.recording import Recording
@@ -17,31 +17,31 @@ from forcetorque.recording.stream import Stream
 _MOST_SPANS = 12
 _CALIBRATION_SHARE = 2.0 / 3.0
 _MOVING_SPEED = 0.02
-"""Speed of the fastest joint above which a span moves; rad/s or m/s."""
+"""Speed of the fastest joint above which the robot moves; rad/s or m/s."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DraftedInterval:
-    """A span that is offered."""
+    """An interval that is proposed."""
 
     label: str
-    """Its label."""
+    """Label."""
     start_s: float
     """Start; s from the earliest stamp."""
     end_s: float | None
     """End; s from the earliest stamp; None for the end of the log."""
     use: str
-    """What it is offered for."""
+    """Use: calibration, validation or ignore."""
     words: str
-    """Why."""
+    """Comment on the interval."""
 
 
 def whole_log(words: str, *, use: str) -> tuple[DraftedInterval, ...]:
-    """Offer the whole log, where nothing tells free spans.
+    """Propose the whole log, where intervals without contact are unknown.
 
     Args:
-        words: What to do with it.
-        use: What it is offered for.
+        words: Comment on the interval.
+        use: Use of the interval.
 
     Returns:
         One interval.
@@ -49,21 +49,21 @@ def whole_log(words: str, *, use: str) -> tuple[DraftedInterval, ...]:
     return (DraftedInterval(label="all", start_s=0.0, end_s=None, use=use, words=words),)
 
 
-def draft_intervals(recording: Recording, hangings: Sequence[Hanging]) -> tuple[DraftedInterval, ...]:
-    """Offer spans in which nothing seems to touch.
+def draft_intervals(recording: Recording, fits: Sequence[GravityFit]) -> tuple[DraftedInterval, ...]:
+    """Propose intervals without an apparent contact.
 
     Args:
         recording: The log.
-        hangings: What each sensor says of contact; of those that say something.
+        fits: Significant fits of sensors to gravity.
 
     Returns:
-        The longest spans in the order of time, the first two thirds of them for calibration and the rest for
-        validation; none where nothing is free for long enough.
+        The longest intervals in the order of time, the first two thirds of them for calibration and the rest for
+        validation; none where no interval is long enough.
     """
-    spans = _common([free_spans(hanging.stamp_ns, hanging.is_free) for hanging in hangings])
+    spans = _common([free_intervals(fit.stamp_ns, fit.is_free) for fit in fits])
     longest = sorted(sorted(spans, key=lambda span: span[0] - span[1])[:_MOST_SPANS])
     start = recording.start_ns
-    pieces = _pieces(longest)
+    pieces = _divided(longest)
     intervals = []
     for k, (first, last, use) in enumerate(pieces, start=1):
         low, high = _outward(first - start), _inward(last - start)
@@ -98,7 +98,7 @@ def interval_lines(interval: DraftedInterval, extra: Sequence[str]) -> list[str]
 
 
 def _common(several: Sequence[list[tuple[int, int]]]) -> list[tuple[int, int]]:
-    """Spans that are free for every sensor."""
+    """Intervals without contact for every sensor."""
     if not several:
         return []
     first, *others = several
@@ -110,8 +110,8 @@ def _common(several: Sequence[list[tuple[int, int]]]) -> list[tuple[int, int]]:
     return common
 
 
-def _pieces(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int, str]]:
-    """First part for calibration, the rest for validation; a span across the border is cut."""
+def _divided(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int, str]]:
+    """Intervals with their use: first calibration, then validation; an interval across the border is cut."""
     total = sum(last - first for first, last in spans)
     border = int(_CALIBRATION_SHARE * total)
     pieces: list[tuple[int, int, str]] = []
@@ -146,19 +146,19 @@ def _is_moving(recording: Recording, first: int, last: int) -> bool | None:
 
 
 _MOTION_SIGNALS = {"wrench", "raw", "position", "proper_acceleration", "angular_velocity", "orientation", "gravity"}
-"""Quantities that a reading is held against at one instant, and readings."""
+"""Quantities that a fit combines at one instant."""
 
 
 def clock_lines(log: DraftedLog, recording: Recording | None) -> list[str]:
-    """Ask how clocks of streams differ.
+    """Write questions for the delays of clocks.
 
     Args:
         log: The log.
         recording: Its streams; None where they cannot be read yet.
 
     Returns:
-        A `[[clock]]` with a question for streams of another clock, or that share no time with the one whose clock
-        stays; one in comments for a table whose stamps are others than those of another table.
+        A `[[clock]]` with a question for streams of another clock, or that share no time with the stream whose clock
+        is kept; one in comments for a table whose stamps differ from those of another table.
     """
     streams = (
         [] if recording is None else [one for one in recording.streams.values() if _MOTION_SIGNALS & set(one.signals)]
@@ -168,15 +168,15 @@ def clock_lines(log: DraftedLog, recording: Recording | None) -> list[str]:
     stays = next((one for one in streams if "position" in one.signals), streams[0])
     lines: list[str] = []
     for group in _of_one_clock(streams, stays):
-        if group[0].clock != stays.clock or _apart(group[0], stays):
-            lines += _asked(group, stays)
+        if group[0].clock != stays.clock or _share_no_time(group[0], stays):
+            lines += _clock_question(group, stays)
         elif log.format == "tabular" and not np.array_equal(group[0].stamp_ns, stays.stamp_ns):
-            lines += _offered(group[0], stays)
+            lines += _clock_suggestion(group[0], stays)
     return lines
 
 
 def _of_one_clock(streams: Sequence[Stream], stays: Stream) -> list[list[Stream]]:
-    """The others; those that another clock stamped are together."""
+    """The other streams, grouped by clock."""
     groups: dict[str, list[Stream]] = {}
     for stream in streams:
         if stream is not stays:
@@ -185,12 +185,12 @@ def _of_one_clock(streams: Sequence[Stream], stays: Stream) -> list[list[Stream]
     return list(groups.values())
 
 
-def _apart(stream: Stream, other: Stream) -> bool:
+def _share_no_time(stream: Stream, other: Stream) -> bool:
     (first, last), (other_first, other_last) = _ends_s(stream), _ends_s(other)
     return first > other_last or other_first > last
 
 
-def _asked(group: Sequence[Stream], stays: Stream) -> list[str]:
+def _clock_question(group: Sequence[Stream], stays: Stream) -> list[str]:
     first, names = group[0], [one.name for one in group]
     why = (
         f"the clock {first.clock!r} stamped it, {stays.clock!r} stamped {stays.name!r}"
@@ -208,11 +208,11 @@ def _asked(group: Sequence[Stream], stays: Stream) -> list[str]:
         line("stream", names if len(names) > 1 else names[0]),
         line("to", stays.name),
         question("delay_s", words),
-        f'# around_s = {began}  # with "estimate", which looks within 0.5 s of it, or within_s',
+        f'# around_s = {began}  # with "estimate", which searches within 0.5 s of it, or within_s',
     ]
 
 
-def _offered(stream: Stream, stays: Stream) -> list[str]:
+def _clock_suggestion(stream: Stream, stays: Stream) -> list[str]:
     return [
         "",
         remark(f"{_extents(stream, stays)}; if two clocks stamped them, this is what to state:"),
@@ -224,7 +224,7 @@ def _offered(stream: Stream, stays: Stream) -> list[str]:
 
 
 def _extents(stream: Stream, stays: Stream) -> str:
-    """From when to when both run, for people."""
+    """Start and end of both streams, as text."""
     return ", ".join("{!r} runs from {:.3f} s to {:.3f} s".format(one.name, *_ends_s(one)) for one in (stream, stays))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Joints of a drafted experiment: those that a log only counts, and those that it lacks."""
+"""Joints of a drafted experiment: joints without names in the log, and joints that the log lacks."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 
 from forcetorque.formats.yarp.plain_ports import NO_JOINT
-from forcetorque.inspection.draft.gravity import felt_joints
+from forcetorque.inspection.draft.gravity import required_joints_of_sensor
 from forcetorque.inspection.draft.sensors_and_supports import DraftedSensor, sensor_joints
 from forcetorque.inspection.draft.streams import DraftedLog
 from forcetorque.inspection.draft.toml_lines import line, listed, question, remark, toml_value
@@ -15,22 +15,22 @@ from forcetorque.robot.model import JointType, RobotModel
 
 _MOST_ROWS = 2
 _SIDES = {"left", "right"}
-"""Words of which joints have the first letter."""
+"""Words that joints abbreviate by their first letter."""
 _LIMBS = {
     "head": {"head", "neck", "eye", "eyes", "eyelids"},
     "torso": {"torso", "waist"},
     "arm": {"arm", "shoulder", "elbow", "wrist"},
     "leg": {"leg", "hip", "knee", "ankle"},
 }
-"""Words that streams and joints of a limb are called by."""
+"""Words in the names of streams and joints of a limb."""
 
 
 def joints_question(count: int, where: str, model: RobotModel | None, *, key: str = "joints") -> str:
-    """Ask for the names of joints.
+    """Write the question for the names of joints.
 
     Args:
-        count: How many there are.
-        where: Name of the stream, which may tell a limb.
+        count: Number of joints.
+        where: Name of the stream, which may contain a limb.
         model: The robot; None for none.
         key: Key of the experiment file.
 
@@ -53,16 +53,16 @@ def joints_question(count: int, where: str, model: RobotModel | None, *, key: st
 
 
 def joint_rows(model: RobotModel, count: int, where: str = "") -> list[list[str]]:
-    """Find as many joints as that one behind the other, without a branch between them.
+    """Find serial chains with a number of joints.
 
     Args:
         model: The robot.
-        count: How many joints.
-        where: Name that may tell a limb, as `left_leg`; rows of another are left out, and any others where joints of
-            some begin alike.
+        count: Number of joints.
+        where: Name that may contain a limb, as `left_leg`; chains of other limbs are left out, and chains with another
+            prefix where one has this prefix.
 
     Returns:
-        Rows of joints, each from the inner to the outer one.
+        Chains of joints, each from the inner to the outer one.
     """
     words = _words(where)
     limbs = _limbs_called(words)
@@ -91,7 +91,7 @@ def _limbs_called(words: set[str]) -> set[str]:
 
 
 def _limbs(model: RobotModel) -> list[list[str]]:
-    """Joints that move from branch to branch, or to an end."""
+    """Chains of moving joints from branch to branch, or to an end."""
     outward: dict[str, list[str]] = {}
     for name, joint in model.joints.items():
         outward.setdefault(joint.parent, []).append(name)
@@ -122,15 +122,15 @@ _MOST_JOINTS = 12
 
 
 def unlogged_joints(log: DraftedLog, model: RobotModel) -> tuple[str, ...]:
-    """Name the joints that no stream holds.
+    """Find the joints without a stream.
 
     Args:
         log: The log.
         model: The robot.
 
     Returns:
-        Joints that move by themselves, in the order of the robot; none where the log names none, or streams hold joints
-        that nobody has named yet.
+        Independent joints, in the order of the robot; none where the log has no names of joints, or streams hold joints
+        without names.
     """
     holders = [stream for stream in log.streams if "position" in stream.quantities]
     if not holders or not all(stream.joints for stream in holders):
@@ -141,7 +141,7 @@ def unlogged_joints(log: DraftedLog, model: RobotModel) -> tuple[str, ...]:
 
 
 def standing_lines(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel, base: str | None) -> list[str]:
-    """Ask where joints stood that were not logged.
+    """Write questions for the positions of joints that were not logged.
 
     Args:
         log: The log.
@@ -150,19 +150,19 @@ def standing_lines(log: DraftedLog, sensors: Sequence[DraftedSensor], model: Rob
         base: The link that an arm is bolted down by; None for a robot that may stand on several.
 
     Returns:
-        A question for each joint that a sensor needs wherever it sits, and a comment for others; none where no joint is
-        missing.
+        A question for each joint that a sensor needs at any of its possible positions, and a comment for others; none
+        where no joint is missing.
     """
     missing = unlogged_joints(log, model)
-    needed = joints_felt(sensors, model, base)
-    asked = [joint for joint in missing if joint in needed]
+    needed = joints_of_sensors(sensors, model, base)
+    required = [joint for joint in missing if joint in needed]
     others = [joint for joint in missing if joint not in needed]
-    lines = ["", "[robot.fixed]"] if asked else []
-    for joint in asked:
+    lines = ["", "[robot.fixed]"] if required else []
+    for joint in required:
         words = f"where it stood all along, {model.joints[joint].type.unit}: no stream is known to hold it"
         lines.append(question(joint, f"{words}; if it moved, the log must"))
     if others:
-        stood = line(others[0], 0.0) if asked else line("fixed", {others[0]: 0.0})
+        stood = line(others[0], 0.0) if required else line("fixed", {others[0]: 0.0})
         words = (
             f"for joints that stood still all along, where a command asks; not logged: {listed(others, _MOST_JOINTS)}"
         )
@@ -170,8 +170,8 @@ def standing_lines(log: DraftedLog, sensors: Sequence[DraftedSensor], model: Rob
     return lines
 
 
-def joints_felt(sensors: Sequence[DraftedSensor], model: RobotModel, base: str | None) -> set[str]:
-    """Name the joints without which nobody knows what sensors must read, wherever each of them sits.
+def joints_of_sensors(sensors: Sequence[DraftedSensor], model: RobotModel, base: str | None) -> set[str]:
+    """Find the joints that the expected wrenches of sensors depend on, at any of their possible positions.
 
     Args:
         sensors: Sensors of the log.
@@ -179,13 +179,13 @@ def joints_felt(sensors: Sequence[DraftedSensor], model: RobotModel, base: str |
         base: The link that an arm is bolted down by; None where it may stand on several.
 
     Returns:
-        The joints; none where nobody knows what stands still.
+        The joints; none where the support is unknown.
     """
     if base is None:
         return set()
-    felt: set[str] = set()
+    joints: set[str] = set()
     for sensor in sensors:
-        places = sensor_joints(sensor, model)
-        needed = [set(felt_joints(model, joint, base)) for joint in places]
-        felt |= set.intersection(*needed) if needed else set()
-    return felt
+        candidates = sensor_joints(sensor, model)
+        needed = [set(required_joints_of_sensor(model, joint, base)) for joint in candidates]
+        joints |= set.intersection(*needed) if needed else set()
+    return joints

@@ -13,7 +13,7 @@ from forcetorque.formats.headings import read_heading
 from forcetorque.formats.log_format import LogDescription, LogFormat, LogSketch, SketchingFormat
 from forcetorque.formats.registry import format_name, format_named, not_a_log_reason, not_recognised, recognised_format
 from forcetorque.inspection.draft.joints import joints_question
-from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream, likenesses, relative, time_column
+from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream, column_matches, relative, time_column
 from forcetorque.inspection.draft.tables_and_arrays import (
     array_groups,
     array_lines,
@@ -159,7 +159,7 @@ def _link_in(name: str, model: RobotModel | None) -> str | None:
     return last if model is not None and last in model.links else None
 
 
-def looks(sketch: LogSketch) -> dict[int, str]:
+def likely_quantities(sketch: LogSketch) -> dict[int, str]:
     """Say what each column of a log looks like, without a robot.
 
     Args:
@@ -174,7 +174,7 @@ def looks(sketch: LogSketch) -> dict[int, str]:
         named = {group.columns[0]: group.quantity for group in groups}
         return named if chosen is None else {**named, sketch.columns.index(chosen): "time"}
     headings = [read_heading(column.name) for column in sketch.columns]
-    likeness = {k: group.words or group.quantity for group in likenesses(headings, ()) for k in group.columns}
+    likeness = {k: group.words or group.quantity for group in column_matches(headings, ()) for k in group.columns}
     likeness |= {k: "orientation" for first in sketch.quaternion for k in range(first, first + 4) if k not in likeness}
     time = time_column(headings, [column.step for column in sketch.columns])
     return likeness if time is None else {**likeness, time: "time"}

@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from forcetorque.inspection.draft.gravity import LIGHT_KG, Hanging, mass_beyond
+from forcetorque.inspection.draft.gravity import LIGHT_KG, GravityFit, mass_beyond
 from forcetorque.inspection.draft.streams import DraftedStream
 from forcetorque.inspection.draft.toml_lines import line, listed, question
 from forcetorque.robot.model import Joint, RobotModel
@@ -47,7 +47,7 @@ class DraftedSensor:
     """Fixed joints that it may sit in, the likeliest first; none where the robot's file has a tag."""
     joint: str | None = None
     """The joint, where a name tells it."""
-    evidence: Mapping[str, Hanging] = field(default_factory=dict)
+    evidence: Mapping[str, GravityFit] = field(default_factory=dict)
     """What the reading says of each joint."""
 
 
@@ -116,17 +116,17 @@ def sensor_lines(sensor: DraftedSensor, *, on_robot: bool) -> list[str]:
     return lines
 
 
-def weight_words(hanging: Hanging) -> str:
+def weight_text(fit: GravityFit) -> str:
     """Say what a reading tells of gravity.
 
     Args:
-        hanging: How it goes with the orientation.
+        fit: How it goes with the orientation.
 
     Returns:
         Words for the question of the direction of gravity.
     """
-    size = float((hanging.weight**2).sum() ** 0.5)
-    along = ", ".join(f"{value:+.2f}" for value in hanging.weight / size)
+    size = float((fit.weight**2).sum() ** 0.5)
+    along = ", ".join(f"{value:+.2f}" for value in fit.weight / size)
     return (
         f"the force turns with the sensor as a weight of {size:.3g} N along [{along}] would: gravity points there if "
         "child_to_parent, else the other way"
@@ -137,7 +137,7 @@ def _place_lines(sensor: DraftedSensor) -> list[str]:
     if sensor.joint is not None:
         joint = line("joint", sensor.joint, "by its name")
     else:
-        candidates = sorted(sensor.evidence, key=lambda name: sensor.evidence[name].typical)
+        candidates = sorted(sensor.evidence, key=lambda name: sensor.evidence[name].median_residual)
         left = [f"{name} ({_left(sensor.evidence[name])})" for name in candidates]
         others = [name for name in sensor.joints if name not in sensor.evidence]
         words = "fixed joint of the URDF that it sits in, whose child link has the axes of the sensor"
@@ -145,16 +145,16 @@ def _place_lines(sensor: DraftedSensor) -> list[str]:
         joint = question("joint", f"{words}{evidence}{listed([*left, *others], _MOST_CANDIDATES)}")
     words = "child_to_parent if it reads what the outer part does to the inner one, so that a hanging load reads down; "
     words += "parent_to_child if the opposite"
-    directions = {hanging.direction for hanging in sensor.evidence.values()} - {None}
+    directions = {fit.direction for fit in sensor.evidence.values()} - {None}
     if len(directions) == 1:
         words += f"; the accelerations in the log say {directions.pop()}"
     return [joint, question("measure_direction", words)]
 
 
-def _left(hanging: Hanging) -> str:
-    free = hanging.left[hanging.is_free]
-    rms = float((free**2).mean() ** 0.5) if len(free) else float((hanging.left**2).mean() ** 0.5)
-    return f"{rms:.2g} N of {hanging.turned:.2g} N in {100 * hanging.share_free:.0f} % of the time"
+def _left(fit: GravityFit) -> str:
+    free = fit.left[fit.is_free]
+    rms = float((free**2).mean() ** 0.5) if len(free) else float((fit.left**2).mean() ** 0.5)
+    return f"{rms:.2g} N of {fit.turned:.2g} N in {100 * fit.share_free:.0f} % of the time"
 
 
 def _matched(stream: DraftedStream, reading: Sequence[DraftedStream], model: RobotModel) -> DraftedSensor:
@@ -189,7 +189,7 @@ def _tags_of(stream: DraftedStream, model: RobotModel) -> list[str]:
     return [
         name
         for name, sensor in model.sensors.items()
-        if any(_stand_in(_words(alias), words) for alias in (name, *sensor.aliases))
+        if any(_words_match(_words(alias), words) for alias in (name, *sensor.aliases))
     ]
 
 
@@ -197,7 +197,7 @@ def _words(name: str) -> list[str]:
     return [word for word in re.split(r"[^a-z0-9]+", name.lower()) if word and word not in _OF_SENSORS]
 
 
-def _stand_in(wanted: Sequence[str], words: Sequence[str]) -> bool:
+def _words_match(wanted: Sequence[str], words: Sequence[str]) -> bool:
     size = len(wanted)
     return size > 0 and any(
         all(
@@ -304,16 +304,14 @@ def has_no_tool(sensor: DraftedSensor, model: RobotModel) -> bool:
     return bool(joints) and all(mass_beyond(model, joint) < LIGHT_KG for joint in joints)
 
 
-def support_lines(
-    base: str | None, model: RobotModel, imu_streams: Sequence[str], hanging: Hanging | None
-) -> list[str]:
+def support_lines(base: str | None, model: RobotModel, imu_streams: Sequence[str], fit: GravityFit | None) -> list[str]:
     """Write the `[[support]]` table.
 
     Args:
         base: The link that an arm is bolted down by; None where any may stand.
         model: The robot.
         imu_streams: Streams of inertial sensors.
-        hanging: What a reading says of the direction of gravity there; None for nothing.
+        fit: What a reading says of the direction of gravity there; None for nothing.
 
     Returns:
         Its lines.
@@ -332,8 +330,8 @@ def support_lines(
     )
     if imu_streams:
         words += f"; a robot that moves has imu = [{', '.join(map(repr, imu_streams))}] in place of this line"
-    if hanging is not None:
-        words += f"; {weight_words(hanging)}"
+    if fit is not None:
+        words += f"; {weight_text(fit)}"
     return [*lines, question("gravity_direction", words)]
 
 

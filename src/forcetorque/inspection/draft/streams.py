@@ -57,7 +57,7 @@ _MOTIONS = {
     "current": "motor_current",
 }
 _STATES = re.compile(r"^(?:.*_)?joint_states?_|^field_(?=position|velocity|effort)")
-"""What stands in front where programs of ROS wrote messages of joints as a table."""
+"""Prefixes of tables of joint messages that programs of ROS write."""
 _FIXED_ROWS = 9
 _OF_JOINTS = {"j", "joint", "joints"}
 """Words of columns that are of joints, however many they are."""
@@ -70,13 +70,13 @@ class ColumnMatch:
     quantity: str
     """The quantity; `?` where the headings fit several."""
     columns: tuple[int, ...]
-    """Places of the columns in the table, in the order of the quantity."""
+    """Indices of the columns in the table, in the order of the quantity."""
     names: tuple[str, ...] | None = None
-    """Joints of the robot by the columns; None where the quantity has names of its own, or nobody knows them."""
+    """Joints of the robot by the columns; None where the quantity has fixed names, or they are unknown."""
     form: OrientationForm | None = None
-    """Of an orientation, how it is written."""
+    """Form of an orientation."""
     words: str = ""
-    """What is to be asked of the quantity."""
+    """Possible quantities, for the question."""
 
 
 def time_column(headings: Sequence[Heading], steps: Sequence[float | None]) -> int | None:
@@ -87,21 +87,21 @@ def time_column(headings: Sequence[Heading], steps: Sequence[float | None]) -> i
         steps: Median step of each column that rises as times do; None for the others.
 
     Returns:
-        Its place: the first one that is called so and rises, else the first column if that rises; None for none.
+        Its index: the first rising column with such a name, else the first column if it rises; None for none.
     """
     named = [k for k, heading in enumerate(headings) if is_time_name(heading.name) and steps[k] is not None]
     return next(iter(named), 0 if steps and steps[0] is not None else None)
 
 
-def likenesses(headings: Sequence[Heading], joints: Sequence[str]) -> tuple[ColumnMatch, ...]:
-    """Say what the columns of a table look like.
+def column_matches(headings: Sequence[Heading], joints: Sequence[str]) -> tuple[ColumnMatch, ...]:
+    """Match the columns of a table with quantities, by their headings.
 
     Args:
         headings: Headings of the columns.
         joints: Joints of the robot that move.
 
     Returns:
-        Groups of columns, each in its order, in the order of their first columns; columns in none look like nothing.
+        Groups of columns, in the order of their first columns; columns without a match are in none.
     """
     used: set[int] = set()
     groups: list[ColumnMatch] = []
@@ -137,7 +137,7 @@ def _of_joints(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMat
 
 
 def _motion(words: str) -> str | None:
-    """The quantity of joints that words are for, whatever program or topic stands in front."""
+    """The quantity of joints that words name, without a program or topic in front."""
     return _MOTIONS.get(words.removeprefix("actual_") or words) or _MOTIONS.get(_STATES.sub("", words))
 
 
@@ -237,30 +237,30 @@ def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatc
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DraftedStream:
-    """A stream of the log, before anybody says whose it is."""
+    """A stream of the log, before it is specified."""
 
     name: str
     """Its name in the recording."""
     quantities: tuple[str, ...]
-    """What it holds, or looks as if it held."""
+    """Its quantities, or those that its columns match."""
     joints: tuple[str, ...] = ()
-    """Joints of the robot that it holds by their names."""
+    """Joints of the robot in it, by their names."""
     frame: str | None = None
-    """Frame of its wrench, where the log says it."""
+    """Frame of its wrench, where the log has it."""
     table: LogSketch | None = None
     """The table that it is read from; None where the log describes itself."""
     groups: tuple[ColumnMatch, ...] = ()
-    """Columns of the table by what they look like."""
+    """Columns of the table by quantity."""
 
     @property
     def reads_load(self) -> bool:
-        """Whether it is the reading of a force-torque sensor."""
+        """Whether it is the measurement of a force-torque sensor."""
         return "wrench" in self.quantities or "raw" in self.quantities
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DraftedLog:
-    """A log, or several tables that are one."""
+    """A log, or several tables of one recording."""
 
     paths: tuple[Path, ...]
     """Its files or its folder."""
@@ -269,22 +269,22 @@ class DraftedLog:
     streams: tuple[DraftedStream, ...]
     """Its streams."""
     arrays: tuple[SketchedColumns, ...] = ()
-    """All arrays of a file of arrays, whether they look like something or not."""
+    """All arrays of a file of arrays, with or without a match."""
     skipped_arrays: Mapping[str, str] = field(default_factory=dict)
-    """What of a file of arrays cannot be read, by its name."""
+    """Arrays that cannot be read, by name."""
     description: LogDescription | None = None
-    """What it says of itself; None for tables and arrays."""
+    """Its own description; None for tables and arrays."""
 
 
 def relative(path: Path, folder: Path) -> str:
-    """Write a path as seen from the folder of the experiment file.
+    """Make a path relative to the folder of the experiment file.
 
     Args:
         path: The path.
         folder: The folder.
 
     Returns:
-        Relative, with `/`; absolute where nothing else leads there.
+        Relative, with `/`; absolute on another drive.
     """
     try:
         return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()

@@ -16,7 +16,7 @@ from forcetorque.inspection.draft.streams import (
     ColumnMatch,
     DraftedLog,
     DraftedStream,
-    likenesses,
+    column_matches,
     relative,
     time_column,
 )
@@ -24,7 +24,7 @@ from forcetorque.inspection.draft.toml_lines import (
     RATE_LINES,
     TIME_UNITS,
     USUAL_UNITS,
-    Asked,
+    Question,
     axes_line,
     likeliest_time,
     likeliest_units,
@@ -32,7 +32,7 @@ from forcetorque.inspection.draft.toml_lines import (
     listed,
     question,
     remark,
-    time_words,
+    time_text,
     toml_value,
 )
 from forcetorque.recording.frames import OrientationForm
@@ -96,7 +96,7 @@ def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[ColumnMatch, ...]
     if not sketch.has_headings:
         return ()
     groups: dict[str, ColumnMatch] = {}
-    for group in likenesses(_headings(sketch), joints):
+    for group in column_matches(_headings(sketch), joints):
         groups.setdefault(group.quantity, group)
     if "position" in groups:  # which tell the pose
         groups = {name: group for name, group in groups.items() if group.form is not OrientationForm.EULER}
@@ -160,8 +160,8 @@ def _stamp_lines(sketch: LogSketch) -> list[str]:
     if column.unit in (*TIME_UNITS, ISO8601):
         return [line("stamp", {"column": name, "unit": column.unit})]
     likeliest = likeliest_time(column)
-    asked = Asked(
-        f"stamp = {toml_value({'column': name, 'unit': OPEN})}  {remark(time_words(column))}",
+    asked = Question(
+        f"stamp = {toml_value({'column': name, 'unit': OPEN})}  {remark(time_text(column))}",
         None if likeliest is None else line("stamp", {"column": name, "unit": likeliest}),
     )
     return [asked]
@@ -205,7 +205,7 @@ def _group_lines(
         lines.append(line("units", units))
     else:
         usual = USUAL_UNITS.get(group.quantity, "")
-        extent = _range_words(sketch, group)
+        extent = _range_text(sketch, group)
         likeliest = likeliest_units(group.quantity, len(names), _largest(sketch, group))
         shown = "" if likeliest is None else f", as {_repeated(likeliest)}"
         choice = f" ({usual})" if " or " in usual else ""
@@ -225,7 +225,7 @@ def _group_lines(
     elif group.form is not None:
         stated = {"form": str(group.form), "sense": OPEN}
         likeliest_sense = line("orientation", {**stated, "sense": "sensor_to_world"})
-        lines.append(Asked(f"orientation = {toml_value(stated)}  {remark(_SENSE)}", likeliest_sense))
+        lines.append(Question(f"orientation = {toml_value(stated)}  {remark(_SENSE)}", likeliest_sense))
     return lines
 
 
@@ -239,7 +239,7 @@ def _largest(sketch: LogSketch, group: ColumnMatch) -> float | None:
     return max(ends, default=None)
 
 
-def _range_words(sketch: LogSketch, group: ColumnMatch) -> str:
+def _range_text(sketch: LogSketch, group: ColumnMatch) -> str:
     if group.quantity != "wrench":
         extent = _extent(sketch, group.columns)
         return f"; they run {extent}{sketch.range_text}" if extent else ""
@@ -375,7 +375,7 @@ def _time_lines(sketch: LogSketch) -> list[str]:
         words = 'no array rises as a time does: { variable = "...", unit = "s" }'
         choice = f'{words}, or {{ column = 1, unit = "s" }} of the array; or the two lines below in its place'
         return [question("time", choice), *RATE_LINES]
-    return [f"time = {toml_value({'variable': chosen.name, 'unit': OPEN})}  {remark(time_words(chosen))}"]
+    return [f"time = {toml_value({'variable': chosen.name, 'unit': OPEN})}  {remark(time_text(chosen))}"]
 
 
 def _array_signal(

@@ -67,51 +67,51 @@ def remark(words: str) -> str:
     return f"# {''.join(c if c.isprintable() else ' ' for c in ' '.join(words.split()))}"
 
 
-class Asked(str):
-    """A line with a question, and what it would be if the likeliest answer were right."""
+class Question(str):
+    """A line with a question, and the line with the likeliest value."""
 
     __slots__ = ("likeliest",)
     likeliest: str | None
 
-    def __new__(cls, text: str, likeliest: str | None) -> Asked:
-        """Hold a line.
+    def __new__(cls, text: str, likeliest: str | None) -> Question:
+        """Make a line.
 
         Args:
             text: The line.
-            likeliest: The same with the likeliest answer; None where nothing is likely.
+            likeliest: The line with the likeliest value; None where no value is likely.
 
         Returns:
             The line.
         """
-        asked = super().__new__(cls, text)
-        asked.likeliest = likeliest
-        return asked
+        question = super().__new__(cls, text)
+        question.likeliest = likeliest
+        return question
 
 
 def question(key: str, words: str, likeliest: Any = None) -> str:
-    """Write a key that somebody has to fill in.
+    """Write a key to fill in.
 
     Args:
         key: The key.
-        words: What is asked, and what is known about it.
-        likeliest: The likeliest answer, for a first look at the log; None where nothing is likely.
+        words: The question, with evidence from the log.
+        likeliest: The likeliest value, for a first reading of the log; None where no value is likely.
 
     Returns:
         The line.
     """
-    return Asked(line(key, OPEN, words), None if likeliest is None else line(key, likeliest))
+    return Question(line(key, OPEN, words), None if likeliest is None else line(key, likeliest))
 
 
 def likeliest_text(lines: Iterable[str]) -> str:
-    """Give the text with the likeliest answers, for a first look that decides nothing.
+    """Join lines with the likeliest values, for a first reading of the log.
 
     Args:
         lines: Lines, some of them questions.
 
     Returns:
-        The text; questions of which nothing is likely are still in it.
+        The text; questions without a likely value are still in it.
     """
-    return "\n".join(one.likeliest or one if isinstance(one, Asked) else one for one in lines)
+    return "\n".join(text.likeliest or text if isinstance(text, Question) else text for text in lines)
 
 
 def listed(names: Iterable[str], most: int = 24) -> str:
@@ -119,14 +119,14 @@ def listed(names: Iterable[str], most: int = 24) -> str:
 
     Args:
         names: The names.
-        most: How many are listed; the others are counted.
+        most: Largest number that is listed; the others are counted.
 
     Returns:
-        Them, with commas.
+        The names, with commas.
     """
-    every = list(names)
-    more = f" and {len(every) - most} more" if len(every) > most else ""
-    return ", ".join(every[:most]) + more
+    all_names = list(names)
+    more = f" and {len(all_names) - most} more" if len(all_names) > most else ""
+    return ", ".join(all_names[:most]) + more
 
 
 def _key(key: str) -> str:
@@ -153,29 +153,29 @@ USUAL_UNITS = {
     "temperature": "degC",
     "raw": "counts",
 }
-"""Units that quantities usually have, for questions; nothing is taken for granted."""
+"""Usual units of quantities, for questions only."""
 
 RATE_LINES = (
     "# rate_hz = 100.0  # rows at even steps of time: how many a second",
     "# start_s = 0.0    # time of the first row, s",
 )
-"""What may stand in place of a time, as comments."""
+"""Alternatives to a column of times, as comments."""
 
 _PLAUSIBLE_HZ = (1.0, 10_000.0)
 _MOST_TURNS = 13.0
 """Joints and frames seldom turn by more than two turns in rad; in deg they always do."""
 _MOST_N = 1e5
-"""No sensor of a robot reads so much."""
+"""No sensor of a robot measures larger forces."""
 
 
-def time_words(column: SketchedColumns) -> str:
-    """Say what each unit would make of a column of times.
+def time_text(column: SketchedColumns) -> str:
+    """List rate and duration of a column of times by unit.
 
     Args:
         column: The column, or the array.
 
     Returns:
-        Words for the question.
+        Text for the question.
     """
     choices = [
         f"{unit} makes {rate:.4g} Hz and {(column.rows - 1) / rate:.4g} s"
@@ -185,7 +185,7 @@ def time_words(column: SketchedColumns) -> str:
 
 
 def likeliest_time(column: SketchedColumns) -> str | None:
-    """Give the unit of a column of times, where only one makes a usual rate.
+    """Find the unit of a column of times, where only one gives a usual rate.
 
     Args:
         column: The column, or the array.
@@ -198,7 +198,7 @@ def likeliest_time(column: SketchedColumns) -> str | None:
 
 
 def _usual_rates(column: SketchedColumns) -> dict[str, float]:
-    """Rates in Hz by the units that make a usual one, in a log of a second or more."""
+    """Usual rates in Hz by unit, of a log of a second or more."""
     if column.step is None:
         return {}
     rates = {unit: 1.0 / (column.step * factor) for unit, factor in TIME_UNITS.items()}
@@ -207,15 +207,15 @@ def _usual_rates(column: SketchedColumns) -> dict[str, float]:
 
 
 def likeliest_units(quantity: str, count: int, largest: float | None) -> list[str] | None:
-    """Give the units that a quantity has most often.
+    """Find the usual units of a quantity.
 
     Args:
         quantity: The quantity.
-        count: How many columns it has.
+        count: Number of columns.
         largest: Largest magnitude in them; None if it is not known.
 
     Returns:
-        A unit for each column; None where nothing is usual.
+        A unit for each column; None where there is no usual one.
     """
     if quantity == "wrench" and largest is not None and largest > _MOST_N:
         return None
@@ -227,7 +227,7 @@ def likeliest_units(quantity: str, count: int, largest: float | None) -> list[st
 
 
 def axes_line(quantity: str, stream: str, frames: Mapping[str, str]) -> str:
-    """State or ask for the frame of a signal.
+    """Write the frame of a signal, or the question for it.
 
     Args:
         quantity: Its quantity.
