@@ -36,7 +36,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.locomotion.net_force.net_force import coherence
+from forcetorque.locomotion.commands import coherence
 from forcetorque.locomotion.net_force.result import PhaseForce
 
 EXAMPLES: Final = Path(__file__).resolve().parents[1] / "examples"

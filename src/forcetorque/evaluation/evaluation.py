@@ -19,15 +19,12 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     static_loads_text,
     validation_excitation,
 )
-from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts, verdict_texts
-from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.evaluation.load_cases.verdict import UseVerdict, verdict_texts
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import (
-    Calibrations,
     JudgedCandidate,
     JudgedRow,
     JudgedWrenches,
-    named,
     wrench_errors,
 )
 from forcetorque.experiment.campaign import Campaign, Runs
@@ -231,32 +228,6 @@ class Evaluation(Result):
         if not self.recordings:
             return pooled
         return [{"recording": "", **row} for row in pooled] + [row.flat() for row in self.recordings]
-
-
-@with_recording_notes
-def evaluate(runs: Runs, calibrations: Calibrations) -> Evaluation:
-    """Judge calibrations, and the priors that they came from, on data that was not fitted.
-
-    Args:
-        runs: The sensor in one recording, or in several.
-        calibrations: Its calibrations by name, or one; without any the prior of the experiment is judged.
-
-    Returns:
-        For every candidate the errors with the offset of the fitted data and with the mean of the judged samples of
-        each recording removed; a prior that several calibrations share comes once. Judged one by one, calibrations
-        that need the same variables have the same errors as together. Errors of several recordings are pooled before
-        anything is averaged. And whether each may be used for the loads to come.
-
-    Raises:
-        SerialNumberError: If a calibration is of another sensor.
-        ExperimentError: If a judged interval was fitted, the robot now reads the sensor in another frame or sign, or a
-            load case cannot be had at the sensor.
-        FitError: If a load case changes a variable that a calibration does not know.
-        ShapeError: If a matrix does not have one column per channel of the sensor.
-    """
-    campaign, judged = Campaign.of(runs), named(calibrations)
-    errors = validation_errors(campaign, judged)
-    return errors.model_copy(update={"uses": use_verdicts(campaign, judged)})
 
 
 def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:

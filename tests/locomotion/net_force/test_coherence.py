@@ -19,7 +19,8 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import still_seconds
 from forcetorque.experiment.sensor_models import corrections_of
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
-from forcetorque.locomotion.net_force.net_force import coherence, force_error
+from forcetorque.locomotion.commands import coherence
+from forcetorque.locomotion.net_force.net_force import force_error
 from forcetorque.locomotion.net_force.result import Coherence
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.simulation.recordings import write_scenario

@@ -15,7 +15,6 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import sample_statistics
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment
@@ -34,20 +33,15 @@ from forcetorque.recording.recording import Interval, MovingSupport, Use
 from forcetorque.results.number_text import finite_or_none
 
 
-@with_recording_notes
-def coherence(
-    experiment: Experiment,
-    candidates: Mapping[str, Mapping[str, Calibration]] | None = None,
-    *,
-    offsets: Sequence[OffsetPolicy | str] = (),
+def net_force_errors(
+    experiment: Experiment, candidates: Mapping[str, Mapping[str, Calibration]], offsets: Sequence[OffsetPolicy | str]
 ) -> Coherence:
-    """Hold the net contact force of every phase against the weight.
+    """Compare the net contact force of every phase with the weight.
 
     Args:
-        experiment: The experiment; every interval that is not to be ignored is a phase, in which its support, or the
-            links that it names as touched, and its contacts touch the world.
-        candidates: By name of the candidate its calibrations by name of their file, at most one for each sensor; what
-            has none is read by the prior of the experiment. The prior is always judged.
+        experiment: The experiment.
+        candidates: By name of the candidate its calibrations by name of their file, at most one for each sensor; a
+            sensor without one is read by the prior of the experiment. The prior is always a candidate.
         offsets: Where the offsets come from, in turn; from the first phase in which one link alone is touched if none
             is named.
 
@@ -55,9 +49,7 @@ def coherence(
         Net forces, errors and intervals per offset, phase and candidate.
 
     Raises:
-        ExperimentError: If there is no phase, a link that is said to touch bears nothing, one that is not bears the
-            robot, or an offset cannot be told.
-        FitError: If an offset has too few samples.
+        ExperimentError: If there is no phase, contacts contradict the forces, or an offset cannot be determined.
     """
     phases = [NetContact.of(experiment, interval) for interval in _phases(experiment)]
     weight = experiment.processing.gravity * _mass(experiment)
@@ -68,7 +60,7 @@ def coherence(
                 f"offset {policy}: it comes from every judged phase itself, also from one on two feet, in which nobody "
                 "knows what a sensor must read; take one from an interval, such as one-link-imu:LABEL"
             )
-    readers = [reader for policy in policies for reader in readers_of(experiment, candidates or {}, policy)]
+    readers = [reader for policy in policies for reader in readers_of(experiment, candidates, policy)]
     rows = [row for reader in readers for row in _rows(experiment, reader, phases, weight)]
     doubts = contact_doubts(phases, [reader for reader in readers if reader.policy.offset is not Offset.NONE], weight)
     summary = tuple(_summary(rows))
