@@ -163,7 +163,7 @@ class _Analysis:
             sensors_named,
         )
 
-        calibrations = read_calibrations(given["calibration"])
+        calibrations = read_calibrations(given.get("calibration"))
         if _RUNS in self.named_by_kind:
             contents = read_experiments(given["experiments"], log)
         else:
