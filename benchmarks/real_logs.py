@@ -30,13 +30,13 @@ import numpy as np
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.evaluation import validation_errors
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.locomotion.net_force.net_force import coherence
+from forcetorque.locomotion.commands import coherence
 from forcetorque.locomotion.net_force.result import PhaseForce
 
 EXAMPLES: Final = Path(__file__).resolve().parents[1] / "examples"
@@ -91,7 +91,7 @@ def yoga(data: Path, folder: Path) -> dict[str, Any]:
         experiment = _load(path.read_text(encoding="utf-8"), data, folder / path.name)
         run = SensorRun(experiment, experiment.sensors[0].name)
         calibration, seconds = _timed(partial(calibrate_sensor, run, code_version=VERSION, created=CREATED))
-        rows = evaluate(run, {"new": calibration}, load_cases=False).verdicts
+        rows = validation_errors(run, {"new": calibration}).verdicts
         split: dict[str, Any] = {"example": path.stem, "seconds": seconds, "samples": rows[0].samples}
         for candidate in ("prior", "new"):
             of = {row.offset: row for row in rows if row.candidate == candidate}
@@ -209,7 +209,7 @@ def _in_air(air: Experiment, calibrations: Mapping[str, Calibration]) -> dict[st
     errors: dict[str, Any] = {}
     for sensor in AIR_SENSORS:
         if sensor in calibrations:
-            rows = evaluate(SensorRun(air, sensor), {"new": calibrations[sensor]}, load_cases=False).verdicts
+            rows = validation_errors(SensorRun(air, sensor), {"new": calibrations[sensor]}).verdicts
             errors[sensor] = {
                 row.candidate: (row.force_error_mean_N, row.moment_error_mean_Nm)
                 for row in rows

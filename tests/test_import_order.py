@@ -36,8 +36,12 @@ def _nodes(path: Path) -> tuple[ast.AST, ...]:
     return tuple(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
 
 
+_NAMED = re.compile(r"forcetorque\.(\w+)[.\w]*:\w+")
+"""A function or another object that is named as `module:name`, and imported when it is first needed."""
+
+
 def _imports(path: Path) -> set[str]:
-    """Names of the library's packages that a file imports, also for types only and inside functions."""
+    """Names of the library's packages that a file imports, also for types only, inside functions, or as text."""
     found = set()
     for node in _nodes(path):
         if isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] == "forcetorque":
@@ -45,6 +49,8 @@ def _imports(path: Path) -> set[str]:
             found |= {parts[0]} if parts else {alias.name for alias in node.names}
         elif isinstance(node, ast.Import):
             found |= {a.name.split(".")[1] for a in node.names if a.name.startswith("forcetorque.")}
+        elif isinstance(node, ast.Constant) and (named := _NAMED.fullmatch(str(node.value))):
+            found.add(named[1])
     return found
 
 
@@ -96,6 +102,13 @@ def test_capabilities_need_each_other_in_no_circle() -> None:
     assert list(TopologicalSorter(NEEDS).static_order())
     used = {name: set().union(*(_imports(path) for path in _files(name))) for name in NEEDS}
     assert {name: needs - used[name] for name, needs in NEEDS.items()} == dict.fromkeys(NEEDS, set())
+
+
+def test_an_import_that_is_a_text_is_noticed(tmp_path: Path) -> None:
+    """Negative control: the function that reads an option is named, not imported; other texts are none."""
+    file = tmp_path / "command.py"
+    file.write_text('reads = "forcetorque.skin.layout:read_patch"\nhelp = "forcetorque.payload"\n', encoding="utf-8")
+    assert _imports(file) == {"skin"}
 
 
 def test_a_circle_of_needs_is_noticed() -> None:

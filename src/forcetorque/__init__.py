@@ -13,11 +13,12 @@ from forcetorque.base.lazy import lazy_names
 if TYPE_CHECKING:
     from forcetorque.app.python.arrays import experiment_of_arrays
     from forcetorque.app.python.experiment import Experiment, calibrate_jointly, load_experiment
-    from forcetorque.app.python.functions import calibrate_skin, contest, skin_wrench
+    from forcetorque.app.python.functions import calibrate_skin, skin_wrench
     from forcetorque.base.errors import ForceTorqueError
     from forcetorque.calibration.calibrate import calibrate_sensor
     from forcetorque.calibration.thesis.calibrate import calibrate
-    from forcetorque.evaluation.evaluation import evaluate
+    from forcetorque.contests.command import contest
+    from forcetorque.evaluation.commands import evaluate
     from forcetorque.experiment.calibration.artefact import Calibration, read_calibration, write_calibration
     from forcetorque.experiment.calibration.moments import DataSet
     from forcetorque.experiment.calibrations_under_test import wrench_errors
@@ -89,8 +90,8 @@ __getattr__, __dir__ = lazy_names(
         "calibrate_jointly": "forcetorque.app.python.experiment",
         "calibrate_sensor": "forcetorque.calibration.calibrate",
         "calibrate_skin": "forcetorque.app.python.functions",
-        "contest": "forcetorque.app.python.functions",
-        "evaluate": "forcetorque.evaluation.evaluation",
+        "contest": "forcetorque.contests.command",
+        "evaluate": "forcetorque.evaluation.commands",
         "expected_wrenches": "forcetorque.robot.dynamics",
         "experiment_of_arrays": "forcetorque.app.python.arrays",
         "load_experiment": "forcetorque.app.python.experiment",

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.commands import evaluate
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

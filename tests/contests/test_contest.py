@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.app.python.functions import contest
 from forcetorque.base.errors import ExperimentError, RecordingError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.contests.command import contest
 from forcetorque.contests.entries import Contestant, ContestRun, Entries, Method
 from forcetorque.contests.ranking import Contest
 from forcetorque.experiment.validation_offset import Offset

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.app.python.functions import contest
+from forcetorque.contests.command import contest
 from forcetorque.contests.entries import Contestant, Entries, Method
 from forcetorque.contests.ranking import Contest
 from forcetorque.recording.recording import Use

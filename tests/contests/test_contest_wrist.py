@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.app.python.functions import contest
 from forcetorque.base.errors import ExperimentError, FormatError
+from forcetorque.contests.command import contest
 from forcetorque.contests.entries import read_entries
 from tests.scenes.wrist_contest import write_contest, write_runs
 

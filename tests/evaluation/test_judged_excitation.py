@@ -11,7 +11,8 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.evaluation.evaluation import Evaluation, evaluate
+from forcetorque.evaluation.commands import evaluate
+from forcetorque.evaluation.evaluation import Evaluation
 from forcetorque.evaluation.load_cases.validation_evidence import HARDLY
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment

@@ -16,7 +16,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.plausibility.checks import examine
 from forcetorque.estimation.estimate import estimate_experiment
-from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation, evaluate
+from forcetorque.evaluation.commands import evaluate
+from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation
 from forcetorque.evaluation.load_cases.validation_evidence import PriorComparison
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment

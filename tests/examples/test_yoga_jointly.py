@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.app.python.experiment import calibrate_jointly, load_experiment
-from forcetorque.locomotion.net_force.net_force import coherence
+from forcetorque.locomotion.commands import coherence
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "15_icub_yoga_jointly.toml"
 SWITCHING = EXAMPLE.with_name("23_icub_yoga_switching.toml")

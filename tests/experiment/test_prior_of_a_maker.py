@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.commands import evaluate
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix

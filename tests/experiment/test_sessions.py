@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.validation.contact_forces import contact_forces
 from forcetorque.experiment.calibration.artefact import Calibration, SessionOffset

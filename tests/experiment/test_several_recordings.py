@@ -12,10 +12,9 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.commands import evaluate, validate
 from forcetorque.evaluation.load_cases.validation_evidence import compare_with_prior
 from forcetorque.evaluation.validation.contact_forces import contact_forces
-from forcetorque.evaluation.validation.validation import validate
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.recording.recording import Use

@@ -15,8 +15,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor
 from forcetorque.calibration.joint.interval import joint_interval
 from forcetorque.calibration.moments import store_moments
-from forcetorque.evaluation.evaluation import evaluate
-from forcetorque.evaluation.validation.validation import validate
+from forcetorque.evaluation.commands import evaluate, validate
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
 from forcetorque.experiment.calibration.stored_moments import read_moments
 from forcetorque.experiment.experiment import Experiment

@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, RecordingError, SerialNumberError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.commands import evaluate
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import is_invertible
 from forcetorque.experiment.experiment import Experiment
@@ -207,7 +207,7 @@ def test_gains_take_the_matrix_of_a_calibration_with_temperature(warm_log: Path,
     """What a count is worth is the matrix's business alone."""
     experiment = load_experiment(with_variables(warm_log / PARQUET, TEMPERATURE))
     run = SensorRun(experiment, experiment.sensors[0])
-    (row,) = select_gains(run, calibration=("warm.json", with_temperature)).sensors
+    (row,) = select_gains(run, {"warm.json": with_temperature}).sensors
     assert row.matrix == "warm.json"
     worst = [axis.worst for axis in row.resolution]
     np.testing.assert_allclose(worst, np.abs(with_temperature.matrix).sum(axis=1))
@@ -218,9 +218,7 @@ Use_ = Callable[[Experiment, Calibration], object]
 USES: dict[str, Use_] = {
     "evaluate": lambda experiment, made: evaluate(SensorRun(experiment, experiment.sensors[0]), {"warm.json": made}),
     "estimate": lambda experiment, made: corrections_of(experiment, {"warm.json": made}),
-    "gains": lambda experiment, made: select_gains(
-        SensorRun(experiment, experiment.sensors[0]), calibration=("warm.json", made)
-    ),
+    "gains": lambda experiment, made: select_gains(SensorRun(experiment, experiment.sensors[0]), {"warm.json": made}),
 }
 _VOLTS = SUPPLY.replace('name = "supply"', 'name = "temperature"')
 

@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError
 from forcetorque.calibration.calibrate import calibrate_sensor, data_doubts
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.commands import evaluate
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, EstimationType
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

@@ -15,7 +15,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.thesis.calibrate import CalibrationFit, calibrate
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.commands import evaluate
 from forcetorque.experiment.calibration.artefact import read_calibration, write_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.campaign_intervals import CampaignInterval

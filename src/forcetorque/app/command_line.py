@@ -11,6 +11,7 @@ import typer
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.run_files import files_of_one_run
 from forcetorque.results.capability import all_named, named
+from forcetorque.results.terminal.command import command_function
 from forcetorque.results.terminal.output import report_error, spell_missing_letters
 
 _NAME = "forcetorque"
@@ -29,7 +30,7 @@ def _add(program: typer.Typer, name: str, reference: str) -> None:
     if isinstance(found, typer.Typer):
         program.add_typer(found)
     else:
-        program.command(name)(found)
+        program.command(name)(command_function(found))
 
 
 def _program(first: list[str]) -> typer.Typer:

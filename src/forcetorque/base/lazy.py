@@ -33,3 +33,30 @@ def lazy_names(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str]
         return sorted({*vars(sys.modules[package]), *modules})
 
     return get, names
+
+
+class LazyMethod:
+    """A method that is a function of another module, imported when it is first used.
+
+    From then on the class has the function itself.
+    """
+
+    __slots__ = ("_name", "_reference")
+
+    def __init__(self, reference: str) -> None:
+        """Name the function.
+
+        Args:
+            reference: `module:name`; its first parameter is the object.
+        """
+        self._reference = reference
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, instance: object, owner: type) -> Any:
+        module, _, name = self._reference.partition(":")
+        function = getattr(import_module(module), name)
+        holder = next(kind for kind in owner.__mro__ if vars(kind).get(self._name) is self)
+        setattr(holder, self._name, function)
+        return function.__get__(instance, owner)

@@ -7,8 +7,8 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
+    from forcetorque.contests.command import contest
     from forcetorque.contests.entries import read_entries
-    from forcetorque.contests.ranking import contest
 
 CAPABILITY = Capability(
     needs=(
@@ -27,7 +27,7 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "contest": "forcetorque.contests.ranking",
+        "contest": "forcetorque.contests.command",
         "read_entries": "forcetorque.contests.entries",
     },
 )

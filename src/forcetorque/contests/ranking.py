@@ -21,7 +21,6 @@ from forcetorque.contests.pairwise_comparison import (
     rms_intervals,
 )
 from forcetorque.contests.phases import Trial, by_load, changes, common_phases, repeatability, require_same_motion
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
 
@@ -302,8 +301,7 @@ def _ends(pair: ContestPairRow) -> str:
     return f"{pair.ratio_low:.2f} to {pair.ratio_high:.2f}"
 
 
-@with_recording_notes
-def contest(entries: Entries, *, code_version: str, created: str) -> Contest:
+def ranking(entries: Entries, *, code_version: str, created: str) -> Contest:
     """Let sensors and methods meet on the same loads.
 
     Errors are averaged over phases of the motion, squared and pooled over runs with one load before anything is

@@ -9,11 +9,12 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.evaluation.acceptance.acceptance import accept
     from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
-    from forcetorque.evaluation.evaluation import Evaluation, evaluate
+    from forcetorque.evaluation.commands import evaluate, validate
+    from forcetorque.evaluation.evaluation import Evaluation
     from forcetorque.evaluation.load_cases.verdict import use_verdicts
     from forcetorque.evaluation.sphere.sphere import spheres, spheres_of_sensors
     from forcetorque.evaluation.trials.comparison import compare
-    from forcetorque.evaluation.validation.validation import Validation, validate
+    from forcetorque.evaluation.validation.validation import Validation
     from forcetorque.experiment.calibrations_under_test import wrench_errors
 
 CAPABILITY = Capability(
@@ -56,12 +57,12 @@ __getattr__, __dir__ = lazy_names(
         "Validation": "forcetorque.evaluation.validation.validation",
         "accept": "forcetorque.evaluation.acceptance.acceptance",
         "compare": "forcetorque.evaluation.trials.comparison",
-        "evaluate": "forcetorque.evaluation.evaluation",
+        "evaluate": "forcetorque.evaluation.commands",
         "read_acceptance": "forcetorque.evaluation.acceptance.acceptance_file",
         "spheres": "forcetorque.evaluation.sphere.sphere",
         "spheres_of_sensors": "forcetorque.evaluation.sphere.sphere",
         "use_verdicts": "forcetorque.evaluation.load_cases.verdict",
-        "validate": "forcetorque.evaluation.validation.validation",
+        "validate": "forcetorque.evaluation.commands",
         "wrench_errors": "forcetorque.experiment.calibrations_under_test",
     },
 )

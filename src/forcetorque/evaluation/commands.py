@@ -1,109 +1,166 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque evaluate`, `accept`, `compare`, `sphere` and `validate`."""
 
-from __future__ import annotations
-
-import sys
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from forcetorque.results.command import Option, command
 from forcetorque.results.terminal.options import (
-    CalibrationsOption,
     ComparedCalibrationsOption,
     ExperimentArgument,
-    ExperimentsArgument,
     FormatOption,
-    PopulationOption,
     SensorOption,
     SphereIntervalOption,
 )
-from forcetorque.results.terminal.output import (
-    Format,
-    OtherSensorsChoice,
-    TrialsChoice,
-    show,
-    start_logging,
-    stop_at_failures,
-)
+from forcetorque.results.terminal.output import Format, TrialsChoice, show, start_logging, stop_at_failures
 
 if TYPE_CHECKING:
+    from forcetorque.evaluation.acceptance.acceptance import Acceptance
+    from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
+    from forcetorque.evaluation.evaluation import Evaluation
     from forcetorque.evaluation.trials.comparison import Comparison
+    from forcetorque.evaluation.validation.validation import Validation
+    from forcetorque.experiment.applicability import Population
+    from forcetorque.experiment.calibrations_under_test import Calibrations, OneCalibration, OtherCalibrations
+    from forcetorque.experiment.campaign import Runs
+    from forcetorque.experiment.free_sub_model import OtherSensors
 
 
+@command()
 def evaluate(
-    experiments: ExperimentsArgument,
-    calibration: Annotated[
-        list[Path], typer.Option("--calibration", "-c", help="Calibration file; repeat to compare several.")
-    ],
-    output_format: FormatOption = Format.TABLE,
-) -> None:
-    """Judge calibrations on the validation intervals, prior against new.
+    run: Annotated["Runs", Option("Sensor in one recording or in several; their validation intervals are evaluated.")],
+    calibrations: Annotated[
+        "Calibrations | None",
+        Option("Calibration of the sensor, or several to compare. Default: its prior.", required=True),
+    ] = None,
+) -> "Evaluation":
+    """Evaluate calibrations on the validation intervals, prior against new.
 
     Example: forcetorque evaluate experiment.toml --calibration right_leg.json
 
     Python: `run.evaluate(calibration)`, over experiments `evaluation.evaluate([run, other["arm_ft"]],
     calibration)`
+
+    Returns:
+        For every calibration and prior the errors with the offset of the fitted data, and with the mean of the
+        validation data of each recording removed; a prior that several calibrations share comes once. Errors of several
+        recordings are pooled before anything is averaged. And whether each may be used for the load cases.
+
+    Raises:
+        SerialNumberError: If a calibration is of another sensor.
+        ExperimentError: If a validation interval was fitted, the robot now reads the sensor in another frame or sign,
+            or a load case cannot occur at the sensor.
+        FitError: If a load case changes a variable that a calibration does not know.
+        ShapeError: If a matrix does not have one column per channel of the sensor.
     """
-    from forcetorque.evaluation.evaluation import Evaluation, evaluate
-    from forcetorque.experiment.applicability import by_sensor
-    from forcetorque.experiment.input_files import stated_in
-    from forcetorque.results.terminal.reading import campaign_of, read_calibrations, read_experiments
+    from forcetorque.evaluation.evaluation import validation_errors
+    from forcetorque.evaluation.load_cases.verdict import use_verdicts
+    from forcetorque.experiment.calibrations_under_test import named
+    from forcetorque.experiment.campaign import Campaign
 
-    log = start_logging()
-    calibrations = read_calibrations(calibration)
-    contents = read_experiments(experiments, log)
-    results = []
-    for sensor, group in by_sensor(next(iter(contents.values())), calibrations).items():
-        log.info("judging %s", sensor)
-        campaign = campaign_of(contents, sensor)
-        with stated_in(f"{experiments[0]}: sensor {sensor!r}" if len(experiments) == 1 else f"sensor {sensor!r}"):
-            results.append(evaluate(campaign, group))
-    show(Evaluation.together(results), output_format)
+    campaign, by_name = Campaign.of(run), named(calibrations)
+    errors = validation_errors(campaign, by_name)
+    return errors.model_copy(update={"uses": use_verdicts(campaign, by_name)})
 
 
+@command()
 def accept(
-    experiments: ExperimentsArgument,
+    run: Annotated["Runs", Option("Sensor in one recording or in several, whose errors are pooled.")],
     spec: Annotated[
-        Path, typer.Option("--spec", help="Acceptance file (TOML) with the limits; see docs/evaluation/acceptance.md.")
+        "AcceptanceFile | Path | str",
+        Option("Acceptance file (TOML) with the limits; see docs/evaluation/acceptance.md.", "--spec"),
     ],
-    calibration: CalibrationsOption = None,
-    population: PopulationOption = None,
-    output_format: FormatOption = Format.TABLE,
-) -> None:
+    calibration: Annotated["OneCalibration | None", Option("Calibration of the sensor. Default: its prior.")] = None,
+    *,
+    others: Annotated[
+        "OtherCalibrations | None", Option("Calibrations of the other sensors by name, as of `validate`.")
+    ] = None,
+    population: Annotated[
+        "Population | None",
+        Option(
+            "Matrix of another sensor by serial number; a matrix file, a calibration, or a folder of them.",
+            typed=list[Path],
+            reads="forcetorque.experiment.applicability:read_population",
+        ),
+    ] = None,
+) -> "Acceptance":
     """Accept or reject sensors by limits; exit code 1 if one fails.
 
     Example: forcetorque accept experiment.toml --spec limits.toml -c leg.json
 
     Python: `run.accept("limits.toml", calibration)`
-    """
-    from forcetorque.evaluation.acceptance.acceptance import Acceptance, accept
-    from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
-    from forcetorque.experiment.applicability import one_per_sensor, read_population
-    from forcetorque.experiment.input_files import stated_in
-    from forcetorque.results.terminal.reading import campaign_of, read_calibrations, read_experiments
 
-    log = start_logging()
-    stated = read_acceptance(spec)
-    calibrations = read_calibrations(calibration)
-    matrices = read_population(population) if population else None
-    contents = read_experiments(experiments, log)
-    content = next(iter(contents.values()))
-    chosen = one_per_sensor(content, calibrations)
-    results = []
-    for sensor in content.sensors:
-        if chosen and sensor.name not in chosen:
-            continue
-        log.info("judging %s", sensor.name)
-        others = {name: other for place, (name, other) in chosen.items() if place != sensor.name}
-        campaign, judged = campaign_of(contents, sensor.name), chosen.get(sensor.name)
-        with stated_in(str(spec)):
-            results.append(accept(campaign, stated, judged, others=others, population=matrices))
-    result = Acceptance.together(results)
-    show(result, output_format)
-    if not result.accepted:
-        sys.exit(1)
+    Returns:
+        Criteria in the order of the acceptance file, each with what was measured, and static checks.
+
+    Raises:
+        ForceTorqueError: If a limit is specified for what cannot be measured; the message names its table.
+    """
+    from forcetorque.evaluation.acceptance.acceptance import accept
+    from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile, read_acceptance
+    from forcetorque.experiment.calibrations_under_test import one_named
+    from forcetorque.experiment.input_files import stated_in
+
+    limits = spec if isinstance(spec, AcceptanceFile) else read_acceptance(spec)
+    name, reader = one_named(calibration)
+    chosen = None if name is None or reader is None else (name, reader)
+    with nullcontext() if isinstance(spec, AcceptanceFile) else stated_in(str(spec)):
+        return accept(run, limits, chosen, others=others, population=population)
+
+
+@command()
+def validate(
+    run: Annotated[
+        "Runs", Option("Sensor in one recording or in several; their validation intervals are evaluated.", "--sensor")
+    ],
+    calibrations: Annotated["Calibrations | None", Option("Calibration of the sensor. Default: its prior.")] = None,
+    *,
+    others: Annotated[
+        "OtherCalibrations | None",
+        Option("Calibrations of the other sensors by name, for `measured`; their priors where there is none."),
+    ] = None,
+    other_sensors: Annotated[
+        "OtherSensors | str",
+        Option(
+            "What the other sensors of the sub-model read: what the model expects, or measured.",
+            "--others",
+            choices=("model", "measured"),
+        ),
+    ] = "model",
+    sub_model: Annotated[
+        str | None,
+        Option(
+            "Sub-model that nothing touches, by the sensor at its base or the root link. Default: that beyond the "
+            "sensor."
+        ),
+    ] = None,
+    contact: Annotated[
+        str | None, Option("Link at whose origin the contact is estimated. Default: that on the sensor.")
+    ] = None,
+) -> "Validation":
+    """Evaluate calibrations by contact force and joint torques without contact.
+
+    Example: forcetorque validate experiment.toml -c right_leg.json
+
+    Python: `run.validate(calibration)`
+
+    Returns:
+        Contact forces and joint torques of every calibration and prior.
+
+    Raises:
+        ExperimentError: If there is no validation interval, or one has no support.
+    """
+    from forcetorque.evaluation.validation.validation import validation
+    from forcetorque.experiment.calibrations_under_test import named
+    from forcetorque.experiment.campaign import Campaign
+    from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
+
+    mode = OtherSensors(other_sensors)
+    choice = SubModelChoice(others=others, other_sensors=mode, sub_model=sub_model, contact=contact)
+    return validation(Campaign.of(run), named(calibrations), choice)
 
 
 def compare(
@@ -149,7 +206,7 @@ def compare(
     stop_at_failures(result.failures)
 
 
-def _drawn(result: Comparison, figure: Path) -> Comparison:
+def _drawn(result: "Comparison", figure: Path) -> "Comparison":
     """Draw the figure, and name it if it was drawn; what fails then must not cost the result."""
     from forcetorque.base.errors import ForceTorqueError
     from forcetorque.base.output_file import write_bytes_atomically
@@ -201,68 +258,3 @@ def sphere(
         result = result.model_copy(update={"figure": str(figure)})
     show(result, output_format)
     stop_at_failures(result.failures)
-
-
-def validate(
-    experiments: ExperimentsArgument,
-    calibration: CalibrationsOption = None,
-    sensor: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--sensor", help="Sensor to judge; repeat for more. Default: those of the calibrations, else all."
-        ),
-    ] = None,
-    sub_model: Annotated[
-        str | None,
-        typer.Option(
-            "--sub-model",
-            help="Part of the robot that nothing touches, by the sensor at its base or the root link. Default: that "
-            "beyond the sensor.",
-        ),
-    ] = None,
-    contact: Annotated[
-        str | None,
-        typer.Option("--contact", help="Link at whose origin the contact is estimated. Default: that on the sensor."),
-    ] = None,
-    others: Annotated[
-        OtherSensorsChoice,
-        typer.Option("--others", help="What the other sensors of the part read: what the model expects, or measured."),
-    ] = OtherSensorsChoice.MODEL,
-    output_format: FormatOption = Format.TABLE,
-) -> None:
-    """Judge calibrations by contact force and joint torques where nothing touches.
-
-    Example: forcetorque validate experiment.toml -c right_leg.json
-
-    Python: `run.validate(calibration)`
-    """
-    from forcetorque.evaluation.validation.validation import Validation, validate
-    from forcetorque.experiment.applicability import by_sensor, one_per_sensor
-    from forcetorque.experiment.free_sub_model import OtherSensors
-    from forcetorque.experiment.input_files import stated_in
-    from forcetorque.results.terminal.reading import campaign_of, read_calibrations, read_experiments
-
-    log = start_logging()
-    calibrations = read_calibrations(calibration)
-    contents = read_experiments(experiments, log)
-    content = next(iter(contents.values()))
-    groups = by_sensor(content, calibrations)
-    names = sensor or groups or [known.name for known in content.sensors]
-    results = []
-    for name in dict.fromkeys(content.sensor(known).name for known in names):
-        log.info("validating %s", name)
-        rest = {file: one for other, group in groups.items() if other != name for file, one in group.items()}
-        if others is OtherSensorsChoice.MEASURED:
-            one_per_sensor(content, rest)
-        campaign = campaign_of(contents, name)
-        with stated_in(f"{experiments[0]}: sensor {name!r}" if len(experiments) == 1 else f"sensor {name!r}"):
-            validation = validate(
-                campaign,
-                groups.get(name, {}),
-                others=rest,
-                other_sensors=OtherSensors(others.value),
-                sub_model=sub_model,
-                contact=contact,
-            )
-        results.append(validation)
-    show(Validation.together(results), output_format)

@@ -19,15 +19,12 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     static_loads_text,
     validation_excitation,
 )
-from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts, verdict_texts
-from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.evaluation.load_cases.verdict import UseVerdict, verdict_texts
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import (
-    Calibrations,
     JudgedCandidate,
     JudgedRow,
     JudgedWrenches,
-    named,
     wrench_errors,
 )
 from forcetorque.experiment.campaign import Campaign, Runs
@@ -233,29 +230,23 @@ class Evaluation(Result):
         return [{"recording": "", **row} for row in pooled] + [row.flat() for row in self.recordings]
 
 
-@with_recording_notes
-def evaluate(runs: Runs, calibrations: Calibrations, *, load_cases: bool = True) -> Evaluation:
+def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
     """Compute the errors of calibrations, and of their prior calibrations, on data that were not fitted.
 
     Args:
         runs: The sensor in one recording, or in several.
-        calibrations: Its calibrations by name, or one; without any the prior of the experiment is evaluated.
-        load_cases: Whether to give verdicts on the load cases as well.
+        calibrations: Its calibrations by name; without any the prior of the experiment is evaluated.
 
     Returns:
-        For every calibration under test the errors with the offset of the fitted data and with the mean of the
-        validation samples of each recording removed; a prior that several calibrations share comes once. Evaluated one
-        by one, calibrations that need the same variables have the same errors as together. Errors of several
-        recordings are pooled before anything is averaged. And whether each may be used at the load cases.
+        What `evaluate` gives, without verdicts on load cases.
 
     Raises:
         SerialNumberError: If a calibration is of another sensor.
-        ExperimentError: If a validation interval was fitted, the robot now reads the sensor in another frame or sign,
-            or a load case is impossible at the sensor.
-        FitError: If a load case changes a variable that a calibration does not have.
+        ExperimentError: If a validation interval was fitted, or the robot now reads the sensor in another frame or
+            sign.
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
-    campaign, calibrations = Campaign.of(runs), named(calibrations)
+    campaign = Campaign.of(runs)
     wrenches: dict[str, JudgedWrenches] = {}
     warnings: list[str] = []
     for run in campaign.runs_with(Use.VALIDATION):
@@ -293,7 +284,7 @@ def evaluate(runs: Runs, calibrations: Calibrations, *, load_cases: bool = True)
         comparisons=prior_comparisons(campaign.sensor.name, list(wrenches.values())),
         smoothing=tuple(dict.fromkeys(map(smoothing_text, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
-        uses=use_verdicts(campaign, calibrations) if load_cases else (),
+        uses=(),
         warnings=(*at_rest(verdicts), *sentences(validity), *warnings),
     )
 

@@ -164,18 +164,29 @@ def with_recording_notes(analysis: Callable[Options, Answer]) -> Callable[Option
 
     @wraps(analysis)
     def noted(*args: Options.args, **options: Options.kwargs) -> Answer:
-        result = analysis(*args, **options)
-        arguments = (*args, *options.values())
-        untold = tuple(_untold(arguments, result.warnings))
-        left_out = result.unusable_samples
-        if result.interval_uses is not None:
-            left_out = (*left_out, *_left_out(arguments, result.interval_uses))
-        if not untold and not left_out:
-            return result
-        notes = {"warnings": (*result.warnings, *untold), "unusable_samples": tuple(dict.fromkeys(left_out))}
-        return result.model_copy(update=notes)
+        return with_notes(analysis(*args, **options), (*args, *options.values()))
 
     return noted
+
+
+def with_notes(result: Answer, arguments: Sequence[Any]) -> Answer:
+    """Let a result state what is added to the recordings that it is made of, and what is left out.
+
+    Args:
+        result: The result.
+        arguments: What the analysis was given: experiments, their sensors, many of these, and options.
+
+    Returns:
+        The result, with a warning for every addition that no warning of it names yet, and unusable samples.
+    """
+    untold = tuple(_untold(arguments, result.warnings))
+    left_out = result.unusable_samples
+    if result.interval_uses is not None:
+        left_out = (*left_out, *_left_out(arguments, result.interval_uses))
+    if not untold and not left_out:
+        return result
+    notes = {"warnings": (*result.warnings, *untold), "unusable_samples": tuple(dict.fromkeys(left_out))}
+    return result.model_copy(update=notes)
 
 
 def _untold(arguments: Iterable[Any], told: Iterable[str]) -> Iterator[str]:

@@ -18,6 +18,9 @@ from forcetorque.experiment.sensor_samples import LoggedReadings
 from forcetorque.formats.icub_matrix import read_matrix_file, serial_number_in_name
 from forcetorque.recording.recording import Interval
 
+Population = Mapping[str, FloatArray]
+"""Matrices of other sensors by serial number; shape (6, c) each; N/count, N m/count."""
+
 _DAY_NS = 86_400_000_000_000
 """Stamps below count from the start of a recording: nobody records on the first of January 1970 (heuristic)."""
 
@@ -173,7 +176,7 @@ def _refuse_other_counts(name: str, calibration: Calibration, sensor: Experiment
         )
 
 
-def read_population(paths: Iterable[Path]) -> dict[str, FloatArray]:
+def read_population(paths: Iterable[Path]) -> Population:
     """Read the matrices of a population of sensors.
 
     Args:

@@ -228,6 +228,12 @@ def _same(one: Correction, other: Correction) -> bool:
 Calibrations = Calibration | Mapping[str, Calibration]
 """One calibration, or several by name."""
 
+OneCalibration = Calibration | Mapping[str, Calibration]
+"""One calibration, or one by its name."""
+
+OtherCalibrations = Mapping[str, Calibration]
+"""Calibrations of the other sensors of an experiment by name."""
+
 NEW = "calibration"
 """Name of a calibration that is given without one."""
 
@@ -253,11 +259,11 @@ def named(calibrations: Calibrations | None) -> dict[str, Calibration]:
     return {name: _calibration(f"calibrations[{name!r}]", given) for name, given in calibrations.items()}
 
 
-def one_named(calibration: Calibration | None) -> tuple[str | None, Calibration | None]:
+def one_named(calibration: OneCalibration | None) -> tuple[str | None, Calibration | None]:
     """Give the calibration by which a sensor is read its name.
 
     Args:
-        calibration: The calibration; None for none.
+        calibration: The calibration, or the calibration by its name; None for none.
 
     Returns:
         Its name and the calibration; None twice for none.
@@ -265,7 +271,12 @@ def one_named(calibration: Calibration | None) -> tuple[str | None, Calibration 
     Raises:
         ExperimentError: If it is anything else, such as the file of one.
     """
-    return (None, None) if calibration is None else (NEW, _calibration("calibration", calibration))
+    if calibration is None:
+        return None, None
+    if isinstance(calibration, Mapping) and len(calibration) == 1:
+        ((name, given),) = calibration.items()
+        return name, _calibration(f"calibration[{name!r}]", given)
+    return NEW, _calibration("calibration", calibration)
 
 
 def _calibration(place: str, given: Any) -> Calibration:

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque init` and `forcetorque inspect`."""
 
-from __future__ import annotations
-
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
+from forcetorque.results.command import Option, command
 from forcetorque.results.terminal.options import ForceOption, FormatOption
 from forcetorque.results.terminal.output import Format, refuse_two_on_standard_output, show, start_logging
+
+if TYPE_CHECKING:
+    from forcetorque.inspection.inspect import Inspection
 
 
 def init(
@@ -44,23 +46,23 @@ def init(
         show(draft, output_format)
 
 
+@command()
 def inspect(
-    log: Annotated[
-        Path, typer.Argument(help="Experiment file, or a log that is recognised, such as a YARP dumper folder.")
-    ],
+    log: Annotated["Path | str", Option("Experiment file, or a log that is recognised, such as a YARP dumper folder.")],
+    *,
     log_format: Annotated[
-        str | None,
-        typer.Option(help="Format of a log, such as ros or hdf5, as in [recording]. Default: by what is there."),
+        str | None, Option("Format of a log, such as ros or hdf5, as in [recording]. Default: by what is there.")
     ] = None,
-    output_format: FormatOption = Format.TABLE,
-) -> None:
+) -> "Inspection":
     """Find gaps, lost messages, frozen or saturated sensors, steps and contacts.
 
     Example: forcetorque inspect experiment.toml
 
     Python: `experiment.inspect()`; of a log without an experiment `inspection.inspect_log("log.csv")`
+
+    Returns:
+        What the log or the recording of the experiment holds, and what is wrong with it.
     """
     from forcetorque.inspection.inspect import inspect_log
 
-    start_logging().info("reading %s", log)
-    show(inspect_log(log, log_format=log_format), output_format)
+    return inspect_log(log, log_format=log_format)

@@ -7,13 +7,12 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
+    from forcetorque.locomotion.commands import coherence, torque_loop
     from forcetorque.locomotion.logged_signals import motion_signals, motion_signals_of_arrays
     from forcetorque.locomotion.movement import motion
-    from forcetorque.locomotion.net_force.net_force import coherence
     from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces
     from forcetorque.locomotion.standing.standing import balance
     from forcetorque.locomotion.torque_control.file import read_torque_loop
-    from forcetorque.locomotion.torque_control.study import torque_loop
 
 CAPABILITY = Capability(
     needs=(
@@ -46,12 +45,12 @@ __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "balance": "forcetorque.locomotion.standing.standing",
-        "coherence": "forcetorque.locomotion.net_force.net_force",
+        "coherence": "forcetorque.locomotion.commands",
         "load_foot_forces": "forcetorque.locomotion.standing.foot_wrenches",
         "motion": "forcetorque.locomotion.movement",
         "motion_signals": "forcetorque.locomotion.logged_signals",
         "motion_signals_of_arrays": "forcetorque.locomotion.logged_signals",
         "read_torque_loop": "forcetorque.locomotion.torque_control.file",
-        "torque_loop": "forcetorque.locomotion.torque_control.study",
+        "torque_loop": "forcetorque.locomotion.commands",
     },
 )

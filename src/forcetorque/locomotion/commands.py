@@ -1,27 +1,31 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque balance`, `coherence`, `motion` and `torque-loop`."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.results.terminal.options import CalibrationsOption, ExperimentArgument, ForceOption, FormatOption
+from forcetorque.results.command import Drawing, Option, command
+from forcetorque.results.terminal.options import CalibrationsOption, ForceOption, FormatOption
 from forcetorque.results.terminal.output import Format, show, start_logging
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from logging import Logger
 
+    from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.experiment.sensor_reading import Correction
+    from forcetorque.experiment.validation_offset import OffsetPolicy
     from forcetorque.locomotion.net_force.result import Coherence
     from forcetorque.locomotion.standing.foot_wrenches import FootForces
     from forcetorque.locomotion.standing.interval import BalanceOptions
     from forcetorque.locomotion.standing.standing import Balance
+    from forcetorque.locomotion.torque_control.file import TorqueLoopFile
+    from forcetorque.locomotion.torque_control.study import TorqueLoopStudy
+    from forcetorque.results.command import Progress
 
 
 def balance(
@@ -96,8 +100,8 @@ def balance(
 
 
 def _answer(
-    experiments: Sequence[Path], calibration: Sequence[Path] | None, options: BalanceOptions, log: Logger
-) -> Balance:
+    experiments: "Sequence[Path]", calibration: "Sequence[Path] | None", options: "BalanceOptions", log: "Logger"
+) -> "Balance":
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.offsets import corrections_of
     from forcetorque.locomotion.standing.foot_wrenches import has_foot_forces, load_foot_forces
@@ -134,60 +138,63 @@ def _refuse_output(output: Path | None, *, force: bool) -> None:
     declare_outputs(output, force=force)
 
 
+@command(
+    Drawing(
+        function="forcetorque.locomotion.figures:coherence_figure",
+        help="the errors by phase, candidate and offset",
+    )
+)
 def coherence(
-    experiment: ExperimentArgument,
-    calibration: Annotated[
-        list[Path] | None,
-        typer.Option(
+    experiment: Annotated[
+        "Experiment",
+        Option(
+            "Experiment; every interval that is not ignored is a phase, in which its support, or the links that it "
+            "names as touched, and its contacts touch the world."
+        ),
+    ],
+    candidates: Annotated[
+        "Calibration | Mapping[str, Mapping[str, Calibration]] | None",
+        Option(
+            "Calibration, or a folder of them. All files are one candidate, each folder is one, with at most one "
+            "calibration for each sensor. The prior is always a candidate.",
             "--calibration",
             "-c",
-            help="Calibration file, or a folder of them; repeat for more. All files are one candidate, each folder is "
-            "one. The prior is always judged.",
+            typed=list[Path],
+            reads="forcetorque.calibration.joint.calibrate:read_candidates",
         ),
     ] = None,
-    offset: Annotated[
-        list[str] | None,
-        typer.Option(
+    offsets: Annotated[
+        "Sequence[OffsetPolicy | str]",
+        Option(
+            "Where offsets come from: one-link-imu:LABEL, one-link-fixed-frame:LABEL, tare:LABEL, fitted or none. "
+            "Default: the first interval in which one link alone is touched.",
             "--offset",
-            help="Where offsets come from: one-link-imu:LABEL, one-link-fixed-frame:LABEL, tare:LABEL, fitted or none; "
-            "repeat for more. Default: the first interval in which one link alone is touched.",
+            typed=list[str],
+            reads="forcetorque.experiment.offsets:offset_policies",
         ),
-    ] = None,
-    figure: Annotated[
-        Path | None, typer.Option("--figure", help="PNG of the errors by phase, candidate and offset.")
-    ] = None,
-    output_format: FormatOption = Format.TABLE,
-) -> None:
-    """Hold the net contact force against the weight as contacts switch.
+    ] = (),
+) -> "Coherence":
+    """Compare the net contact force with the weight as contacts switch.
 
     Example: forcetorque coherence switching.toml -c calibrations
 
     Python: `experiment.coherence(calibration)`
+
+    Returns:
+        Net forces, errors and intervals per offset, phase and candidate.
+
+    Raises:
+        ExperimentError: If there is no phase, a link that is said to touch bears nothing, one that is not bears the
+            robot, or an offset cannot be determined.
+        FitError: If an offset has too few samples.
     """
-    from forcetorque.calibration.joint.calibrate import read_candidates
-    from forcetorque.experiment.input_files import stated_in
-    from forcetorque.experiment.offsets import offset_policies
-    from forcetorque.locomotion.net_force.net_force import coherence
-    from forcetorque.results.terminal.output import refuse_figure
-    from forcetorque.results.terminal.reading import read_experiment
+    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.calibrations_under_test import NEW, named
+    from forcetorque.locomotion.net_force.net_force import net_force_errors
 
-    log = start_logging()
-    refuse_figure(figure)
-    policies = offset_policies(offset or ())
-    candidates = read_candidates(calibration or ())
-    content = read_experiment(experiment, log)
-    with stated_in(str(experiment)):
-        result = coherence(content, candidates, offsets=policies)
-    show(result if figure is None else _drawn(result, figure), output_format)
-
-
-def _drawn(result: Coherence, figure: Path) -> Coherence:
-    from forcetorque.base.output_file import write_bytes_atomically
-    from forcetorque.locomotion.figures import coherence_figure
-    from forcetorque.results.figures import png_bytes
-
-    write_bytes_atomically(figure, png_bytes(coherence_figure(result)))
-    return result.model_copy(update={"figure": str(figure)})
+    by_name = {NEW: candidates} if isinstance(candidates, Calibration) else candidates or {}
+    sensors = {name: named(calibrations) for name, calibrations in by_name.items()}
+    return net_force_errors(experiment, sensors, offsets)
 
 
 def motion(
@@ -245,37 +252,39 @@ def motion(
     show(result, output_format)
 
 
+@command(
+    Drawing(
+        function="forcetorque.locomotion.figures:torque_loop_figure",
+        help="tracking, oscillations and falls over the size of the error",
+    )
+)
 def torque_loop(
-    config: Annotated[
-        Path | None,
-        typer.Argument(
-            help="File of the loop (TOML), see docs/locomotion/torque_loop.md; without one, the default, which takes "
-            "ten minutes."
+    file: Annotated[
+        "TorqueLoopFile | Path | str | None",
+        Option(
+            "File of the loop (TOML), see docs/locomotion/torque_loop.md; without one, the default, which takes ten "
+            "minutes."
         ),
     ] = None,
-    figure: Annotated[
-        Path | None, typer.Option("--figure", help="PNG of tracking, swings and falls over the size of the error.")
-    ] = None,
-    output_format: FormatOption = Format.TABLE,
-) -> None:
-    """Balance a simulated biped by torques that sensors with errors tell.
+    *,
+    progress: Annotated["Progress", Option("Called with a line for people as work goes on.")] = lambda _: None,
+) -> "TorqueLoopStudy":
+    """Balance a simulated biped by torques from sensors with errors.
 
     Example: forcetorque torque-loop loop.toml --figure loop.png
 
     Python: `locomotion.torque_loop(progress=print)`, ten minutes
+
+    Returns:
+        Tracking, oscillations and falls by size of error; and where the linear loop predicts that they begin.
+
+    Raises:
+        MissingExtraError: If MuJoCo is not installed.
+        ControlError: If gains are unstable without any error.
     """
-    from forcetorque.base.output_file import write_bytes_atomically
-    from forcetorque.locomotion.torque_control.file import read_torque_loop
-    from forcetorque.locomotion.torque_control.study import torque_loop
-    from forcetorque.results.terminal.output import refuse_figure
+    from forcetorque.locomotion.torque_control.file import TorqueLoopFile, read_torque_loop
+    from forcetorque.locomotion.torque_control.study import study_torque_loop
 
-    log = start_logging()
-    refuse_figure(figure)
-    file = None if config is None else read_torque_loop(config)
-    result = torque_loop(file, progress=log.info)
-    if figure is not None:
-        from forcetorque.locomotion.figures import torque_loop_figure
-        from forcetorque.results.figures import png_bytes
-
-        write_bytes_atomically(figure, png_bytes(torque_loop_figure(result)))
-    show(result, output_format)
+    if file is None:
+        file = TorqueLoopFile()
+    return study_torque_loop(file if isinstance(file, TorqueLoopFile) else read_torque_loop(file), progress)

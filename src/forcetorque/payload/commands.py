@@ -183,7 +183,7 @@ def tare(
     names = [by_sensor.get(run.sensor.name) for run in runs]
     with stated_in(str(experiment)):
         result = Tare.together(
-            tare(run, interval, name=name, calibration=calibrations[name] if name else None)
+            tare(run, interval, {name: calibrations[name]} if name else None)
             for run, name in zip(runs, names, strict=True)
         )
     if output is not None and to is not None:

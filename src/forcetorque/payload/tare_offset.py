@@ -14,7 +14,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.offsets import sensor_offset
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
@@ -88,14 +88,14 @@ class Tare(Result):
 
 
 @with_recording_notes
-def tare(run: SensorRun, interval: str, *, name: str | None = None, calibration: Calibration | None = None) -> Tare:
+def tare(run: SensorRun, interval: str, calibration: OneCalibration | None = None) -> Tare:
     """Find the offset with which a sensor at rest reads what the model says of its load in that posture.
 
     Args:
         run: The sensor.
         interval: Label of an interval in which nothing moves, and nothing touches beyond the sensor.
-        name: Name of the calibration; None if there is none.
-        calibration: Reads the sensor, coefficients of variables included; its prior or the logged wrench if None.
+        calibration: Reads the sensor, coefficients of variables included, alone or by its name; its prior or the logged
+            wrench if None.
 
     Returns:
         The offset.
@@ -104,7 +104,7 @@ def tare(run: SensorRun, interval: str, *, name: str | None = None, calibration:
         ExperimentError: If there is no such interval, or something touches in it.
         FitError: If it has too few samples to tell an error.
     """
-    correction = run.read_by(name, calibration)
+    correction = run.read_by(*one_named(calibration))
     tared = sensor_offset(run, correction, OffsetPolicy(Offset.TARE, interval))
     known = correction.over(run.experiment, interval).model.offset
     row = TaredSensor(

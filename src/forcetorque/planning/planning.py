@@ -17,6 +17,7 @@ from forcetorque.evaluation.load_cases.predicted_error import PredictedError, pr
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, Assumptions
+from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.information import Knowledge, Nuisance, unfitted_posterior
@@ -86,7 +87,7 @@ class Plan(Result):
 @with_recording_notes
 def plan(
     runs: Runs,
-    calibration: Calibration | None = None,
+    calibration: OneCalibration | None = None,
     *,
     load_case: str | None = None,
     clearance_deg: float | None = None,
@@ -99,7 +100,7 @@ def plan(
 
     Args:
         runs: The sensor, in one experiment or several.
-        calibration: What is known of it; None for its prior matrix.
+        calibration: What is known of it, alone or by its name; None for its prior matrix.
         load_case: Name of the load case; the one that is furthest from what is allowed if left out.
         clearance_deg: What joints keep away from their limits; that of `[plan]` if left out; deg.
         recordings: How many recordings.
@@ -114,7 +115,8 @@ def plan(
         ExperimentError: If no clearance is given, limits contradict each other, or nothing can move.
         FitError: If the calibration has no covariance, or there is no prior to begin with.
     """
-    start = _start(runs, calibration, load_case)
+    _, fitted = one_named(calibration)
+    start = _start(runs, fitted, load_case)
     table = _table(start.runs)
     demand = Demand(
         criterion=Criterion(case=start.case),

@@ -18,7 +18,7 @@ from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import Criterion
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks, check
-from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation, at_rest, evaluate
+from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation, at_rest, validation_errors
 from forcetorque.evaluation.load_cases.validation_evidence import (
     OFFSET_WORDS,
     Independence,
@@ -159,7 +159,7 @@ def assess(
     evaluation = contacts = torques = counts = judged = None
     # where every calibration has seen the judged data there is nothing to judge it on; without any, the prior is judged
     if unseen or not calibrations:
-        evaluation = tried.attempt("evaluation", partial(evaluate, run, unseen, load_cases=False))
+        evaluation = tried.attempt("evaluation", partial(validation_errors, run, unseen))
         contacts = tried.attempt("contact forces", partial(contact_forces, run, unseen))
         torques = tried.attempt("joint torques", partial(joint_torques, run, unseen))
     clouds = tried.attempt("spheres", partial(spheres, run, calibrations))

@@ -61,6 +61,11 @@ class Result(Row):
     unusable_samples: tuple[UnusableSamples, ...] = Field(default=(), exclude=True)
     """Samples that are left out because they say nothing of the load; in the JSON where there are any."""
 
+    @property
+    def passed(self) -> bool:
+        """Whether it is as it should be; a command whose result is not ends with exit code 1."""
+        return True
+
     def blocks(self) -> Iterator[Table | str]:
         """Give what people read, in its order; every class has its own.
 

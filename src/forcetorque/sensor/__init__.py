@@ -9,7 +9,7 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.sensor.bandwidth.bandwidth import response
     from forcetorque.sensor.gains.gains import select_gains, sensor_gains
-    from forcetorque.sensor.temperature.temperature_drift import thermal
+    from forcetorque.sensor.temperature.command import thermal
 
 CAPABILITY = Capability(
     commands=(
@@ -32,6 +32,6 @@ __getattr__, __dir__ = lazy_names(
         "response": "forcetorque.sensor.bandwidth.bandwidth",
         "select_gains": "forcetorque.sensor.gains.gains",
         "sensor_gains": "forcetorque.sensor.gains.gains",
-        "thermal": "forcetorque.sensor.temperature.temperature_drift",
+        "thermal": "forcetorque.sensor.temperature.command",
     },
 )

@@ -22,8 +22,7 @@ from forcetorque.calibration.calibrate import calibrate_for_file
 from forcetorque.calibration.joint.calibrate import calibrate_jointly as calibrate_jointly_of_experiments
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
-from forcetorque.evaluation.evaluation import evaluate
-from forcetorque.evaluation.validation.validation import validate
+from forcetorque.evaluation.commands import evaluate, validate
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.inspect import inspect_log
@@ -31,7 +30,7 @@ from forcetorque.locomotion.logged_signals import motion_signals
 from forcetorque.planning.planning import plan
 from forcetorque.report.report import report
 from forcetorque.sensor.bandwidth.bandwidth import response
-from forcetorque.sensor.temperature.temperature_drift import thermal
+from forcetorque.sensor.temperature.command import thermal
 from forcetorque.skin.taxels.calibrate import calibrate_skin as calibrate_skin_of_recordings
 from forcetorque.workbench.calibrate import workbench as workbench_of_recordings
 from tests.app.python.arrays import arrays_of

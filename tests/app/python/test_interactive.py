@@ -20,10 +20,9 @@ from forcetorque.app.python.run import Run
 from forcetorque.base.errors import ExperimentError, FitError, RecordingError, ShapeError
 from forcetorque.calibration.calibrate import data_doubts
 from forcetorque.calibration.summary import learnt_directions
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.commands import evaluate, validate
 from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.evaluation.sphere.sphere import spheres
-from forcetorque.evaluation.validation.validation import validate
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.sensor_run import SensorRun

@@ -23,7 +23,7 @@ from forcetorque.calibration.joint.outcome import JointOutcome, PartRow
 from forcetorque.calibration.joint.robust_fit import residuals
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.calibration.joint.windows import PartWindows, part_windows
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.commands import evaluate
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

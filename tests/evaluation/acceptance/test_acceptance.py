@@ -19,7 +19,7 @@ from forcetorque.evaluation.acceptance.acceptance import Acceptance, accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
 from forcetorque.evaluation.acceptance.static_checks import check
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.validation.contact_forces import contact_forces
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.provenance import FittedInterval, Selection

@@ -15,7 +15,7 @@ import pytest
 
 from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor, data_doubts
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.load_cases.load_case import operating_load_cases
 from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.experiment.calibration.estimation_type import EstimationType, estimation_type

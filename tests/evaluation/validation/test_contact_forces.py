@@ -13,7 +13,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError, ExperimentError, SerialNumberError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.evaluation.evaluation import evaluate
+from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.validation.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.evaluation.validation.contact_wrenches import contact_wrenches
 from forcetorque.evaluation.validation.joint_torques import joint_torques

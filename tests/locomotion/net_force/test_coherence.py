@@ -18,7 +18,8 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of, still_seconds
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
-from forcetorque.locomotion.net_force.net_force import coherence, force_error
+from forcetorque.locomotion.commands import coherence
+from forcetorque.locomotion.net_force.net_force import force_error
 from forcetorque.locomotion.net_force.result import Coherence
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.simulation.recordings import write_scenario

@@ -13,7 +13,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.locomotion.net_force.net_force import coherence
+from forcetorque.locomotion.commands import coherence
 from forcetorque.simulation.recordings import write_scenario
 from forcetorque.simulation.scenario.scenario import (
     Scenario,

@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import ControlError, FormatError
+from forcetorque.locomotion.commands import torque_loop
 from forcetorque.locomotion.torque_control.file import TorqueLoopFile, read_torque_loop
-from forcetorque.locomotion.torque_control.study import TorqueLoopStudy, torque_loop
+from forcetorque.locomotion.torque_control.study import TorqueLoopStudy
 from tests.app.outcome import Run
 from tests.page_scripts import unmarked
 

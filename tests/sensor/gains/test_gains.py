@@ -35,7 +35,7 @@ def _run(experiment: Experiment) -> SensorRun:
 def _selected(
     run: SensorRun, *, margin: float = MARGIN, calibration: tuple[str, Calibration] | None = None
 ) -> SensorRow:
-    (row,) = select_gains(run, margin=margin, calibration=calibration).sensors
+    (row,) = select_gains(run, margin=margin, calibration=None if calibration is None else dict([calibration])).sensors
     return row
 
 

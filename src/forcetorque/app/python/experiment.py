@@ -3,23 +3,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import fields
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 from forcetorque.app.python.run import Run
+from forcetorque.base.lazy import LazyMethod
 from forcetorque.base.output_file import refuse_output
 from forcetorque.calibration.calibrate import SensorCalibrations
 from forcetorque.calibration.joint.model_error import ModelTolerance
-from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibrations_under_test import NEW, Calibrations, named
+from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.experiment.experiment import Experiment as ExperimentContent
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.loading import load_experiment as load_content
 from forcetorque.experiment.validation_offset import OffsetPolicy
+from forcetorque.locomotion import commands as _locomotion
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import PlaneTolerance
 from forcetorque.locomotion.standing.support_phases import ForceLimit
 from forcetorque.results.result import created_now
@@ -28,8 +29,7 @@ from forcetorque.results.table_rendering import html_table, html_warnings
 
 if TYPE_CHECKING:
     from forcetorque.estimation.result import EstimateSummary
-    from forcetorque.inspection.inspect import Inspection
-    from forcetorque.locomotion.net_force.result import Coherence
+    from forcetorque.inspection import inspect as _inspection
     from forcetorque.locomotion.standing.standing import Balance
     from forcetorque.viewer.scene_builder import View
 
@@ -38,6 +38,12 @@ class Experiment(ExperimentContent):
     """Everything that an experiment file points to, sensors by name: `[experiment[name] for name in experiment]`."""
 
     __slots__ = ()
+
+    coherence = _locomotion.coherence
+    if TYPE_CHECKING:
+        inspect = _inspection.inspected
+    else:
+        inspect = LazyMethod("forcetorque.inspection.inspect:inspected")
 
     @classmethod
     def of(cls, content: ExperimentContent) -> Self:
@@ -117,37 +123,6 @@ class Experiment(ExperimentContent):
             plane=PlaneTolerance() if plane is None else plane,
         )
         return balance([self], [corrections_of(self, named(calibrations))], asked)
-
-    def coherence(
-        self,
-        candidates: Calibration | Mapping[str, Mapping[str, Calibration]] | None = None,
-        offsets: Sequence[OffsetPolicy | str] = (),
-    ) -> Coherence:
-        """Hold the net contact force of every phase against the weight.
-
-        Args:
-            candidates: One calibration, or by name of the candidate its calibrations by any name; the prior is always
-                judged.
-            offsets: Where offsets come from, such as `one-link-imu:hanging`; as of `analysis.coherence`.
-
-        Returns:
-            Net forces and errors per offset, phase and candidate.
-        """
-        from forcetorque.locomotion.net_force.net_force import coherence
-
-        judged = {NEW: candidates} if isinstance(candidates, Calibration) else candidates or {}
-        sensors = {name: named(calibrations) for name, calibrations in judged.items()}
-        return coherence(self, sensors, offsets=offsets)
-
-    def inspect(self) -> Inspection:
-        """Find gaps, lost messages, frozen or saturated sensors, steps and contacts.
-
-        Returns:
-            What the recording holds, and what is wrong with it.
-        """
-        from forcetorque.inspection.inspect import inspected
-
-        return inspected(self)
 
     def estimate(
         self,

@@ -21,8 +21,6 @@ from forcetorque.study.candidate import SWEEP_LAMBDAS
 from forcetorque.workbench.recording import BenchRecording
 
 if TYPE_CHECKING:
-    from forcetorque.contests.entries import Entries
-    from forcetorque.contests.ranking import Contest
     from forcetorque.device.design import DeviceDesign
     from forcetorque.device.device_file import DeviceFile
     from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
@@ -64,23 +62,6 @@ def workbench(
         spec=spec,
         seed=seed,
     )
-
-
-def contest(entries: Entries | Path | str) -> Contest:
-    """Rank sensors and methods on the same loads: `contest("contest.toml")`.
-
-    Args:
-        entries: Runs and contestants, or the file that states them.
-
-    Returns:
-        Ranks, scores and pairs; it shows itself as tables.
-    """
-    from forcetorque.contests.entries import Entries, read_entries
-    from forcetorque.contests.ranking import contest
-
-    stated = entries if isinstance(entries, Entries) else read_entries(entries)
-    created = created_now()
-    return contest(stated, code_version=version("forcetorque"), created=created)
 
 
 def design_device(device: DeviceFile | Path | str | None = None) -> DeviceDesign:

@@ -55,6 +55,11 @@ class Acceptance(Result):
         object.__setattr__(self, "accepted", all(criterion.passed for criterion in self.criteria))
         return self
 
+    @property
+    def passed(self) -> bool:
+        """Whether it is accepted."""
+        return self.accepted
+
     @classmethod
     def together(cls, results: Iterable[Self]) -> Self:
         """Put the answers for several sensors of one experiment together.

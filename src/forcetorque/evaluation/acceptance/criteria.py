@@ -18,7 +18,7 @@ from forcetorque.calibration.summary import learnt_directions
 from forcetorque.evaluation.acceptance import acceptance_file as limits
 from forcetorque.evaluation.acceptance.acceptance_file import Component
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
-from forcetorque.evaluation.evaluation import CandidateErrors, evaluate
+from forcetorque.evaluation.evaluation import CandidateErrors, validation_errors
 from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.evaluation.matrix_checks import most_unusual
 from forcetorque.evaluation.section import LoadCaseTable
@@ -267,7 +267,7 @@ def _worst(
 
 def _evaluated(subject: Subject, offset: str) -> tuple[CandidateErrors, CandidateErrors]:
     """Errors of the prior, or again of the calibration where there is none, and of the calibration."""
-    verdicts = evaluate(subject.campaign, dict([subject.fitted()]), load_cases=False).verdicts
+    verdicts = validation_errors(subject.campaign, dict([subject.fitted()])).verdicts
     rows = [row for row in verdicts if row.offset == offset]
     return rows[0], rows[-1]
 

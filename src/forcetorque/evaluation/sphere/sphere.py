@@ -200,7 +200,9 @@ class Spheres(Result):
 
 
 @with_recording_notes
-def spheres(run: SensorRun, calibrations: Calibrations, intervals: Sequence[str] | None = None) -> Spheres:
+def spheres(
+    run: SensorRun, calibrations: Calibrations | None = None, intervals: Sequence[str] | None = None
+) -> Spheres:
     """Compare how the three axes of a sensor weigh the limb that is carried around.
 
     Args:

@@ -31,11 +31,9 @@ from forcetorque.evaluation.validation.joint_torques import (
     joint_torque_table,
     joint_torques_of,
 )
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibrations_under_test import Calibrations, named
-from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.free_sub_model import FreeSubModel, OtherSensors, SubModelChoice
+from forcetorque.experiment.campaign import Campaign
+from forcetorque.experiment.free_sub_model import FreeSubModel, SubModelChoice
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.recording.recording import Use
@@ -115,50 +113,35 @@ class Validation(Result):
                 yield f"{sensor}, {row.candidate}, offset {row.offset}: read by {row.offset_source}"
 
 
-@with_recording_notes
-def validate(
-    runs: Runs,
-    calibrations: Calibrations,
-    *,
-    others: Mapping[str, Calibration] | None = None,
-    other_sensors: OtherSensors = OtherSensors.MODEL,
-    sub_model: str | None = None,
-    contact: str | None = None,
-) -> Validation:
+def validation(campaign: Campaign, calibrations: Mapping[str, Calibration], choice: SubModelChoice) -> Validation:
     """Evaluate calibrations of a sensor by contact force and joint torques where nothing touches.
 
     Args:
-        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are used.
-        calibrations: Calibrations of that sensor by name, or one; their priors are evaluated too, or that of the
-            experiment where there is none.
-        others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
-        other_sensors: Whether the other sensors read what the model expects or what they measured.
-        sub_model: The sub-model that nothing touches, by the sensor at its base or the root link; None for that
-            outboard of the sensor.
-        contact: Link of the sub-model at whose origin the contact is estimated; None for that mounted on the sensor.
+        campaign: The sensor in one recording, or in several, whose errors are pooled.
+        calibrations: Calibrations of that sensor by name; their priors are evaluated too, or that of the experiment
+            where there is none.
+        choice: Which sub-model nothing touches, and what the other sensors read.
 
     Returns:
         What `contact_forces` and `joint_torques` give, from one motion of the robot.
 
     Raises:
-        ExperimentError: If there is nothing to evaluate, or an interval has no support.
+        ExperimentError: If there is no validation interval, or one has no support.
     """
-    campaign, tested = Campaign.of(runs), named(calibrations)
-    choice = SubModelChoice(others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
-    results = choice.in_campaign(campaign, lambda free: _torques_and_contacts(free, tested))
+    results = choice.in_campaign(campaign, lambda free: _torques_and_contacts(free, calibrations))
     torques = {name: result[0] for name, result in results.items()}
     contacts = {name: result[1] for name, result in results.items()}
     joint_torques = joint_torques_of(campaign, pooled_torque_errors(torques))
     forces = contact_forces_of(campaign.sensor, contacts)
     name = campaign.sensor.name
-    validity, unknown = _validity(campaign, tested)
-    uses, undecided = _uses(campaign, tested)
+    validity, unknown = _validity(campaign, calibrations)
+    uses, undecided = _uses(campaign, calibrations)
     reasons = (*forces.left_out, *joint_torques.left_out, *unknown, *undecided)
     left_out = tuple(dict.fromkeys(f"{name}: {words}" for words in reasons))
     several = len(campaign.runs) > 1
     return Validation(
         experiment="; ".join(campaign.recordings),
-        other_sensors=other_sensors.value,
+        other_sensors=choice.other_sensors.value,
         contact_forces=forces.verdicts,
         best=forces.best,
         joint_torques=joint_torques.verdicts,

@@ -15,7 +15,6 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import sample_statistics
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment
@@ -34,14 +33,10 @@ from forcetorque.recording.recording import Interval, MovingSupport, Use
 from forcetorque.results.number_text import finite_or_none
 
 
-@with_recording_notes
-def coherence(
-    experiment: Experiment,
-    candidates: Mapping[str, Mapping[str, Calibration]] | None = None,
-    *,
-    offsets: Sequence[OffsetPolicy | str] = (),
+def net_force_errors(
+    experiment: Experiment, candidates: Mapping[str, Mapping[str, Calibration]], offsets: Sequence[OffsetPolicy | str]
 ) -> Coherence:
-    """Hold the net contact force of every phase against the weight.
+    """Compare the net contact force of every phase with the weight.
 
     Args:
         experiment: The experiment; every interval that is not to be ignored is a phase, in which its support, or the
@@ -68,7 +63,7 @@ def coherence(
                 f"offset {policy}: it comes from every judged phase itself, also from one on two feet, in which nobody "
                 "knows what a sensor must read; take one from an interval, such as one-link-imu:LABEL"
             )
-    readers = [reader for policy in policies for reader in readers_of(experiment, candidates or {}, policy)]
+    readers = [reader for policy in policies for reader in readers_of(experiment, candidates, policy)]
     rows = [row for reader in readers for row in _rows(experiment, reader, phases, weight)]
     warnings = contact_warnings(
         phases, [reader for reader in readers if reader.policy.offset is not Offset.NONE], weight

@@ -142,25 +142,18 @@ class TorqueLoopStudy(Result):
         )
 
 
-def torque_loop(
-    file: TorqueLoopFile | None = None, *, progress: Callable[[str], None] = lambda _: None
-) -> TorqueLoopStudy:
+def study_torque_loop(settings: TorqueLoopFile, progress: Callable[[str], None]) -> TorqueLoopStudy:
     """Let a small biped in MuJoCo change its support under torque control, with errors of its sensors.
 
     Drives, controllers and rates are settled by the file before any error is drawn, and proven stable without.
 
     Args:
-        file: What is tried; `TorqueLoopFile()` if None.
+        settings: What is tried.
         progress: Called with a line for people as work goes on.
 
     Returns:
-        Tracking, swings and falls by size of error; and where the linear loop says that they begin.
-
-    Raises:
-        MissingExtraError: If MuJoCo is not installed.
-        ControlError: If gains are unstable without any error.
+        Tracking, oscillations and falls by size of error; and where the linear loop predicts that they begin.
     """
-    settings = TorqueLoopFile() if file is None else file
     rng = np.random.default_rng(settings.seed)
     unit = drawn_matrices(1.0, settings.sensor.lever_m, rng, settings.seeds)
     rows: list[TorqueLoopRow] = []

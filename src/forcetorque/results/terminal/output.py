@@ -40,13 +40,6 @@ class TrialsChoice(StrEnum):
     INTERVALS = "intervals"
 
 
-class OtherSensorsChoice(StrEnum):
-    """What the other sensors of a sub-model are taken to read."""
-
-    MODEL = "model"
-    MEASURED = "measured"
-
-
 def start_logging() -> logging.Logger:
     """Send the library's and the command's messages to standard error.
 

@@ -15,7 +15,7 @@ from forcetorque.base.errors import ExperimentError, FitError, known_names
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
@@ -216,28 +216,26 @@ class Response(Result):
 def response(
     runs: SensorRun | Sequence[SensorRun],
     excitation: ExcitationKind | str,
+    calibration: OneCalibration | None = None,
     *,
     component: str | None = None,
     force: str | None = None,
     mass_kg: float | None = None,
     cut_off_hz: float | None = None,
     intervals: Collection[str] = (),
-    name: str | None = None,
-    calibration: Calibration | None = None,
 ) -> Response:
     """Compute the response of a sensor to fast forces.
 
     Args:
         runs: The sensor, in one or several recordings.
         excitation: What was done to it: impact, release or pendulum.
+        calibration: Reads the sensor, alone or by its name; its prior or the logged wrench if None.
         component: Component of the wrench; if None that in which most impacts stand out most, or the force
             along the step of a release.
         force: Stream with the force that was measured: an `applied_wrench`, or a `proper_acceleration`.
         mass_kg: Mass that was let go, or that moves with the acceleration; kg.
         cut_off_hz: Cut-off of the filter; Hz; the natural frequency if None.
         intervals: Labels of the intervals that are taken; all that are not to be ignored if none is named.
-        name: Name of the calibration; None if there is none.
-        calibration: Reads the sensor; its prior or the logged wrench if None.
 
     Returns:
         Events with their decays, and where a force is known the response, its fit, and a filter that undoes it.
@@ -250,7 +248,7 @@ def response(
     run, kind = several[0], _excitation(excitation)
     place = None if component is None else component_index(component)
     _refuse_lacking(kind, place, component, force, mass_kg)
-    correction = run.read_by(name, calibration)
+    correction = run.read_by(*one_named(calibration))
     records = excited_records(several, correction, intervals=intervals, force=force)
     weight = None if mass_kg is None or kind is not ExcitationKind.RELEASE else mass_kg * STANDARD_GRAVITY
     decays = None if kind is ExcitationKind.PENDULUM else free_decays(records, kind, place, weight_N=weight)

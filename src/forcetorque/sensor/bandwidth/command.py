@@ -60,19 +60,17 @@ def response(
     refuse_a_file_twice(experiments)
     calibrations = read_calibrations(None if calibration is None else [calibration])
     contents = [read_experiment(path, log) for path in experiments]
-    name, read_by = next(iter(calibrations.items()), (None, None))
     with stated_in(", ".join(str(path) for path in experiments)):
         wanted = sensor if sensor is not None else contents[0].sensors[0].name
         result = response(
             [SensorRun(content, content.sensor(wanted)) for content in contents],
             excitation,
+            calibrations or None,
             component=component,
             force=force,
             mass_kg=mass,
             cut_off_hz=cut_off,
             intervals=interval or (),
-            name=name,
-            calibration=read_by,
         )
     if figure is not None:
         from forcetorque.results.figures import png_bytes

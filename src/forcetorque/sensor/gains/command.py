@@ -57,7 +57,10 @@ def gains(
     matrices = one_per_sensor(content, calibrations)
     refuse_left_out(content, sensors, calibrations)
     runs = [SensorRun(content, _with_gains(content, chosen, amplifier_gain, allowed_gains)) for chosen in sensors]
-    answer = Gains.together(select_gains(run, margin=margin, calibration=matrices.get(run.sensor.name)) for run in runs)
+    answer = Gains.together(
+        select_gains(run, dict([matrices[run.sensor.name]]) if run.sensor.name in matrices else None, margin=margin)
+        for run in runs
+    )
     if figure is not None:
         from forcetorque.base.output_file import write_bytes_atomically
         from forcetorque.results.figures import png_bytes

@@ -14,7 +14,7 @@ from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, n
 from forcetorque.base.noise.means import means_over
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.raw_counts import RawCounts, raw_counts
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.usable_samples import expected_at
@@ -181,15 +181,13 @@ class SensorGains(ArrayRecord):
 
 
 @with_recording_notes
-def select_gains(
-    run: SensorRun, *, margin: float = MARGIN, calibration: tuple[str, Calibration] | None = None
-) -> Gains:
+def select_gains(run: SensorRun, calibration: OneCalibration | None = None, *, margin: float = MARGIN) -> Gains:
     """Compute how a sensor uses its range over all intervals that are not ignored, and recommend gains.
 
     Args:
         run: The sensor, with its present and allowed gains if they are known.
+        calibration: Its matrix converts counts, alone or by its name; that of the prior if left out.
         margin: Share of the limit to keep free.
-        calibration: Name and calibration whose matrix gives what a count is worth; the prior's if left out.
 
     Returns:
         Ranges, advice and resolution.
@@ -262,9 +260,9 @@ def _channel_gains(run: SensorRun, counts: RawCounts, margin: float) -> tuple[Ch
     return advise_gains(ranges, margin=margin, present=sensor.amplifier_gain, allowed=sensor.allowed_gains)
 
 
-def _matrix(run: SensorRun, calibration: tuple[str, Calibration] | None) -> tuple[FloatArray | None, str | None]:
-    if calibration is not None:
-        name, fitted = calibration
+def _matrix(run: SensorRun, calibration: OneCalibration | None) -> tuple[FloatArray | None, str | None]:
+    name, fitted = one_named(calibration)
+    if name is not None and fitted is not None:
         run.require_fit(name, fitted)
         return fitted.matrix, name
     if run.sensor.prior is None or run.sensor.prior_source == "identity":

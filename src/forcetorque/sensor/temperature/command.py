@@ -1,72 +1,52 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque thermal`: what temperature does to a sensor at constant load."""
 
-from __future__ import annotations
+from collections.abc import Collection
+from typing import TYPE_CHECKING, Annotated
 
-from pathlib import Path
-from typing import Annotated
+from forcetorque.results.command import Drawing, Option, command
 
-import typer
+if TYPE_CHECKING:
+    from forcetorque.experiment.calibrations_under_test import OneCalibration
+    from forcetorque.experiment.sensor_run import SensorRun
+    from forcetorque.sensor.temperature.temperature_drift import Thermal
 
-from forcetorque.results.terminal.options import ExperimentArgument, FormatOption, SensorOption
-from forcetorque.results.terminal.output import Format, show, start_logging
 
-
+@command(
+    Drawing(
+        function="forcetorque.sensor.figures:thermal_figure",
+        of="sensors",
+        help="the drift over temperature, heating and cooling apart",
+    )
+)
 def thermal(
-    experiment: ExperimentArgument,
-    sensor: SensorOption = None,
-    interval: Annotated[
-        list[str] | None,
-        typer.Option("--interval", help="Label of an interval; repeat for more. Default: all that are not ignored."),
-    ] = None,
-    variable: Annotated[
-        str | None, typer.Option("--variable", help="Variable that is the temperature. Default: the only one in degC.")
-    ] = None,
+    run: Annotated[
+        "SensorRun",
+        Option("Sensor with a linear variable that is its temperature, at a load that does not change.", "--sensor"),
+    ],
     calibration: Annotated[
-        Path | None,
-        typer.Option("--calibration", "-c", help="Calibration that reads the sensor, for the drift that it leaves."),
+        "OneCalibration | None",
+        Option("Calibration that reads the sensor, for the drift that it leaves. Default: its prior, or as logged."),
     ] = None,
-    figure: Annotated[
-        Path | None, typer.Option("--figure", help="PNG of the drift over temperature, heating and cooling apart.")
-    ] = None,
-    output_format: FormatOption = Format.TABLE,
-) -> None:
+    *,
+    intervals: Annotated[
+        Collection[str], Option("Label of an interval. Default: all that are not ignored.", "--interval")
+    ] = (),
+    variable: Annotated[str | None, Option("Variable that is the temperature. Default: the only one in degC.")] = None,
+) -> "Thermal":
     """Find how a reading drifts with temperature at a constant load.
 
     Example: forcetorque thermal cycles.toml --figure drift.png
 
     Python: `run.thermal(calibration)`
+
+    Returns:
+        Drift per degree and per hour, and hysteresis, with intervals.
+
+    Raises:
+        ExperimentError: If there is no temperature, or no such interval.
     """
-    from forcetorque.base.output_file import write_bytes_atomically
-    from forcetorque.experiment.input_files import stated_in
-    from forcetorque.experiment.sensor_run import SensorRun
-    from forcetorque.results.terminal.output import refuse_figure
-    from forcetorque.results.terminal.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
-    from forcetorque.sensor.temperature.temperature_drift import Thermal, thermal
+    from forcetorque.experiment.calibrations_under_test import one_named
+    from forcetorque.sensor.temperature.temperature_drift import temperature_drift
 
-    log = start_logging()
-    refuse_figure(figure)
-    calibrations = read_calibrations(None if calibration is None else [calibration])
-    content = read_experiment(experiment, log)
-    wanted = [one.sensor.name for one in calibrations.values()] if sensor is None else sensor
-    chosen = sensors_named(content, wanted)
-    refuse_left_out(content, chosen, calibrations)
-    name, read_by = next(iter(calibrations.items()), (None, None))
-    with stated_in(str(experiment)):
-        result = Thermal.together(
-            thermal(
-                SensorRun(content, one),
-                intervals=interval or (),
-                variable=variable,
-                name=name,
-                calibration=read_by,
-            )
-            for one in chosen
-        )
-    if figure is not None:
-        from forcetorque.results.figures import png_bytes
-        from forcetorque.sensor.figures import thermal_figure
-
-        write_bytes_atomically(figure, png_bytes(thermal_figure(result.sensors)))
-        result = result.model_copy(update={"figure": str(figure)})
-    show(result, output_format)
+    return temperature_drift(run, run.read_by(*one_named(calibration)), intervals, variable)

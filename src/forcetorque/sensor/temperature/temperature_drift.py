@@ -14,8 +14,6 @@ from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import SensorVariable
 from forcetorque.experiment.raw_counts import chosen_intervals
 from forcetorque.experiment.sensor_reading import Correction, readings_at
@@ -192,24 +190,16 @@ class Thermal(Result):
         ]
 
 
-@with_recording_notes
-def thermal(
-    run: SensorRun,
-    *,
-    intervals: Collection[str] = (),
-    variable: str | None = None,
-    name: str | None = None,
-    calibration: Calibration | None = None,
+def temperature_drift(
+    run: SensorRun, correction: Correction, intervals: Collection[str], variable: str | None
 ) -> Thermal:
     """Find how a reading drifts with temperature and time, and how heating and cooling differ.
 
     Args:
-        run: The sensor, with a linear variable that is its temperature, at a load that does not change.
-        intervals: Labels of the intervals that are taken; all that are not to be ignored if none is named.
-        variable: Name of the variable; None where only one is a temperature.
-        name: Name of the calibration; None if there is none.
-        calibration: Reads the sensor; its prior or the logged wrench if None. One that knows the temperature gives the
-            drift that it leaves.
+        run: The sensor, at a load that does not change.
+        correction: Reads it. One that knows the temperature gives the drift that it leaves.
+        intervals: Labels of the intervals that are taken; all that are not ignored if there is none.
+        variable: Name of the variable that is the temperature; None where there is only one.
 
     Returns:
         Coefficients with intervals.
@@ -218,7 +208,6 @@ def thermal(
         ExperimentError: If there is no temperature, or no such interval.
     """
     temperature = _temperature(run, variable)
-    correction = run.read_by(name, calibration)
     sessions = _sessions(run, [one for _, one in chosen_intervals([run], intervals)], temperature, correction)
     cycles = cycles_of(sessions)
     settled = cycles.on_branches()

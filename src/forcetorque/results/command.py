@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""An analysis whose options are written once, in its signature: the command line and the Python objects take them.
+
+A module of such analyses imports what computes inside its functions, so that `--help` stays quick. Types that are not
+imported are quoted; `from __future__ import annotations` would quote the options too.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import wraps
+from inspect import cleandoc
+from textwrap import fill
+from typing import TYPE_CHECKING, Annotated, Any, ForwardRef, ParamSpec, TypeVar, get_origin
+
+if TYPE_CHECKING:
+    from forcetorque.results.result import Result
+
+Parameters = ParamSpec("Parameters")
+Returned = TypeVar("Returned", bound="Result")
+
+Progress = Callable[[str], None]
+"""Called with a line for people as work goes on, such as `print`."""
+
+_LINE = 120
+_DETAILS = ("Returns", "Raises", "References")
+
+
+class Option:
+    """Help of a parameter of an analysis, and how it is typed; the metadata of `Annotated`."""
+
+    __slots__ = ("choices", "flags", "help", "reads", "required", "typed")
+
+    def __init__(
+        self,
+        help_text: str,
+        *flags: str,
+        required: bool = False,
+        choices: tuple[str, ...] = (),
+        typed: Any = None,
+        reads: str | None = None,
+    ) -> None:
+        """Describe a parameter.
+
+        Args:
+            help_text: What it is, for the help of the command and the docstring.
+            flags: Its flags. Without any, a keyword-only parameter has that of its name, another is an argument.
+            required: Whether the command demands it, although the analysis has a default.
+            choices: Words that it may be; any if empty.
+            typed: Type that the command line has in place of that of the parameter.
+            reads: Function, as `module:name`, that makes the parameter of what is typed.
+        """
+        self.help, self.flags = help_text, flags
+        self.required, self.choices = required, choices
+        self.typed, self.reads = typed, reads
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drawing:
+    """The figure of a result, which `--figure` writes as a PNG."""
+
+    function: str
+    """Function that draws it, as `module:name`."""
+    of: str | None = None
+    """Field of the result that it draws; the result itself if None."""
+    help: str
+    """What it shows."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Command:
+    """What the command line needs to know of an analysis."""
+
+    options: Mapping[str, Option]
+    """By name of the parameter."""
+    drawing: Drawing | None
+    """Its figure; None if it has none."""
+
+
+def command(
+    drawing: Drawing | None = None,
+) -> Callable[[Callable[Parameters, Returned]], Callable[Parameters, Returned]]:
+    """Offer an analysis as a command of its name.
+
+    Its docstring has a sentence, an example and the line from Python; its arguments are added from their options.
+
+    Args:
+        drawing: Figure of the result; None for none.
+
+    Returns:
+        A decorator. The result of the analysis states what experiment files added to their logs and what is left out.
+    """
+
+    def offer(analysis: Callable[Parameters, Returned]) -> Callable[Parameters, Returned]:
+        hints: Mapping[str, Any] = analysis.__annotations__
+        options = {name: hint.__metadata__[0] for name, hint in hints.items() if _has_option(hint)}
+        analysis.__annotations__ = {name: _plain(hint) for name, hint in hints.items()}
+        analysis.__doc__ = _with_arguments(cleandoc(analysis.__doc__ or ""), options)
+
+        @wraps(analysis)
+        def noted(*args: Parameters.args, **named: Parameters.kwargs) -> Returned:
+            from forcetorque.experiment.additions import with_notes
+
+            return with_notes(analysis(*args, **named), (*args, *named.values()))
+
+        noted.command = Command(options=options, drawing=drawing)  # type: ignore[attr-defined]
+        return noted
+
+    return offer
+
+
+def command_of(analysis: Any) -> Command | None:
+    """Give what the command line needs to know.
+
+    Args:
+        analysis: A function.
+
+    Returns:
+        Its options and figure; None if it is no analysis that `command` offers.
+    """
+    return getattr(analysis, "command", None)
+
+
+def _has_option(hint: Any) -> bool:
+    return get_origin(hint) is Annotated
+
+
+def _plain(hint: Any) -> Any:
+    """The type without its option, as text where it is quoted."""
+    kind = hint.__origin__ if _has_option(hint) else hint
+    return kind.__forward_arg__ if isinstance(kind, ForwardRef) else kind
+
+
+def _with_arguments(text: str, options: Mapping[str, Option]) -> str:
+    head, *details = _sections(text)
+    lines = [
+        fill(f"{name}: {option.help}", _LINE - 4, initial_indent=4 * " ", subsequent_indent=8 * " ")
+        for name, option in options.items()
+    ]
+    return "\n\n".join([head, "\n".join(["Args:", *lines]), *details])
+
+
+def _sections(text: str) -> Iterable[str]:
+    """The docstring before its first section, and the sections."""
+    places = sorted(place for name in _DETAILS if (place := text.find(f"\n\n{name}:")) >= 0)
+    ends = [*places, len(text)]
+    return (text[start:end].strip("\n") for start, end in zip([0, *places], ends, strict=True))

@@ -1,0 +1,263 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command of an analysis, made of its signature: options, input files, sensors in turn, figure, exit code."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cached_property
+from inspect import Parameter, Signature, signature
+from pathlib import Path
+from types import GenericAlias
+from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin
+
+import typer
+
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.results.capability import named
+from forcetorque.results.command import Command, Option, command_of
+from forcetorque.results.terminal.options import ExperimentArgument, ExperimentsArgument, FormatOption
+from forcetorque.results.terminal.output import Format, refuse_figure, show, start_logging
+
+if TYPE_CHECKING:
+    from logging import Logger
+
+    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.results.result import Result
+
+_RUN, _RUNS, _EXPERIMENT = "SensorRun", "Runs", "Experiment"
+_CALIBRATIONS, _ONE_CALIBRATION, _OTHERS = "Calibrations", "OneCalibration", "OtherCalibrations"
+_PROGRESS = "Progress"
+_FILLED = (_RUN, _RUNS, _EXPERIMENT, _CALIBRATIONS, _ONE_CALIBRATION, _OTHERS, _PROGRESS)
+"""Types of parameters that the command line fills from files, or with its log."""
+
+
+def command_function(function: Callable[..., Any]) -> Callable[..., None]:
+    """Make what typer takes as a command.
+
+    Args:
+        function: An analysis with its options, or a command that parses by itself.
+
+    Returns:
+        A function whose signature has arguments and options; the command itself if it parses by itself.
+    """
+    offered = command_of(function)
+    return function if offered is None else _Analysis(function, offered).command()
+
+
+@dataclass(frozen=True)
+class _Analysis:
+    """An analysis, and how it is typed."""
+
+    function: Callable[..., Result]
+    offered: Command
+
+    @cached_property
+    def parameters(self) -> Mapping[str, Parameter]:
+        """Its parameters, with types as text where they are quoted."""
+        return signature(self.function).parameters
+
+    @cached_property
+    def named_by_kind(self) -> Mapping[str, str]:
+        """Names of the parameters that are filled from files, by their type."""
+        return {_kind(parameter): name for name, parameter in self.parameters.items()}
+
+    def command(self) -> Callable[..., None]:
+        """The command, which typer parses by its signature."""
+
+        def run(**given: Any) -> None:
+            self.run(given)
+
+        typed = [*self.typed(), _typed("output_format", FormatOption, Format.TABLE)]
+        typed.sort(key=lambda parameter: parameter.default is not Parameter.empty)
+        run.__signature__ = Signature(typed)  # type: ignore[attr-defined]
+        run.__annotations__ = {parameter.name: parameter.annotation for parameter in typed}
+        run.__name__ = self.function.__name__
+        run.__doc__ = (self.function.__doc__ or "").partition("\n\nArgs:")[0]
+        return run
+
+    def typed(self) -> Iterator[Parameter]:
+        """What is typed: files, sensors and options."""
+        for name, parameter in self.parameters.items():
+            option, kind = self.offered.options.get(name), _kind(parameter)
+            if kind in (_RUN, _EXPERIMENT):
+                yield _typed("experiment", ExperimentArgument)
+            elif kind == _RUNS:
+                yield _typed("experiments", ExperimentsArgument)
+            elif option is not None and kind in (_CALIBRATIONS, _ONE_CALIBRATION):
+                yield _option("calibration", list[Path], option, ("--calibration", "-c"), required=option.required)
+            elif option is not None and kind not in (_OTHERS, _PROGRESS):
+                yield _plain(name, parameter, option)
+            if kind in (_RUN, _RUNS) and option is not None and option.flags:
+                words = "Sensor of the experiment. Default: those of the calibrations, else all."
+                yield _option("sensor", list[str], Option(words), option.flags)
+        if self.offered.drawing is not None:
+            yield _option("figure", Path, Option(f"PNG of {self.offered.drawing.help}."), ("--figure",))
+
+    def run(self, given: Mapping[str, Any]) -> None:
+        """Compute, draw and show the result.
+
+        Args:
+            given: What was typed, by name.
+
+        Raises:
+            typer.Exit: With code 1 if the result is not as it should be.
+        """
+        log, figure = start_logging(), given.get("figure")
+        refuse_figure(figure)
+        result = self.result(given, log)
+        if figure is not None:
+            result = self.drawn(result, figure)
+        show(result, given["output_format"])
+        if not result.passed:
+            raise typer.Exit(1)
+
+    def result(self, given: Mapping[str, Any], log: Logger) -> Result:
+        """Read what is named, and compute."""
+        from forcetorque.experiment.input_files import stated_in
+        from forcetorque.results.terminal.reading import read_experiment
+
+        files, options = self.read(given, log)
+        if _EXPERIMENT in self.named_by_kind:
+            content = read_experiment(given["experiment"], log)
+            with stated_in(str(given["experiment"])):
+                return self.function(content, **options)
+        if _RUN in self.named_by_kind or _RUNS in self.named_by_kind:
+            results = list(self.by_sensor(given, options, log))
+            return type(results[0]).together(results)
+        first = next(iter(files or options.values()), None)
+        if isinstance(first, Path):
+            log.info("reading %s", first)
+        return self.function(*files, **options)
+
+    def read(self, given: Mapping[str, Any], log: Logger) -> tuple[Sequence[Any], dict[str, Any]]:
+        """Positional arguments, and options, both without experiments and calibrations."""
+        files: list[Any] = []
+        options: dict[str, Any] = {}
+        for name, parameter in self.parameters.items():
+            if _kind(parameter) == _PROGRESS:
+                options[name] = log.info
+            value, option = given.get(name), self.offered.options.get(name)
+            if value is None or option is None or _kind(parameter) in _FILLED:
+                continue
+            value = named(option.reads)(value) if option.reads else value
+            if parameter.kind is Parameter.VAR_POSITIONAL:
+                files += value
+            else:
+                options[name] = value
+        return files, options
+
+    def by_sensor(self, given: Mapping[str, Any], options: dict[str, Any], log: Logger) -> Iterator[Result]:
+        """Results of the sensors that are named, else of those of the calibrations, else of all."""
+        from forcetorque.experiment.applicability import by_sensor, one_per_sensor
+        from forcetorque.experiment.input_files import stated_in
+        from forcetorque.results.terminal.reading import (
+            campaign_of,
+            read_calibrations,
+            read_experiment,
+            read_experiments,
+            refuse_left_out,
+            sensors_named,
+        )
+
+        calibrations = read_calibrations(given.get("calibration"))
+        if _RUNS in self.named_by_kind:
+            contents = read_experiments(given["experiments"], log)
+        else:
+            contents = {given["experiment"]: read_experiment(given["experiment"], log)}
+        file, content = next(iter(contents.items()))
+        groups = by_sensor(content, calibrations)
+        if _ONE_CALIBRATION in self.named_by_kind:
+            one_per_sensor(content, calibrations)
+        sensors = sensors_named(content, given.get("sensor") or groups)
+        if _OTHERS not in self.named_by_kind:
+            refuse_left_out(content, sensors, calibrations)
+        for sensor in sensors:
+            where, subject = f"sensor {sensor.name!r}", campaign_of(contents, sensor.name)
+            options_of_sensor = options | self.calibrations(groups, sensor.name)
+            if _RUN in self.named_by_kind:
+                with stated_in(str(file)):
+                    yield self.function(*subject.runs, **options_of_sensor)
+                continue
+            log.info(where)
+            with _located(f"{file}: {where}" if len(contents) == 1 else where, options):
+                yield self.function(subject, **options_of_sensor)
+
+    def calibrations(self, groups: Mapping[str, Mapping[str, Calibration]], sensor: str) -> dict[str, Any]:
+        """Parameters with the calibrations of a sensor, and with those of the others."""
+        rest = {file: one for other, group in groups.items() if other != sensor for file, one in group.items()}
+        own = groups.get(sensor, {})
+        values = {_CALIBRATIONS: own, _ONE_CALIBRATION: own or None, _OTHERS: rest}
+        return {self.named_by_kind[kind]: value for kind, value in values.items() if kind in self.named_by_kind}
+
+    def drawn(self, result: Result, figure: Path) -> Result:
+        """The result with the name of its figure, which is drawn."""
+        from forcetorque.base.output_file import write_bytes_atomically
+        from forcetorque.results.figures import png_bytes
+
+        drawing = self.offered.drawing
+        assert drawing is not None  # noqa: S101 - else there is no --figure
+        shown = result if drawing.of is None else getattr(result, drawing.of)
+        write_bytes_atomically(figure, png_bytes(named(drawing.function)(shown)))
+        named_in_result = "figure" in type(result).model_fields
+        return result.model_copy(update={"figure": str(figure)}) if named_in_result else result
+
+
+@contextmanager
+def _located(where: str, options: Mapping[str, Any]) -> Iterator[None]:
+    """Put file and sensor in front of errors, but of those that begin with another file that is an option."""
+    from forcetorque.experiment.input_files import stated_in
+
+    try:
+        yield
+    except ForceTorqueError as error:
+        if str(error).startswith(tuple(f"{file}: " for file in options.values() if isinstance(file, Path))):
+            raise
+        with stated_in(where):
+            raise
+
+
+def _kind(parameter: Parameter) -> str:
+    """Type of a parameter as text, without `| None`; empty for one that is typed as it is."""
+    return parameter.annotation.removesuffix(" | None") if isinstance(parameter.annotation, str) else ""
+
+
+def _plain(name: str, parameter: Parameter, option: Option) -> Parameter:
+    """An argument or option as it is typed."""
+    kind, flags = option.typed or _typed_kind(parameter), option.flags
+    required = parameter.default is Parameter.empty
+    if not flags and parameter.kind is not Parameter.KEYWORD_ONLY:
+        argument = typer.Argument(help=option.help)
+        return _typed(name, Annotated[kind if required else kind | None, argument], *(() if required else (None,)))
+    default = None if parameter.default == () else parameter.default
+    return _option(name, kind, option, flags or (f"--{name.replace('_', '-')}",), required=required, default=default)
+
+
+def _typed_kind(parameter: Parameter) -> Any:
+    """Type on the command line: a file where a file may be given, a list where there may be several."""
+    kind = parameter.annotation
+    if re.search(r"\bPath\b", str(kind)):
+        kind = Path
+    elif get_origin(kind) in (Sequence, Collection):
+        return GenericAlias(list, get_args(kind))
+    return GenericAlias(list, (kind,)) if parameter.kind is Parameter.VAR_POSITIONAL else kind
+
+
+def _option(
+    name: str, kind: Any, option: Option, flags: Sequence[str], *, required: bool = False, default: Any = None
+) -> Parameter:
+    several = " Repeat for more." if get_origin(kind) is list else ""
+    if option.choices:
+        choice: Any = StrEnum("choice", list(option.choices))  # type: ignore[misc]  # mypy wants the words written here
+        kind, default = choice, choice(default)
+    declared = typer.Option(*flags, help=option.help + several)
+    if required:
+        return _typed(name, Annotated[kind, declared])
+    return _typed(name, Annotated[kind | None if default is None else kind, declared], default)
+
+
+def _typed(name: str, kind: Any, default: Any = Parameter.empty) -> Parameter:
+    return Parameter(name, Parameter.POSITIONAL_OR_KEYWORD, default=default, annotation=kind)
