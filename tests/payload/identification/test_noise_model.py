@@ -40,6 +40,23 @@ def test_degrees_of_freedom_are_those_of_satterthwaite_in_any_unit(unit: float) 
     assert 28.0 < both < 57.0
 
 
+def test_what_no_row_tells_has_no_degree_of_freedom() -> None:
+    """It stays what the prior says, and its interval is infinite."""
+    rng = np.random.default_rng(3)
+    design = np.concatenate([rng.normal(size=(COUNT, 6, 1)), np.zeros((COUNT, 6, 1))], axis=2)
+    rows = LoadRows.of_poses(np.zeros((COUNT, 6)), rng.normal(size=(COUNT, 3)))
+    groups = groups_of(rows, design, rng.normal(size=(COUNT, 6)), np.ones(6), np.ones(COUNT))
+    result = estimate(groups, np.eye(2), (np.diag([0.0, 4.0]), np.array([0.0, 12.0])), (WHITE,))
+    assert result.mean[1] == pytest.approx(3.0)
+    assert result.covariance[1, 1] == pytest.approx(0.25)
+    assert result.degrees_of_freedom[0] > 29.0
+    assert result.degrees_of_freedom[1] == 0.0
+    first, second = result.half_widths(np.eye(2))
+    # two halves of 60 values, nearly a normal distribution
+    assert 1.96 < first / np.sqrt(result.covariance[0, 0]) < 2.1
+    assert second == np.inf
+
+
 def test_an_axis_has_at_least_a_tenth_of_the_noise_of_the_loudest() -> None:
     """Forces and moments apart; exact rows have the size 1."""
     residual = np.array([[3.0, 0.1, 1.0, 0.0, 0.0, 0.0], [-3.0, 0.1, -1.0, 0.0, 0.0, 0.0]])
@@ -49,17 +66,18 @@ def test_an_axis_has_at_least_a_tenth_of_the_noise_of_the_loudest() -> None:
 
 
 def test_the_unit_of_time_does_not_change_what_slow_noise_makes_of_a_load() -> None:
-    """Rows a second apart and rows an hour apart, in two power-ups, of which the second is logged much later."""
+    """Rows a second apart and rows an hour apart, in two power-ups, of which the second may be much later."""
     rng = np.random.default_rng(2)
     gravity = poses(40, rng)
     noise = rng.normal(size=(40, 6)) + np.column_stack([3.0 * slow(40, 6.0, rng) for _ in range(6)])
     session = np.repeat([0, 1], 20)
     reading, time = weight(gravity) + SIZES * noise, np.arange(40.0) + 500.0 * session
     fields = {"session": session, "block": session, "drift": False}
-    problem, hours = (problem_of(reading, gravity, time_s=unit * time, **fields) for unit in (1.0, 3600.0))
-    first, second = (solve(one).loads[0] for one in (problem, hours))
-    assert second.mass == pytest.approx(first.mass, rel=1e-9)
-    assert second.mass_half_width == pytest.approx(first.mass_half_width, rel=1e-6)
+    first = solve(problem_of(reading, gravity, time_s=time, **fields)).loads[0]
+    for other_time in (3600.0 * time, time + 9000.0 * session):
+        second = solve(problem_of(reading, gravity, time_s=other_time, **fields)).loads[0]
+        assert second.mass == pytest.approx(first.mass, rel=1e-9)
+        assert second.mass_half_width == pytest.approx(first.mass_half_width, rel=1e-6)
     # negative control: rows that follow each other otherwise have another noise
     mixed = np.concatenate([rng.permutation(20), 20 + rng.permutation(20)])
     other = solve(problem_of(reading[mixed], gravity[mixed], time_s=time, **fields)).loads[0]
