@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -112,29 +111,45 @@ def test_ends_of_an_interval_are_exceeded_as_often_as_they_say() -> None:
     assert error.within(0.0, np.inf) == 0.0
 
 
-def test_a_prior_errs_by_what_an_exact_posterior_says(arm: Path) -> None:
-    """By hand: counts of a load by the calibration, read by the prior, less the load; noise is that of the rows."""
+@pytest.mark.parametrize("offset", ["fitted", "tared"])
+def test_a_prior_errs_by_what_an_exact_posterior_says(arm: Path, offset: str) -> None:
+    """By hand: counts of a load by the calibration, read by the prior, less the load; noise is that of the rows.
+
+    Whether rows are wrenches by the prior, as they were fitted, or channels, whose response is the inverse matrix.
+    """
     run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
-    calibration = calibrate_sensor(run, code_version="test", created="2026-01-01T00:00:00+00:00")
-    posterior = calibration.posterior
+    fitted = calibrate_sensor(run, code_version="test", created="2026-01-01T00:00:00+00:00")
+    posterior, prior = fitted.posterior, fitted.prior
     assert posterior is not None
-    assert calibration.prior is not None
-    exact = posterior.model_copy(update={"covariance": np.zeros_like(posterior.covariance)})
-    exact_calibration = calibration.model_copy(update={"posterior": exact})
-    white = np.array([one.white**2 for one in posterior.noise])  # the prior reads the rows themselves as a wrench
-    case = _case(offset="tared")
-    change = calibration.prior.matrix @ np.linalg.inv(calibration.matrix) - np.eye(6)
-    for loads in (case, replace(case, wrench=case.wrench[:1])):
-        before = predict_prior(exact_calibration, loads)
+    assert prior is not None
+    place = 6 + len(posterior.sessions) - 1
+    inverse = np.linalg.inv(fitted.matrix)
+    response = np.zeros_like(posterior.mean)
+    response[:, :6], response[:, place] = inverse, -inverse @ fitted.offset
+    common = {"covariance": np.zeros_like(posterior.covariance)}
+    channel = {"space": "channel", "mean": response, "to_wrench": fitted.matrix}
+    # another offset than none, so that its sign counts
+    stated = prior.model_copy(update={"offset": np.array([3.0, -2.0, 5.0, 0.1, 0.2, -0.3])})
+    case = _case(offset=offset)
+    load = case.wrench + (posterior.load_centre if offset == "fitted" else 0.0)
+    counts = (load - (fitted.offset if offset == "fitted" else 0.0)) @ inverse.T
+    error = counts @ stated.matrix.T + (stated.offset if offset == "fitted" else 0.0) - load
+    white = np.array([one.white**2 for one in posterior.noise])
+    for known, noise in (
+        (posterior.model_copy(update=common), white),
+        (posterior.model_copy(update=common | channel), stated.matrix**2 @ white),
+    ):
+        before = predict_prior(fitted.model_copy(update={"posterior": known, "prior": stated}), case)
         assert before is not None
-        squares = ((loads.wrench @ change.T) ** 2).mean(axis=0) + white
+        squares = (error**2).mean(axis=0) + noise
         for size, part in ((before.force, slice(3)), (before.moment, slice(3, 6))):
             expected = np.sqrt(squares[part].sum())
             assert (size.at_least, size.typical, size.at_most) == pytest.approx((expected,) * 3, rel=EXACT)
             np.testing.assert_allclose(size.axes, np.sqrt(squares[part]), rtol=EXACT)
             assert size.typical > 3.0 * size.sources["noise"]
-    after = predict_from_posterior(exact, case)
-    np.testing.assert_allclose(after.force.axes**2, (posterior.to_wrench**2 @ white)[:3], rtol=1e-9)
+        after = predict_from_posterior(known, case)
+        np.testing.assert_allclose(after.force.axes**2, (known.to_wrench**2 @ white)[:3], rtol=EXACT)
+    assert predict_prior(fitted.model_copy(update={"prior": None}), case) is None
 
 
 def test_a_variable_that_was_not_fitted_is_refused() -> None:
