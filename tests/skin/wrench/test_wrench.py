@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import factorial
 from typing import Final
 
 import numpy as np
@@ -15,6 +16,7 @@ from forcetorque.base.errors import ShapeError, SkinError
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import transform_wrench
 from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.wrench.elements import POINTS, WEIGHTS
 from forcetorque.skin.wrench.operator import LENGTH_M, WrenchMethod, kriging_shares
 from forcetorque.skin.wrench.patch import SkinPatch
 from tests.scenes.patches import cylinder_patch, ellipsoid_patch
@@ -165,6 +167,15 @@ def test_a_smooth_field_is_told_to_a_thousandth(method: WrenchMethod) -> None:
     force = 1e4 * 2.0 * np.pi * width**2
     np.testing.assert_allclose(wrench[2], -force, rtol=2e-3)
     np.testing.assert_allclose(wrench[3:], np.cross(centre, [0.0, 0.0, -force]), atol=2e-3 * force * 0.1)
+
+
+@pytest.mark.parametrize("powers", [(0, 0, 0), (1, 0, 0), (1, 2, 0), (0, 3, 1), (4, 0, 0), (1, 1, 2), (0, 2, 2)])
+def test_six_points_integrate_polynomials_of_fourth_degree(powers: tuple[int, int, int]) -> None:
+    """Over a triangle the mean of products of barycentric coordinates is `2 i! j! k! / (i + j + k + 2)!`."""
+    exact = 2.0 * np.prod([factorial(power) for power in powers]) / factorial(sum(powers) + 2)
+    np.testing.assert_allclose(WEIGHTS @ (POINTS**powers).prod(axis=1), exact, rtol=EXACT)
+    # negative control: they are not exact beyond
+    assert abs(WEIGHTS @ POINTS[:, 0] ** 6 - 2.0 / 56.0) > 1e-4 / 56.0
 
 
 def _correlation(distance: float) -> float:
