@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from functools import cache
 
 import numpy as np
@@ -155,6 +156,49 @@ def test_errors_on_held_out_loads_are_those_predicted() -> None:
     ratio = np.sqrt((errors**2).mean(axis=0)) / predicted
     assert (ratio > 0.5).all()
     assert (ratio < 1.6).all()
+
+
+@dataclass
+class _KnownLoads:
+    """Poses with loads of their own, which keep what errors were drawn of them."""
+
+    wrenches: FloatArray
+    errors: tuple[str, ...] = ("height",)
+    fresh: list[FloatArray] = field(default_factory=list)
+
+    @property
+    def count(self) -> FloatArray:
+        return np.ones(len(self.wrenches))
+
+    def wrench(self, sensor: str, errors: object = None, independent: FloatArray | None = None) -> FloatArray:
+        if independent is not None:
+            self.fresh.append(independent)
+        return self.wrenches
+
+
+def test_encoders_err_by_half_their_width_either_way() -> None:
+    """Anew at every pose, uniformly, pitch, yaw and hinge alike; without errors of loads only noise is left."""
+    loads = _KnownLoads(wrenches=held_out_loads(3))
+    error = device_error([loads], "ft_1", Tolerances(encoder_deg=2.0), 1)  # type: ignore[list-item]
+    (fresh,) = loads.fresh
+    half = np.deg2rad(1.0)
+    assert fresh.shape == (400, 3)
+    assert (np.abs(fresh).max(axis=0) <= half).all()
+    # of 400 draws the largest lies within 1 % with all but 2 %, the mean within four standard errors
+    assert (np.abs(fresh).max(axis=0) > 0.98 * half).all()
+    assert (np.abs(fresh.mean(axis=0)) < 4.0 * half / np.sqrt(3.0 * 400)).all()
+    noise = np.sqrt(np.diag(sample_noise()))
+    assert error[0] < noise[:3].max()
+    assert error[1] < noise[3:].max()
+
+
+def test_postures_of_all_options_are_quarters_of_a_turn() -> None:
+    """Where the arm is level or straight down, as the locks need it."""
+    runs = [run for option in _options(25.0).values() for run in option.runs]
+    assert len(runs) >= 6
+    for run in runs:
+        quarters = np.rad2deg(run.sequence.postures) / 90.0
+        np.testing.assert_allclose(quarters, np.round(quarters), atol=1e-9)
 
 
 def test_the_12_steps_alone_have_errors_of_many_newtons() -> None:

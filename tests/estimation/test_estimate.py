@@ -67,6 +67,21 @@ def test_a_push_is_found(arm: Path, fitted: Calibration) -> None:
     assert not (np.abs(after.estimates.contact("arm_ft").mean(axis=0) + PUSH) < CLOSE).any()
 
 
+def test_progress_counts_the_samples_of_all_intervals(arm: Path, fitted: Calibration) -> None:
+    """It rises to all of them, and the second interval goes on where the first ended."""
+    experiment = load_experiment(arm / PARQUET)
+    said: list[tuple[int, int]] = []
+    spans = estimate_experiment(
+        experiment, corrections_of(experiment, {"fitted": fitted}), progress=lambda *counts: said.append(counts)
+    )
+    first, total = len(spans[0].estimates), sum(len(span.estimates) for span in spans)
+    done = [count for count, _ in said]
+    assert {whole for _, whole in said} == {total}
+    assert done == sorted(done)
+    assert {first, total} <= set(done)
+    assert first < total == done[-1]
+
+
 def test_the_push_reaches_support_and_joints(arm: Path, fitted: Calibration) -> None:
     """The support's force changes by minus the push's in size, and torques inboard of the sensor change too."""
     still = load_experiment(arm / PARQUET)

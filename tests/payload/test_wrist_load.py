@@ -123,6 +123,18 @@ def _solution(path: Path) -> LoadSolution:
     return loads.solution(experiment)
 
 
+def test_a_load_to_be_estimated_is_any_load_until_then(tmp_path: Path) -> None:
+    """One that is stated stays as it is; one that is not is 1 kg beside all axes, so that it moves every channel."""
+    stated = TEXT.replace("[load]\n", f"[load]\nmass_kg = {MASS}\ncentre_of_mass_m = {CENTRE.tolist()}\n")
+    for text, mass, centre in ((TEXT, 1.0, [0.05] * 3), (stated, MASS, CENTRE)):
+        experiment = load_experiment(_write(tmp_path, text=text))
+        loads = wrist_loads(experiment)
+        assert loads is not None
+        inertia = loads.nominal_model(experiment.model).links[load_on_wrist_sensor.LOAD_LINK]
+        assert inertia.mass == pytest.approx(mass)
+        np.testing.assert_allclose(inertia.first_moment, mass * np.asarray(centre), atol=1e-12)
+
+
 def test_nothing_is_estimated_before_it_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Loading asks for nothing; whoever needs the loaded robot asks, and once."""
     calls = []

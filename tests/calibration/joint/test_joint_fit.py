@@ -12,8 +12,14 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.joint.fit import KINDS, fit_jointly
-from forcetorque.calibration.joint.model_error import EXACT, ModelTolerance
-from forcetorque.calibration.joint.robust_fit import JointResult, UntouchedStretch, fit_stretches
+from forcetorque.calibration.joint.model_error import EXACT, ModelTolerance, delay_terms, error_terms
+from forcetorque.calibration.joint.robust_fit import (
+    JointResult,
+    PartResidual,
+    UntouchedStretch,
+    fit_stretches,
+    residuals,
+)
 from forcetorque.calibration.joint.sums import part_sums
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.calibration.joint.windows import part_windows
@@ -135,6 +141,56 @@ def test_a_robot_that_hardly_moves_keeps_its_priors() -> None:
         assert np.abs((fit.change(name) - np.eye(6)) / UNITS[:, None] * UNITS).max() < 0.1
     with pytest.raises(FitError, match="no window of any part"):
         fit_jointly([])
+
+
+def test_equations_about_a_fit_leave_what_those_about_the_model_do() -> None:
+    """To second order: a hundredth of what is unknown does all but a small part of the same to both."""
+    stretch = swaying(11, duration_s=5.0, **WRONG).stretch
+    parts = untouched_parts(stretch.tree, SENSORS, FEET)
+    terms = error_terms(stretch.tree, parts, ModelTolerance())
+    windows = tuple(part_windows(stretch, parts, terms))
+    fit = fit_jointly(part_sums(windows), terms)
+    fit = replace(fit, mean=0.01 * fit.mean)
+    exact = fit.mean.copy()
+    exact[fit.places.errors] = 0.0
+    for plain, about in zip(windows, part_windows(stretch, parts, terms, about=fit), strict=True):
+        first, second = residuals(plain, fit), residuals(about, fit)
+        without = residuals(plain, replace(fit, mean=exact))
+        assert np.abs(second - first).max() < 0.05 * np.abs(without - first).max()
+
+
+def test_what_is_left_is_carried_to_the_sensor_that_alone_is_to_blame() -> None:
+    """An error of 3 N and -0.7 N m of one reading comes back as that, in N and N m, at that sensor."""
+    stretch = swaying(1, duration_s=2.0).stretch
+    parts = untouched_parts(stretch.tree, SENSORS, FEET)
+    error = np.array([3.0, 0.0, -1.0, 0.2, -0.7, 0.0])
+    seen = 0
+    for windows in part_windows(stretch, parts, ()):
+        kept = np.ones(len(windows), dtype=np.bool_)
+        blocks = windows.offsets.reshape(len(windows), 6, len(windows.sensors), 6)
+        for place in range(len(windows.sensors)):
+            left = PartResidual.of(windows, blocks[:, :, place] @ (error / UNITS), kept)
+            if windows.rows.all():
+                np.testing.assert_allclose(left.at_sensors[:, place], np.tile(error, (len(windows), 1)), atol=1e-9)
+                seen += 1
+    assert seen >= 4
+
+
+def test_equations_are_made_linear_three_times() -> None:
+    """About the model, and twice about the fit before."""
+    stretch = swaying(1, duration_s=1.0).stretch
+    parts = untouched_parts(stretch.tree, SENSORS, FEET)
+    said: list[str] = []
+    fit_stretches([UntouchedStretch(stretch=stretch, parts=parts)], EXACT, progress=said.append)
+    assert [words[-12:] for words in said[1:]] == ["round 2 of 3", "round 3 of 3"]
+
+
+def test_a_recording_has_a_delay_where_one_may_be() -> None:
+    """Once, however many intervals it has; none where clocks are exact."""
+    (first, second) = delay_terms(["a", "b", "a"], ModelTolerance(delay_s=0.01))
+    assert (first.deviation, first.unit, second.deviation) == (0.01, "s", 0.01)
+    assert (first.name[-1], second.name[-1]) == ("a", "b")
+    assert delay_terms(["a", "b"], ModelTolerance(delay_s=0.0)) == ()
 
 
 def test_evidence_widens_the_predicted_error_but_not_the_estimate(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -88,6 +88,22 @@ def test_windows_of_few_samples_are_no_parabolas() -> None:
     np.testing.assert_allclose(gap[3:], 1.0)
 
 
+def test_rates_of_parabolas_are_exact_at_the_nodes() -> None:
+    """At the places of Gauss in a window of whole samples; of two samples the rate is their slope, of one 0."""
+    time = np.r_[np.arange(0, 25), 25, 50, 60, np.arange(75, 100)] / 100.0
+    windows = WindowNodes(time, 0.25)
+    assert windows.counts.tolist() == [25, 1, 2, 25]
+    np.testing.assert_allclose(windows.time_s, [0.12, 0.25, 0.55, 0.87], rtol=1e-12)
+    polynomial = np.polynomial.Polynomial([2.0, -3.0, 4.0])
+    values = np.stack([polynomial(time), 5.0 * time], axis=1)
+    places, _ = np.polynomial.legendre.leggauss(3)
+    nodes = windows.time_s[:, None] + 0.125 * places
+    parabola, line = windows.rates(values).reshape(4, 3, 2).transpose(2, 0, 1)
+    np.testing.assert_allclose(parabola[[0, 3]], polynomial.deriv()(nodes[[0, 3]]), rtol=1e-9)
+    np.testing.assert_allclose(parabola[2], (polynomial(0.6) - polynomial(0.5)) / 0.1, rtol=1e-9)
+    np.testing.assert_allclose(line, [[5.0] * 3, [0.0] * 3, [5.0] * 3, [5.0] * 3], atol=1e-9)
+
+
 def test_pieces_are_the_stretch() -> None:
     """Equal pieces that follow each other; one of a short stretch."""
     stretch = _stretch()

@@ -12,8 +12,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.calibration.plausibility.checks import examine
 from forcetorque.calibration.plausibility.compared_wrenches import Movement
-from forcetorque.calibration.plausibility.reversed_sense_and_gain import require_same_sign
-from forcetorque.experiment.calibration.moments import DataSet
+from forcetorque.calibration.plausibility.reversed_sense_and_gain import STILL, require_moving_load, require_same_sign
+from forcetorque.experiment.calibration.moments import DataSet, Moments
 
 RNG = np.random.default_rng(5)
 PRIOR = 0.02 * (np.eye(6) + 0.1 * RNG.normal(size=(6, 6)))
@@ -193,3 +193,26 @@ def test_a_reading_of_noise_alone_is_refused() -> None:
         noise = 500.0 + 3.0 * np.random.default_rng(seed).normal(size=(len(TIME_S), 6))
         with pytest.raises(FitError, match=r"explains \d+%|times as much|against"):
             examine([replace(_data(), raw=noise)], PRIOR)
+
+
+@pytest.mark.parametrize(("delay_s", "words"), [(0.5, "500 ms later"), (-0.5, "500 ms earlier")])
+def test_the_largest_delay_is_still_looked_for(delay_s: float, words: str) -> None:
+    """Half a second, a whole number of steps, either way."""
+    (doubt,) = examine([_data(delay_s)], None)
+    assert words in doubt.message
+
+
+def _reference_of(force_n: float, lever_m: float, swing_nm: float) -> Moments:
+    """A force that stays, and a moment whose root mean square swings about what the lever makes of it."""
+    swing = swing_nm * np.tile([1.0, -1.0], 50)
+    wrench = np.zeros((100, 6))
+    wrench[:, 2], wrench[:, 3] = force_n, force_n * lever_m + swing
+    return Moments.of(RNG.normal(size=(100, 6)), wrench)
+
+
+@pytest.mark.parametrize(("force_n", "lever_m", "size_nm"), [(20.0, 0.25, 5.0), (400.0, 0.25, 100.0), (20.0, 0.0, 0.2)])
+def test_a_moment_moves_from_a_thousandth_of_its_size_on(force_n: float, lever_m: float, size_nm: float) -> None:
+    """Of its root mean square, or of what a lever of a centimetre makes of the force where the load hangs below."""
+    require_moving_load(_reference_of(force_n, lever_m, 1.1 * STILL * size_nm))
+    with pytest.raises(FitError, match="the reference stays within"):
+        require_moving_load(_reference_of(force_n, lever_m, 0.9 * STILL * size_nm))

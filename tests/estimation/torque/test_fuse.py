@@ -60,6 +60,37 @@ def test_sources_in_any_order_and_unit_give_the_same() -> None:
     assert fuse(small).conflict.everyone.total.chi2 == pytest.approx(fusion.conflict.everyone.total.chi2)
 
 
+def test_means_of_windows_are_over_what_all_sources_know() -> None:
+    """By hand: 10 and 30 of a window in which another source lacks the middle; noise and lasting errors likewise."""
+    first = replace(
+        _single("a", [10.0, 20.0, 30.0, 7.0, np.nan], 6.0),
+        stamp_ns=np.arange(5) * 100_000_000,
+        lasting=np.array([1.0, 5.0, 2.0, 4.0, 9.0])[:, None, None],
+    )
+    second = replace(_single("b", [1.0, np.nan, 3.0, 5.0, 6.0], 4.0), stamp_ns=first.stamp_ns)
+    mine, other = means_in_windows([first, second], 0.3)
+    np.testing.assert_allclose(mine.torque[:, 0], [20.0, 7.0], rtol=EXACT)
+    np.testing.assert_allclose(other.torque[:, 0], [2.0, 5.0], rtol=EXACT)
+    np.testing.assert_allclose(mine.noise[:, 0, 0], [6.0 / 2.0, 6.0], rtol=EXACT)
+    np.testing.assert_allclose(mine.lasting[:, 0, 0], [1.5, 4.0], rtol=EXACT)
+    # noise that repeats itself for half a period makes two samples as good as one, and never more than there are
+    slow = replace(second, noise_time_s=0.05)
+    np.testing.assert_allclose(means_in_windows([first, slow], 0.3)[1].noise[:, 0, 0], [4.0, 4.0], rtol=EXACT)
+    slower = replace(second, torque=np.arange(5.0)[:, None], noise_time_s=0.05)
+    np.testing.assert_allclose(means_in_windows([slower], 0.3)[0].noise[:, 0, 0], [8.0 / 3.0, 4.0], rtol=EXACT)
+
+
+def test_a_source_need_not_say_how_far_off_nothing_is() -> None:
+    """Noise of a joint that it does not know may be anything; negative control: of one that it knows it may not."""
+    known = three(2, samples=4)[0]
+    torque, noise = known.torque.copy(), known.noise.copy()
+    torque[1, 0] = np.nan
+    noise[1, 0] = noise[1, :, 0] = np.nan
+    assert np.isnan(replace(known, torque=torque, noise=noise).torque[1, 0])
+    with pytest.raises(EstimationError, match="sample 1: noise: expected a symmetric covariance"):
+        replace(known, noise=noise)
+
+
 def _dense(sources: list[TorqueSource], window_s: float = 1.0) -> tuple[float, int]:
     """The same sum from one large covariance of all means, torques eliminated by the sources' differences."""
     means = means_in_windows(sources, window_s)

@@ -71,6 +71,38 @@ def test_what_friction_leaves_is_the_drives() -> None:
     assert white.noise_time_s < 0.03 < wandering.noise_time_s < 0.3
 
 
+def test_the_unit_of_torque_does_not_change_what_is_fitted() -> None:
+    """In N mm coefficients are a thousand times as large and variances a million times; times stay."""
+    rng = np.random.default_rng(7)
+    velocity, acceleration = _motion(rng)
+    count = len(velocity)
+    lasting = 0.01 * np.stack([np.sin(np.arange(count) / 40.0), np.cos(np.arange(count) / 90.0)], axis=1)
+    trusted = 2.0 * np.sin(np.arange(count) / 70.0)
+    ripple = np.convolve(rng.standard_normal(count + 9), np.full(10, 0.03), "valid")
+    drive = trusted + friction_terms(velocity, acceleration) @ TRUE + ripple + lasting @ rng.standard_normal(2)
+
+    def fitted(unit: float) -> Friction:
+        return fit_friction(
+            "knee",
+            unit * drive,
+            unit * trusted,
+            velocity,
+            acceleration,
+            period_s=1.0 / RATE_HZ,
+            standstill=STANDSTILL,
+            trusted_variance=np.full(count, 1e-4 * unit**2),
+            trusted_lasting=unit * lasting,
+        )
+
+    metres, millimetres = fitted(1.0), fitted(1e3)
+    np.testing.assert_allclose(millimetres.coefficients, 1e3 * metres.coefficients, rtol=1e-9)
+    np.testing.assert_allclose(millimetres.covariance, 1e6 * metres.covariance, rtol=1e-9)
+    assert millimetres.variance == pytest.approx(1e6 * metres.variance)
+    assert millimetres.noise_time_s == pytest.approx(metres.noise_time_s)
+    # a mean of ten repeats itself for nine halves of a period; forty blocks tell a variance to a quarter
+    assert metres.noise_time_s == pytest.approx(4.5 / RATE_HZ, rel=0.5)
+
+
 def test_a_joint_at_standstill_says_nothing() -> None:
     """Friction is anything up to Coulomb's there."""
     velocity = np.array([[0.0], [0.01], [0.5], [-0.5]])

@@ -182,6 +182,19 @@ def test_tangents_on_one_face_are_refused_by_name(number: int) -> None:
     assert answered(bounded, Case(skin=number, foot=False, friction=0.0, believed=FRICTION)).determined.all()
 
 
+def test_there_are_as_many_sources_as_contacts_at_once() -> None:
+    """Frames that no sample has do not count, nor a frame without contact; without samples there is no source."""
+    layout = plane_layout(rows=14, columns=40)
+    patch = SkinPatch.of(layout)
+    distance = np.linalg.norm(layout.positions - layout.positions.mean(axis=0), axis=1)
+    pressures = np.where(distance < 0.025, 2e4 * np.exp(-0.5 * (distance / 0.009) ** 2), 0.0)
+    touched, free = (find_contacts(patch, frame_of(values)) for values in (pressures, 0.0 * pressures))
+    assert (len(touched), len(free)) == (1, 0)
+    for rows, count in (([0, 1, 0], 1), ([1, 1], 0), ([], 0)):
+        frames = np.array(rows, dtype=np.int64)
+        assert len(skin_sources("plate", "shank", [touched, free], frames, friction=0.5)) == count
+
+
 def test_contacts_off_the_skin_are_refused() -> None:
     """Two wrenches have twelve unknowns; two forces trade off along the line between them, and that is said."""
     touched = trial("two contacts, one on skin, no friction")[0]

@@ -27,7 +27,9 @@ from forcetorque.evaluation.section import LOAD_CASES
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.robot.tree import build_tree, outboard_bodies
 from tests.scenes.experiments import PARQUET, edit
+from tests.scenes.robots import joint_xml, link_xml
 
 PUSH = '\n[[load_case]]\nname = "push"\nforce_N = 20.0\nradius_m = 0.2\noffset = "tared"\n'
 
@@ -134,6 +136,41 @@ def test_without_a_load_case_the_default_is_stated(arm: Path) -> None:
     verdict = _verdict(run, _fit(run))
     assert case.words in verdict.sentence
     assert not verdict.stated
+
+
+@pytest.mark.parametrize("gravity", [9.81, 0.02])
+def test_the_default_pushes_are_as_heavy_as_the_outboard_links(arm: Path, gravity: float) -> None:
+    """However little that is: masses beyond the sensor times gravity, within 0.3 m of it."""
+    edit(arm / PARQUET, 'urdf = "arm.urdf"\n', f'urdf = "arm.urdf"\ngravity = {gravity}\n')
+    run = _run(arm, "")
+    model = run.experiment.model
+    tree = build_tree(model, model.root_link)
+    beyond = outboard_bodies(tree, tree.cuts["arm_ft"].body)
+    mass = sum(inertia.mass for link, inertia in model.links.items() if beyond[tree.frames[link][0]])
+    assert 0.1 < mass < sum(inertia.mass for inertia in model.links.values())
+    (case,) = operating_load_cases([run])
+    assert case.force_N == pytest.approx(mass * gravity, rel=1e-9)
+    lever = np.linalg.norm(case.wrench[:, 3:], axis=1) / case.force_N
+    assert 0.2 < lever.max() <= 0.3
+
+
+def test_a_sensor_above_one_of_two_soles_bears_the_robot_by_default(arm: Path) -> None:
+    """Its whole weight along the sole, within 5 cm; negative control: one sole alone may be anything."""
+    urdf = (arm / "arm.urdf").read_text(encoding="utf-8")
+    own = link_xml("l_sole", mass=0.1) + joint_xml("l_sole_joint", "hand", "l_sole", xyz="0 0 -0.1")
+    other = link_xml("r_sole", mass=0.1) + joint_xml("r_sole_joint", "base", "r_sole", xyz="0 0.2 0")
+    named = []
+    for soles in (own, own + other):
+        (arm / "arm.urdf").write_text(urdf.replace("</robot>", f"{soles}</robot>"), encoding="utf-8")
+        run = _run(arm, "")
+        (case,) = operating_load_cases([run])
+        named.append(case.name)
+    assert named == ["push", "weight of the robot"]
+    mass = sum(inertia.mass for inertia in run.experiment.model.links.values())
+    np.testing.assert_allclose(case.wrench[:, :3], case.wrench[[0], :3].repeat(len(case.wrench), axis=0), rtol=1e-12)
+    assert case.force_N == pytest.approx(mass * run.experiment.processing.gravity, rel=1e-9)
+    spread = case.wrench[:, 3:] - case.wrench[:, 3:].mean(axis=0)
+    assert 0.5 * 0.05 < np.linalg.norm(spread, axis=1).max() / case.force_N < 1.2 * 0.05
 
 
 def test_acceptance_holds_the_verdict_to_use(arm: Path) -> None:

@@ -12,7 +12,9 @@ from scipy.stats import t as student
 from forcetorque.base.arrays import FloatArray
 from forcetorque.evaluation.sphere.cloud import (
     BLOCKS,
+    QuadricMoments,
     Resampled,
+    extent,
     half_selections,
     resampled,
     split,
@@ -51,6 +53,19 @@ def test_intervals_hold_the_truth_as_often_as_they_say() -> None:
         held += [low[0] < 0.0 < high[0], abs(walk.mean()) < naive]
     assert 0.92 < held[0] / 400 < 0.98
     assert held[1] / 400 < 0.6  # negative control
+
+
+def test_the_extent_of_a_cloud_is_its_root_mean_square_distance_from_the_mean() -> None:
+    """In units of that of the whole cloud, so that the whole has 1; of a part about its own mean."""
+    cloud = np.random.default_rng(3).normal(size=(200, 3)) * [1.0, 5.0, 20.0] + [100.0, -300.0, 7.0]
+    cloud[150:] *= 3.0
+    moments = QuadricMoments.of(cloud)
+    blocks = np.array_split(cloud, len(moments.sums))
+    sums = np.array([moments.sums.sum(axis=0), *moments.sums])
+    sizes = [float(np.sqrt(((part - part.mean(axis=0)) ** 2).sum(axis=1).mean())) for part in (cloud, *blocks)]
+    assert moments.scale == pytest.approx(sizes[0], rel=1e-12)
+    np.testing.assert_allclose(moments.scale * extent(sums / sums[:, 9:, 9:]), sizes, rtol=1e-9)
+    assert extent(sums[:1] / sums[:1, 9:, 9:]) == pytest.approx(1.0)
 
 
 def test_halves_and_windows_are_what_they_say() -> None:

@@ -10,12 +10,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from scipy.stats import chi2, f
 
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
-from forcetorque.payload.identification.frame_unit_and_clock_errors import hypotheses
+from forcetorque.payload.identification.frame_unit_and_clock_errors import hypotheses, unexplained
 from forcetorque.payload.identification.loads_with_intervals import solve
-from forcetorque.payload.identification.robust_fit import fit, plain_fit, scales
+from forcetorque.payload.identification.robust_fit import FALSE_ALARMS, fit, plain_fit, row_weights, scales
 from tests.payload.identification.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, slow, weight
 
 BIAS = np.array([5.0, -3.0, 12.0, 0.5, -0.2, 0.1])
@@ -240,6 +241,49 @@ def test_a_stated_load_is_of_the_size_that_is_read() -> None:
         named += _is_of_another_size(problem_of(reading * np.repeat([1, 1000], 3), gravity, loads=load))
     assert sound == 0
     assert named >= 95
+
+
+def test_loads_stated_as_nothing_have_no_size() -> None:
+    """There is nothing that readings could be a multiple of; with noise or without."""
+    nothing = (Load(name="tool", mass=0.0),)
+    for noise in (0.0, 1.0):
+        problem = problem_of(BIAS + noise * (_reading() - weight(GRAVITY) - BIAS), GRAVITY, loads=nothing)
+        assert not _is_of_another_size(problem)
+
+
+def test_the_share_that_a_reversed_sense_leaves_is_that_of_what_the_stated_one_does() -> None:
+    """Each sense by its own least squares: a tenth of the noise leaves a tenth."""
+    shares = []
+    for size in (1.0, 10.0):
+        reading = weight(GRAVITY) + BIAS + size * (_reading() - weight(GRAVITY) - BIAS)
+        stated = problem_of(reading, GRAVITY, loads=KNOWN, direction=MeasureDirection.PARENT_TO_CHILD)
+        turned = replace(stated, direction=MeasureDirection.CHILD_TO_PARENT)
+        named = hypotheses(fit(stated, drift=False), drift=False)
+        (row,) = (one for one in named if one.name == "reversed direction")
+        left = [unexplained(one.rows, plain_fit(one, drift=False)[1]) for one in (turned, stated)]
+        assert row.residual_share == pytest.approx(left[0] / left[1], rel=1e-9)
+        shares.append(row.residual_share)
+    # the moving reading has that noise as well
+    assert shares[1] == pytest.approx(10.0 * shares[0], rel=0.05)
+
+
+def test_a_row_counts_less_beyond_what_chance_makes_of_many() -> None:
+    """Of ten thousand rows the limit is that of chi-squared of six degrees; of a few it is farther out."""
+    count = 10_000
+    limit = float(chi2.isf(FALSE_ALARMS / count, 6.0))
+    distance = np.full(count, 6.0)
+    # the F distribution of so many rows is near its limit, whose error is some six over their number, times the tail
+    distance[:4] = limit * np.array([0.98, 1.02, 2.0, 1e9])
+    weights = row_weights(distance)
+    assert weights[0] == 1.0
+    assert 0.95 < weights[1] < 1.0
+    assert weights[2] == pytest.approx(0.5, rel=0.02)
+    assert weights[3] == pytest.approx(1e-4)
+    assert (weights[4:] == 1.0).all()
+    few = 12
+    least = 6.0 * float(f.isf(FALSE_ALARMS / few, 6.0, few - 3.0))
+    assert least > chi2.isf(FALSE_ALARMS / few, 6.0)
+    np.testing.assert_allclose(row_weights(np.array([least, 4.0 * least] + 10 * [6.0]))[:2], [1.0, 0.25], rtol=1e-9)
 
 
 def test_a_row_that_disagrees_is_named_and_counts_less() -> None:

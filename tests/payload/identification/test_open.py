@@ -103,3 +103,13 @@ def test_centres_of_mass_span_directions(centres: list[list[float]], count: int)
     rng = np.random.default_rng(8)
     wrench = np.vstack([weight(poses(10, rng), 1.0, np.array(centre)) for centre in centres])
     assert spanned_directions(wrench, np.zeros(len(wrench), dtype=np.int64)) == count
+
+
+def test_directions_are_counted_alike_for_loads_of_any_size() -> None:
+    """A billionth of the loads spans what they span; no load spans nothing."""
+    gravity = poses(10, np.random.default_rng(9))
+    wrench = np.vstack([weight(gravity, 1.0, np.array(centre)) for centre in ([0.0, 0.0, 0.06], [0.05, 0.0, 0.06])])
+    session = np.repeat([0, 1], 10)
+    for size in (1e-9, 1.0, 1e9):
+        assert spanned_directions(size * wrench, session) == 5
+    assert spanned_directions(np.zeros((20, 6)), session) == 0

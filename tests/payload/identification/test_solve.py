@@ -30,6 +30,8 @@ EXACT = 1e-8
 """kg, m, N, N m: rounding of a least-squares problem of condition below 1000, squared by its normal equations."""
 INERTIA = np.array([[4e-3, 2e-4, 0.0], [2e-4, 3e-3, -1e-4], [0.0, -1e-4, 2e-3]])
 DIRECTIONS = list(MeasureDirection)
+SIX = ([0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2])
+"""Places of xx, yy, zz, xy, xz, yz."""
 
 
 def _dynamics(inertia: Inertia, direction: MeasureDirection, root: RootMotion) -> np.ndarray:
@@ -205,6 +207,46 @@ def test_a_slope_moves_a_mass_by_its_variance() -> None:
     flat_mass, steep_mass = (plain_fit(one, drift=False)[0].of(Kind.MASS)[0] for one in (problem, steep))
     variance = force_noise**2 / ((acceleration - acceleration.mean(axis=0)) ** 2).sum()
     assert flat_mass - steep_mass == pytest.approx(slope * variance, rel=0.2)
+
+
+def _about_centre(inertial: np.ndarray) -> np.ndarray:
+    """Centre of mass, and inertia about it as xx, yy, zz, xy, xz, yz, of ten inertial parameters; shape (9,)."""
+    mass, first = inertial[0], inertial[1:4]
+    xx, yy, zz, xy, xz, yz = inertial[4:]
+    (x, y, z) = centre = first / mass
+    # the parallel axis theorem, component by component
+    about = [xx - mass * (y * y + z * z), yy - mass * (x * x + z * z), zz - mass * (x * x + y * y)]
+    return np.concatenate([centre, about, [xy + mass * x * y, xz + mass * x * z, yz + mass * y * z]])
+
+
+def test_half_widths_of_centre_and_inertia_follow_from_the_covariance() -> None:
+    """By finite differences of the ratio and of the parallel axis theorem; the interval has one quantile for all."""
+    rng = np.random.default_rng(10)
+    acceleration, velocity, turning = (size * rng.normal(size=(30, 3)) for size in (9.8, 2.0, 20.0))
+    centre = np.array([0.1, -0.2, 0.5])
+    truth = Inertia.about_centre_of_mass(mass=MASS, centre_of_mass=centre, second_moment=INERTIA)
+    root = RootMotion(proper_acceleration=acceleration, angular_velocity=velocity, angular_acceleration=turning)
+    reading = _dynamics(truth, DIRECTIONS[0], root) + 4.0 * SIZES * rng.normal(size=(30, 6))
+    motion = {"angular_velocity": velocity, "angular_acceleration": turning}
+    rows = LoadRows.of_poses(reading, acceleration, **motion)
+    tool = (Load(name="tool", inertia="unknown"),)
+    fields = {"sessions": ("a",), "blocks": ("a",), "direction": DIRECTIONS[0], "drift": False}
+    (load,) = solve(LoadProblem(rows=rows, loads=tool, **fields)).loads  # type: ignore[arg-type]
+    inertial = np.concatenate([[load.mass], load.first_moment, truth.second_moment[SIX]])
+    inertial[4:] = load.as_inertia().second_moment[SIX]
+    np.testing.assert_allclose(_about_centre(inertial), [*load.centre_of_mass, *load.inertia[SIX]], atol=1e-12)
+    steps = 1e-4 * np.diag(np.sqrt(np.diag(load.covariance)))
+    change = np.array([_about_centre(inertial + step) - _about_centre(inertial - step) for step in steps]).T
+    change /= 2.0 * np.diag(steps)
+    error = np.sqrt(np.einsum("ia,ab,ib->i", change, load.covariance, change))
+    quantiles = np.concatenate([load.centre_of_mass_half_width, load.inertia_half_width[SIX]]) / error
+    # an error of the differences is one of steps squared
+    np.testing.assert_allclose(quantiles, quantiles[0], rtol=1e-6)
+    own = load.mass_half_width / np.sqrt(load.covariance[0, 0])
+    assert 1.9 < own <= quantiles[0] * (1.0 + 1e-9) < 1.5 * own
+    # negative control: without the error of the mass the centre would be some other
+    first = np.sqrt(np.diag(load.covariance)[1:4]) / load.mass
+    assert not np.allclose(error[:3], first, rtol=0.05)
 
 
 def test_rows_must_be_finite_and_named() -> None:

@@ -68,6 +68,7 @@ def test_two_contacts_are_two() -> None:
     first, second = hill(MIDDLE - away / 1.5), hill(MIDDLE + away / 1.5, 1e4)
     contacts = find_contacts(PATCH, frame_of(first + second))
     assert len(contacts) == 2
+    np.testing.assert_array_equal(contacts.identity, [1, 2])
     order = np.argsort(contacts.centroid[:, 0])
     for number, pressures in zip(order, (first, second), strict=True):
         np.testing.assert_allclose(contacts.wrench[number], PATCH.operator().wrench(pressures), rtol=1e-12)

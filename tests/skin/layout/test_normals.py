@@ -11,6 +11,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import PatchDescription
+from forcetorque.skin.layout.modules import outward_of_boards
 from forcetorque.skin.layout.normals import patch_normals, rebuilt_normals
 from forcetorque.skin.surface import skin_surface
 from tests.scenes.patches import cylinder_patch, ellipsoid_patch
@@ -81,6 +82,22 @@ def test_without_modules_facets_take_their_place() -> None:
     """Every taxel a module of its own: still within two degrees of the cylinder."""
     angles = _degrees(rebuilt_normals(CYLINDER.positions, np.arange(len(CYLINDER))), CYLINDER.normals)
     assert _rms(angles) < 1.5
+
+
+def test_outer_sides_of_boards_turn_with_them_and_stay_when_they_are_shifted() -> None:
+    """On a cylinder each board looks away from the axis, wherever its frame lies."""
+    rotation = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
+    rotation *= np.sign(np.linalg.det(rotation))
+    boards = outward_of_boards(CYLINDER.positions, CYLINDER.taxels, CYLINDER.modules)
+    moved = outward_of_boards(CYLINDER.positions @ rotation.T + [0.3, -0.2, 0.1], CYLINDER.taxels, CYLINDER.modules)
+    assert boards is not None
+    assert moved is not None
+    for module in np.unique(CYLINDER.modules):
+        own = CYLINDER.modules == module
+        across = CYLINDER.positions[own].mean(axis=0) * [1.0, 1.0, 0.0]
+        # a board bridges the cylinder like a chord, and a triangle leans a little to its corner
+        assert boards[own][0] @ across > 0.99 * np.linalg.norm(across)
+    np.testing.assert_allclose(moved, boards @ rotation.T, atol=1e-9)
 
 
 def test_a_taxel_by_itself_gets_the_normal_beside_it() -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -123,6 +124,29 @@ def test_taxels_answer_as_stated() -> None:
     np.testing.assert_allclose(counts.mean(), REST_COUNTS, atol=0.05)
     np.testing.assert_allclose((counts - counts.mean(axis=0)).std(), np.hypot(0.65, 1 / np.sqrt(12)), rtol=0.03)
     assert taxels.counts(np.full(2000, 1e9), rng, frames=1).min() >= 0
+
+
+def test_taxels_lag_while_an_object_is_taken_off_and_not_while_it_is_put_on(leg: SkinBody) -> None:
+    """At the same share of its weight; of exact taxels with a large hysteresis, two ramps of one object."""
+    drawn = TaxelResponses.drawn(len(LEG), np.random.default_rng(6))
+    taxels = replace(drawn, noise=np.zeros(len(LEG)), hysteresis=np.full(len(LEG), 0.3))
+    (truth,) = contacts(leg, np.random.default_rng(7), 1)
+    loading = Loading(rest_s=0.5, ramp_s=0.4, hold_s=0.5)
+    recording = contact_recording(LEG, taxels, [truth], np.random.default_rng(8), loading=loading)
+    counts = recording.stream("counts").signal("taxel_counts").values[:, LEG.taxels]
+    seconds, shares = loading.shares(1)
+    peak = int(truth.pressures.argmax())
+    middle = loading.rest_s + loading.ramp_s + 0.5 * loading.hold_s
+    ramps = (seconds < middle, seconds > middle)
+    seen = 0
+    for row in np.flatnonzero((shares[:, 0] > 0.0) & (shares[:, 0] < 1.0)):
+        now = shares[row, 0] * truth.pressures
+        expected = taxels.rest - taxels.fall(now, truth.pressures if ramps[1][row] else now)
+        np.testing.assert_allclose(counts[row], np.clip(expected, 0.0, 255.0), atol=0.5 + 1e-9)  # whole counts
+        seen += 1
+    assert seen > 10
+    on, off = (counts[ramp & (np.abs(shares[:, 0] - 0.5) < 0.2), peak].mean() for ramp in ramps)
+    assert on > off + 2.0
 
 
 def test_motors_warm_taxels_and_pads_while_objects_rest(leg: SkinBody) -> None:

@@ -4,17 +4,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import factorial
 from typing import Final
 
 import numpy as np
 import pytest
+from scipy.special import gamma, kv
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError, SkinError
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import transform_wrench
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.wrench.operator import WrenchMethod
+from forcetorque.skin.wrench.elements import POINTS, WEIGHTS
+from forcetorque.skin.wrench.operator import LENGTH_M, WrenchMethod, kriging_shares
 from forcetorque.skin.wrench.patch import SkinPatch
 from tests.scenes.patches import cylinder_patch, ellipsoid_patch
 from tests.skin.layout.skins import plane_layout
@@ -164,6 +167,36 @@ def test_a_smooth_field_is_told_to_a_thousandth(method: WrenchMethod) -> None:
     force = 1e4 * 2.0 * np.pi * width**2
     np.testing.assert_allclose(wrench[2], -force, rtol=2e-3)
     np.testing.assert_allclose(wrench[3:], np.cross(centre, [0.0, 0.0, -force]), atol=2e-3 * force * 0.1)
+
+
+@pytest.mark.parametrize("powers", [(0, 0, 0), (1, 0, 0), (1, 2, 0), (0, 3, 1), (4, 0, 0), (1, 1, 2), (0, 2, 2)])
+def test_six_points_integrate_polynomials_of_fourth_degree(powers: tuple[int, int, int]) -> None:
+    """Over a triangle the mean of products of barycentric coordinates is `2 i! j! k! / (i + j + k + 2)!`."""
+    exact = 2.0 * np.prod([factorial(power) for power in powers]) / factorial(sum(powers) + 2)
+    np.testing.assert_allclose(WEIGHTS @ (POINTS**powers).prod(axis=1), exact, rtol=EXACT)
+    # negative control: they are not exact beyond
+    assert abs(WEIGHTS @ POINTS[:, 0] ** 6 - 2.0 / 56.0) > 1e-4 / 56.0
+
+
+def _correlation(distance: float) -> float:
+    """Matern's correlation of smoothness 5/2 by its definition, with a modified Bessel function."""
+    scaled = np.sqrt(5.0) * distance / LENGTH_M
+    return float(2.0 ** (1.0 - 2.5) / gamma(2.5) * scaled**2.5 * kv(2.5, scaled))
+
+
+def test_two_taxels_share_a_point_as_kriging_with_an_unknown_mean_says() -> None:
+    """Half each, and what they differ in correlation with the point, over twice what they lack of one between them."""
+    first, second = np.array([0.0, 0.0, 0.0]), np.array([0.006, 0.002, 0.0])
+    points = np.array([[0.001, 0.001, 0.0], [0.004, -0.003, 0.001], [0.02, 0.01, 0.0]])
+    apart = 1.0 - _correlation(float(np.linalg.norm(second - first)))
+    assert 0.1 < apart < 0.9
+    expected = []
+    for point in points:
+        near, far = (_correlation(float(np.linalg.norm(point - taxel))) for taxel in (first, second))
+        share = 0.5 + (near - far) / (2.0 * apart)
+        expected.append([share, 1.0 - share])
+    shares = kriging_shares(np.array([[first, second]]), points[None])
+    np.testing.assert_allclose(shares[0], expected, atol=EXACT)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The predicted error: its mean square by the posterior's own covariance, its quantiles, and an exact posterior."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base.errors import FitError
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.evaluation.load_cases.load_case import LoadCase, pushes_around_sensor
+from forcetorque.evaluation.load_cases.predicted_error import ErrorMagnitude, predict_from_posterior, predict_prior
+from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from tests.scenes.experiments import PARQUET
+
+DRAWS = 4000
+"""Of the unknowns; their quantiles and mean squares are that good."""
+EXACT = 1e-9
+"""Relative rounding of double precision times the condition of the matrix, below a hundred, with room."""
+STATISTICAL = 4.0 * np.sqrt(2.0 / DRAWS)
+"""Relative, of a mean square: four standard errors if a single unknown makes all of it."""
+
+
+def _posterior() -> Posterior:
+    """Six coefficients, one variable, the offsets of two sessions, all correlated; rows are channels."""
+    rng = np.random.default_rng(1)
+    scale = np.array([*[1e-3] * 3, *[2e-2] * 3, 0.04, 0.5, 0.2])
+    root = scale[:, None] * (np.eye(9) + 0.3 * rng.normal(size=(6, 9, 9)))
+    covariance = root @ root.transpose(0, 2, 1)
+    return Posterior(
+        space="channel",
+        variables=("temperature",),
+        sessions=("first", "second"),
+        drift=False,
+        mean=rng.normal(size=(6, 9)),
+        covariance=covariance,
+        learnt_covariance=covariance[:, :6, :6],
+        prior_covariance=None,
+        to_wrench=np.diag([1.0, 1.5, 2.0, 0.1, 0.2, 0.1]) + 0.05 * rng.normal(size=(6, 6)),
+        noise=tuple(RowNoise(white=0.05 * (k + 1), time_constant_s=0.0, ratio=0.0) for k in range(6)),
+        accuracy=np.zeros(6),
+        repeatability=0.0,
+        load_centre=[5.0, -20.0, 40.0, 1.0, 2.0, -3.0],
+    )
+
+
+def _case(**fields: object) -> LoadCase:
+    return LoadCase(name="push", words="", wrench=pushes_around_sensor(30.0, 0.3), **fields)  # type: ignore[arg-type]
+
+
+def _mean_squares(posterior: Posterior, case: LoadCase, *, fitted: bool, change: float) -> np.ndarray:
+    """Mean squares of all components by the covariance that the posterior itself predicts, noise included."""
+    wrench = case.wrench + posterior.load_centre if fitted else case.wrench
+    session = posterior.sessions[-1] if fitted else None
+    squares = np.zeros(6)
+    for sense in (-change, change):  # independently of the load: the products with it cancel
+        variables = np.full((len(wrench), 1), sense)
+        covariance = posterior.error_covariance(wrench, variables=variables, session=session)
+        squares += 0.5 * np.einsum("nii->i", covariance) / len(wrench)
+    return squares + posterior.to_wrench**2 @ np.array([one.white**2 for one in posterior.noise])
+
+
+@pytest.mark.parametrize("change", [0.0, 8.0])
+@pytest.mark.parametrize("offset", ["fitted", "tared"])
+def test_the_mean_square_is_that_of_the_posterior(offset: str, change: float) -> None:
+    """Component by component; the fitted offset is that of the last session, and acts from the fitted loads on."""
+    posterior = _posterior()
+    case = _case(offset=offset, changes={"temperature": change} if change else {})
+    error = predict_from_posterior(posterior, case)
+    squares = _mean_squares(posterior, case, fitted=offset == "fitted", change=change)
+    np.testing.assert_allclose(np.concatenate([error.force.axes, error.moment.axes]) ** 2, squares, rtol=STATISTICAL)
+    # negative control: the other offset is another error
+    other = _mean_squares(posterior, case, fitted=offset == "tared", change=change)
+    assert np.abs(other / squares - 1.0).max() > 2.0 * STATISTICAL
+
+
+def test_every_source_adds_its_own_mean_square() -> None:
+    """Each by a posterior in which the others are exact, so that it is the whole error; noise by hand."""
+    posterior = _posterior()
+    white = posterior.to_wrench**2 @ [one.white**2 for one in posterior.noise]
+    for offset in ("fitted", "tared"):
+        case = _case(offset=offset, changes={"temperature": 8.0})
+        size = predict_from_posterior(posterior, case).force
+        assert size.sources["noise"] == pytest.approx(np.sqrt(white[:3].sum()), rel=1e-12)
+        for source, own in (("matrix", range(6)), ("variables", [6]), ("offset", [7, 8])):
+            only = np.isin(np.arange(9), own)
+            covariance = np.where(only[:, None] & only, posterior.covariance, 0.0)
+            alone = posterior.model_copy(update={"covariance": covariance})
+            squares = _mean_squares(alone, case, fitted=offset == "fitted", change=8.0) - white
+            assert size.sources[source] ** 2 == pytest.approx(squares[:3].sum(), rel=STATISTICAL)  # type: ignore[index]
+
+
+def test_ends_of_an_interval_are_exceeded_as_often_as_they_say() -> None:
+    """By 2.5 % of the draws each, and the median by half; force and moment are within a limit only if both are."""
+    error = predict_from_posterior(_posterior(), _case())
+
+    def shares(size: ErrorMagnitude) -> list[float]:
+        return [float((size.draws <= end).mean()) for end in (size.at_least, size.typical, size.at_most)]
+
+    for size in (error.force, error.moment):
+        # a quantile lies between two draws
+        np.testing.assert_allclose(shares(size), [0.025, 0.5, 0.975], atol=2.0 / DRAWS)
+    assert error.within(error.force.at_most, np.inf) == pytest.approx(0.975, abs=2.0 / DRAWS)
+    assert error.within(np.inf, error.moment.typical) == pytest.approx(0.5, abs=2.0 / DRAWS)
+    both = error.within(error.force.typical, error.moment.at_least)
+    assert both <= 0.025 + 2.0 / DRAWS
+    assert error.within(0.0, np.inf) == 0.0
+
+
+@pytest.mark.parametrize("offset", ["fitted", "tared"])
+def test_a_prior_errs_by_what_an_exact_posterior_says(arm: Path, offset: str) -> None:
+    """By hand: counts of a load by the calibration, read by the prior, less the load; noise is that of the rows.
+
+    Whether rows are wrenches by the prior, as they were fitted, or channels, whose response is the inverse matrix.
+    """
+    run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
+    fitted = calibrate_sensor(run, code_version="test", created="2026-01-01T00:00:00+00:00")
+    posterior, prior = fitted.posterior, fitted.prior
+    assert posterior is not None
+    assert prior is not None
+    place = 6 + len(posterior.sessions) - 1
+    inverse = np.linalg.inv(fitted.matrix)
+    response = np.zeros_like(posterior.mean)
+    response[:, :6], response[:, place] = inverse, -inverse @ fitted.offset
+    common = {"covariance": np.zeros_like(posterior.covariance)}
+    channel = {"space": "channel", "mean": response, "to_wrench": fitted.matrix}
+    # another offset than none, so that its sign counts
+    stated = prior.model_copy(update={"offset": np.array([3.0, -2.0, 5.0, 0.1, 0.2, -0.3])})
+    case = _case(offset=offset)
+    load = case.wrench + (posterior.load_centre if offset == "fitted" else 0.0)
+    counts = (load - (fitted.offset if offset == "fitted" else 0.0)) @ inverse.T
+    error = counts @ stated.matrix.T + (stated.offset if offset == "fitted" else 0.0) - load
+    white = np.array([one.white**2 for one in posterior.noise])
+    for known, noise in (
+        (posterior.model_copy(update=common), white),
+        (posterior.model_copy(update=common | channel), stated.matrix**2 @ white),
+    ):
+        before = predict_prior(fitted.model_copy(update={"posterior": known, "prior": stated}), case)
+        assert before is not None
+        squares = (error**2).mean(axis=0) + noise
+        for size, part in ((before.force, slice(3)), (before.moment, slice(3, 6))):
+            expected = np.sqrt(squares[part].sum())
+            assert (size.at_least, size.typical, size.at_most) == pytest.approx((expected,) * 3, rel=EXACT)
+            np.testing.assert_allclose(size.axes, np.sqrt(squares[part]), rtol=EXACT)
+            assert size.typical > 3.0 * size.sources["noise"]
+        after = predict_from_posterior(known, case)
+        np.testing.assert_allclose(after.force.axes**2, (known.to_wrench**2 @ white)[:3], rtol=EXACT)
+    assert predict_prior(fitted.model_copy(update={"prior": None}), case) is None
+
+
+def test_a_variable_that_was_not_fitted_is_refused() -> None:
+    """By its name, with those that there are."""
+    with pytest.raises(FitError, match="which are temperature, got humidity"):
+        predict_from_posterior(_posterior(), _case(changes={"humidity": 1.0}))

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Unknowns under noise of forces and moments apart: degrees of freedom by hand, and units that change nothing."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.base.noise.slow_noise import SlowNoise
+from forcetorque.payload.identification.estimation_problem import LoadRows
+from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.identification.noise_model import estimate, groups_of, noise_sizes
+from tests.payload.identification.payloads import SIZES, poses, problem_of, slow, weight
+
+WHITE = SlowNoise(time_constant_s=0.0, ratio=0.0)
+COUNT = 10
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-4, 1e4])
+def test_degrees_of_freedom_are_those_of_satterthwaite_in_any_unit(unit: float) -> None:
+    """What only forces tell has their 30 values less two unknowns; what both tell has some of each, by information."""
+    rng = np.random.default_rng(1)
+    design = np.zeros((COUNT, 6, 2))
+    design[:, :3, 0] = rng.normal(size=(COUNT, 3))
+    design[:, :, 1] = rng.normal(size=(COUNT, 6))
+    values = rng.normal(size=(COUNT, 6))
+    rows = LoadRows.of_poses(np.zeros((COUNT, 6)), rng.normal(size=(COUNT, 3)))
+    groups = groups_of(rows, unit * design, values, np.ones(6), np.ones(COUNT))
+    nothing = np.zeros((2, 2)), np.zeros(2)
+    result = estimate(groups, np.eye(2), nothing, (WHITE,))
+    information, left = [], []
+    for axes, unknowns in ((slice(3), [0, 1]), (slice(3, 6), [1])):
+        columns, read = design[:, axes].reshape(-1, 2)[:, unknowns], values[:, axes].ravel()
+        residual = read - columns @ np.linalg.lstsq(columns, read, rcond=None)[0]
+        left.append(3 * COUNT - len(unknowns))
+        information.append(float((columns[:, -1] ** 2).sum() / ((residual @ residual) / left[-1])))
+    share = np.array(information) / sum(information)
+    both = 1.0 / (share**2 / left).sum()
+    np.testing.assert_allclose(result.degrees_of_freedom, [28.0, both], rtol=1e-9)
+    assert 28.0 < both < 57.0
+
+
+def test_what_no_row_tells_has_no_degree_of_freedom() -> None:
+    """It stays what the prior says, and its interval is infinite."""
+    rng = np.random.default_rng(3)
+    design = np.concatenate([rng.normal(size=(COUNT, 6, 1)), np.zeros((COUNT, 6, 1))], axis=2)
+    rows = LoadRows.of_poses(np.zeros((COUNT, 6)), rng.normal(size=(COUNT, 3)))
+    groups = groups_of(rows, design, rng.normal(size=(COUNT, 6)), np.ones(6), np.ones(COUNT))
+    result = estimate(groups, np.eye(2), (np.diag([0.0, 4.0]), np.array([0.0, 12.0])), (WHITE,))
+    assert result.mean[1] == pytest.approx(3.0)
+    assert result.covariance[1, 1] == pytest.approx(0.25)
+    assert result.degrees_of_freedom[0] > 29.0
+    assert result.degrees_of_freedom[1] == 0.0
+    first, second = result.half_widths(np.eye(2))
+    # two halves of 60 values, nearly a normal distribution
+    assert 1.96 < first / np.sqrt(result.covariance[0, 0]) < 2.1
+    assert second == np.inf
+
+
+def test_an_axis_has_at_least_a_tenth_of_the_noise_of_the_loudest() -> None:
+    """Forces and moments apart; exact rows have the size 1."""
+    residual = np.array([[3.0, 0.1, 1.0, 0.0, 0.0, 0.0], [-3.0, 0.1, -1.0, 0.0, 0.0, 0.0]])
+    np.testing.assert_allclose(noise_sizes(residual), [3.0, 0.3, 1.0, 1.0, 1.0, 1.0], rtol=1e-12)
+    np.testing.assert_allclose(noise_sizes(np.fliplr(residual)), [1.0, 1.0, 1.0, 1.0, 0.3, 3.0], rtol=1e-12)
+    np.testing.assert_array_equal(noise_sizes(np.empty((0, 6))), np.ones(6))
+
+
+def test_the_unit_of_time_does_not_change_what_slow_noise_makes_of_a_load() -> None:
+    """Rows a second apart and rows an hour apart, in two power-ups, of which the second may be much later."""
+    rng = np.random.default_rng(2)
+    gravity = poses(40, rng)
+    noise = rng.normal(size=(40, 6)) + np.column_stack([3.0 * slow(40, 6.0, rng) for _ in range(6)])
+    session = np.repeat([0, 1], 20)
+    reading, time = weight(gravity) + SIZES * noise, np.arange(40.0) + 500.0 * session
+    fields = {"session": session, "block": session, "drift": False}
+    first = solve(problem_of(reading, gravity, time_s=time, **fields)).loads[0]
+    for other_time in (3600.0 * time, time + 9000.0 * session):
+        second = solve(problem_of(reading, gravity, time_s=other_time, **fields)).loads[0]
+        assert second.mass == pytest.approx(first.mass, rel=1e-9)
+        assert second.mass_half_width == pytest.approx(first.mass_half_width, rel=1e-6)
+    # negative control: rows that follow each other otherwise have another noise
+    mixed = np.concatenate([rng.permutation(20), 20 + rng.permutation(20)])
+    other = solve(problem_of(reading[mixed], gravity[mixed], time_s=time, **fields)).loads[0]
+    assert abs(other.mass_half_width / first.mass_half_width - 1.0) > 0.01
