@@ -76,6 +76,6 @@ def test_a_motion_that_only_holds_has_no_average() -> None:
 def test_a_motor_that_never_holds_holds_nothing() -> None:
     """And one that holds little holds that, not a newton metre."""
     torque, angle = _swing(np.linspace(0.0, 1.0, 501))
-    assert motor_row("pitch", torque, angle, np.arange(501.0)).holding_Nm == 0.0
+    assert _duty(torque, angle, np.arange(501.0)).holding_Nm == 0.0
     small = np.array([0.3, 0.2, 0.2, -0.1])
-    assert motor_row("pitch", small, np.array([0.0, 1.0, 1.0, 2.0]), np.arange(4.0)).holding_Nm == 0.2
+    assert _duty(small, np.array([0.0, 1.0, 1.0, 2.0]), np.arange(4.0)).holding_Nm == 0.2
