@@ -19,6 +19,7 @@ from forcetorque.calibration.joint.robust_fit import (
     UntouchedStretch,
     fit_stretches,
     residuals,
+    residuals_by,
 )
 from forcetorque.calibration.joint.sums import part_sums
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
@@ -174,6 +175,22 @@ def test_what_is_left_is_carried_to_the_sensor_that_alone_is_to_blame() -> None:
                 np.testing.assert_allclose(left.at_sensors[:, place], np.tile(error, (len(windows), 1)), atol=1e-9)
                 seen += 1
     assert seen >= 4
+
+
+def test_a_fit_leaves_what_its_matrices_and_offsets_do() -> None:
+    """Of an exact model, in N and N m as in the units of the fit; offsets that suit best leave less yet."""
+    stretch = swaying(1, duration_s=2.0).stretch
+    windows = tuple(part_windows(stretch, untouched_parts(stretch.tree, SENSORS, FEET), ()))
+    fit = fit_jointly(part_sums(windows))
+    for one in windows:
+        factors = {name: fit.change(name) for name in one.sensors}
+        offsets = {name: fit.offset(name, "day") for name in one.sensors}
+        left = residuals_by(one, factors, offsets)
+        np.testing.assert_allclose(left, residuals(one, fit), atol=1e-9)
+        assert (residuals_by(one, factors, None) ** 2).sum() <= (left**2).sum() * (1.0 + 1e-9)
+        # negative control: without offsets some newtons are left
+        nothing = {name: np.zeros(6) for name in one.sensors}
+        assert np.abs(residuals_by(one, factors, nothing) - left).max() > 0.5
 
 
 def test_equations_are_made_linear_three_times() -> None:
