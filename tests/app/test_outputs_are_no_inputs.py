@@ -92,7 +92,9 @@ def _path_options(program: Typer, group: str = "") -> Iterator[tuple[str, str]]:
         for name, hint in get_type_hints(command.callback, include_extras=True).items():
             for option in getattr(hint, "__metadata__", ()):
                 if isinstance(option, OptionInfo) and "Path" in str(get_args(hint)[0]):
-                    declared = [text for text in option.param_decls or () if text.startswith("--")]
+                    # the first flag in an annotation is where typer expects a default until it reads the signature
+                    flags = (option.default, *(option.param_decls or ()))
+                    declared = [flag for flag in flags if isinstance(flag, str) and flag.startswith("--")]
                     yield f"{group}{command.name}", next(iter(declared), f"--{name.replace('_', '-')}")
 
 

@@ -147,7 +147,7 @@ def test_the_temperature_of_each_instant_is_used(warm: Path, run: Run) -> None:
     edit(warm / PARQUET, TEMPERATURE, "")
     error = run(*words, "-c", "warm.json").error()
     assert error == (
-        "error: parquet.toml: sensor 'arm_ft': expected the variable 'temperature', the experiment states none; "
+        "error: parquet.toml: sensor 'arm_ft': expected the variable 'temperature', the experiment specifies none; "
         "add it as [[sensor.variable]]"
     )
 

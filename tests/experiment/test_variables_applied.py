@@ -227,8 +227,11 @@ _VOLTS = SUPPLY.replace('name = "supply"', 'name = "temperature"')
 @pytest.mark.parametrize(
     ("variables", "message"),
     [
-        ((), r"sensor 'arm_ft': expected the variable 'temperature', the experiment states none; add it as \[\[sensor"),
-        ((SUPPLY,), "sensor 'arm_ft': expected the variable 'temperature', the experiment states supply; add it"),
+        (
+            (),
+            r"sensor 'arm_ft': expected the variable 'temperature', the experiment specifies none; add it as \[\[sensor",
+        ),
+        ((SUPPLY,), "sensor 'arm_ft': expected the variable 'temperature', the experiment specifies supply; add it"),
         ((_VOLTS,), "calibration 'warm.json' has the variable 'temperature' in degC, the experiment in V; convert"),
     ],
 )

@@ -272,7 +272,7 @@ def test_the_files_of_a_plan_are_what_the_plan_says(planned: Plan, tmp_path: Pat
         ),
         ("[plan]\nclearance_deg = 5\nranges = { elbo = [0.0, 2.0] }\n", "no free joint 'elbo'; did you mean \"elbow\""),
         (PLAN + BAR.replace('"hand"', '"hnd"'), "tool 'bar': robot 'arm' has no link 'hnd'; did you mean \"hand\""),
-        (PLAN + BAR.replace('"hand"', '"base"'), "tool 'bar': what hangs on 'base' does not load the sensor 'arm_ft'"),
+        (PLAN + BAR.replace('"hand"', '"base"'), "tool 'bar': a load on 'base' does not load the sensor 'arm_ft'"),
         (PLAN + BAR + BAR, "two tools are called bar; name them apart"),
         (PLAN + BAR.replace('"bar"', '"none"'), "two tools are called none; name them apart"),
         ('[plan]\nclearance_deg = 5\nsupport = "hand"\n', "no .*support.* at rest has the frame 'hand'; .*known: base"),

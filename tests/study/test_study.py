@@ -301,10 +301,10 @@ def test_what_a_study_comes_to_shows_itself(made: SensorStudy) -> None:
 
 def test_a_session_that_is_fitted_and_judged_is_a_warning(data: StudyData, made: SensorStudy) -> None:
     """By its name; sessions that are only judged are none."""
-    assert not [sentence for sentence in study_warnings(made) if "is fitted and judged" in sentence]
+    assert not [sentence for sentence in study_warnings(made) if "is fitted and validated" in sentence]
     session = data.validation[0].session
     both = replace(data, calibration=tuple(replace(interval, session=session) for interval in data.calibration))
-    (sentence,) = [s for s in study_warnings(replace(made, data=both)) if "is fitted and judged" in s]
+    (sentence,) = [s for s in study_warnings(replace(made, data=both)) if "is fitted and validated" in s]
     assert sentence == f"session {session!r} is fitted and validated: its score is not that of another session"
 
 

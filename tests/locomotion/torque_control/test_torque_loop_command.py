@@ -86,11 +86,11 @@ def test_it_is_typed(
     """The command asks what Python asks, shows it and draws it."""
     asked = []
 
-    def answer(content: TorqueLoopFile, **_: object) -> TorqueLoopStudy:
+    def answer(content: TorqueLoopFile, *_: object) -> TorqueLoopStudy:
         asked.append(content)
         return loop
 
-    monkeypatch.setattr("forcetorque.locomotion.torque_control.study.torque_loop", answer)
+    monkeypatch.setattr("forcetorque.locomotion.torque_control.study.study_torque_loop", answer)
     typed = run("torque-loop", file, "--figure", tmp_path / "loop.png", "--format", "json")
     assert asked == [read_torque_loop(file)]
     assert len(typed.result()["rows"]) == len(loop.rows)
