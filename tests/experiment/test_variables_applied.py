@@ -229,7 +229,7 @@ _VOLTS = SUPPLY.replace('name = "supply"', 'name = "temperature"')
     [
         (
             (),
-            r"sensor 'arm_ft': expected the variable 'temperature', the experiment specifies none; add it as \[\[sensor",
+            r"sensor 'arm_ft': expected the variable 'temperature', the experiment specifies none; add it as",
         ),
         ((SUPPLY,), "sensor 'arm_ft': expected the variable 'temperature', the experiment specifies supply; add it"),
         ((_VOLTS,), "calibration 'warm.json' has the variable 'temperature' in degC, the experiment in V; convert"),
