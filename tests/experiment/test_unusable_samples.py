@@ -20,8 +20,8 @@ from forcetorque.experiment.calibration.artefact import Calibration, read_calibr
 from forcetorque.experiment.calibration.stored_moments import read_moments
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.usable_samples import sample_quality
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.payload.identify import weigh_load
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts

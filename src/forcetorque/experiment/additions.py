@@ -202,7 +202,7 @@ def _untold(arguments: Iterable[Any], told: Iterable[str]) -> Iterator[str]:
 def _left_out(arguments: Iterable[Any], uses: Collection[str]) -> Iterator[UnusableSamples]:
     """What is left out of the sensors that were read."""
     from forcetorque.experiment.experiment import Experiment
-    from forcetorque.experiment.usable_samples import unusable_samples
+    from forcetorque.experiment.sample_quality import unusable_samples
 
     for experiment, sensor in dict.fromkeys(_experiments(arguments)):
         if isinstance(experiment, Experiment):

@@ -16,7 +16,7 @@ from forcetorque.experiment import file as schema
 from forcetorque.experiment.core_tables import ClockTable
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.recording.alignment import ClockShift, on_clock_of, seconds_since, usable_samples
-from forcetorque.recording.delay import estimate_delay
+from forcetorque.recording.clock_offset import estimate_delay
 from forcetorque.recording.recording import Finding, Recording, Support, Use
 from forcetorque.recording.smoothing import SavitzkyGolay, smooth_columns
 from forcetorque.recording.stream import Stream

@@ -22,8 +22,8 @@ from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import ExperimentSensor
+from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.usable_samples import sample_quality
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.recording.stream import Stream
 from forcetorque.recording.stream_faults import stream_findings

@@ -14,7 +14,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.calibration.artefact import Calibration, Prior, SessionOffset
 from forcetorque.experiment.calibration.sensor_model import WrenchModel, recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.usable_samples import usable_readings
+from forcetorque.experiment.sample_quality import usable_readings
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Interval
 

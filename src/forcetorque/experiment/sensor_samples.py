@@ -14,8 +14,8 @@ from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.provenance import Content
 from forcetorque.experiment.contacts import touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.sample_quality import sample_quality, usable_readings
 from forcetorque.experiment.sensor_reading import Readings
-from forcetorque.experiment.usable_samples import sample_quality, usable_readings
 from forcetorque.recording.fingerprint import fingerprint, kept_hashes, window_hashes
 from forcetorque.recording.recording import Interval, Recording, Use
 from forcetorque.robot.mechanics.estimate import evaluator_of_samples

@@ -20,8 +20,8 @@ from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.usable_samples import sample_quality
 from forcetorque.recording.recording import Finding, Interval, Recording, Use
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment

@@ -19,7 +19,7 @@ from forcetorque.base.noise.means import means_over, window_for
 from forcetorque.base.wrench import reading_sign
 from forcetorque.experiment.calibration.assumptions import FLATTENED
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.usable_samples import sample_quality
+from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
 from forcetorque.payload.identification.parameter_vector import inertia_of
 from forcetorque.payload.toml_tables import Load as LoadTable

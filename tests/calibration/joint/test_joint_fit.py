@@ -12,7 +12,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.joint.fit import KINDS, fit_jointly
-from forcetorque.calibration.joint.model_error import EXACT, ModelTolerance, delay_terms, error_terms
+from forcetorque.calibration.joint.model_error_columns import EXACT, ModelTolerance, delay_terms, error_terms
 from forcetorque.calibration.joint.robust_fit import (
     JointResult,
     PartResidual,

@@ -13,7 +13,7 @@ from forcetorque.app.python.run import Run
 from forcetorque.base.lazy import LazyMethod
 from forcetorque.base.output_file import refuse_output
 from forcetorque.calibration.calibrate import SensorCalibrations
-from forcetorque.calibration.joint.model_error import ModelTolerance
+from forcetorque.calibration.joint.model_error_columns import ModelTolerance
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.experiment.experiment import Experiment as ExperimentContent

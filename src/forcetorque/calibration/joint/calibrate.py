@@ -14,7 +14,7 @@ from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrati
 from forcetorque.calibration.joint.artefact import sensor_artefact
 from forcetorque.calibration.joint.fit import ChangeSpread
 from forcetorque.calibration.joint.interval import JointInterval, joint_interval, required_prior
-from forcetorque.calibration.joint.model_error import ModelTolerance
+from forcetorque.calibration.joint.model_error_columns import ModelTolerance
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
 from forcetorque.calibration.moments import channel_full_scale

@@ -17,8 +17,8 @@ from forcetorque.calibration.joint.windows import part_windows, window_means
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.sample_quality import unusable_in
 from forcetorque.experiment.sensor_reading import readings_at
-from forcetorque.experiment.usable_samples import unusable_in
 from forcetorque.recording.alignment import require_overlap, seconds_since
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 from forcetorque.recording.recording import Interval, MovingSupport, Use

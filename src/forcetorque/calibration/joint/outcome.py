@@ -12,7 +12,7 @@ from pydantic import Field
 
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.calibration.joint.model_error import ErrorTerm
+from forcetorque.calibration.joint.model_error_columns import ErrorTerm
 from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual, Touch
 from forcetorque.calibration.joint.unknowns import JointFit
 from forcetorque.experiment.calibration.artefact import Calibration

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.calibration.joint.model_error import ZERO, ErrorTerm
+from forcetorque.calibration.joint.model_error_columns import ZERO, ErrorTerm
 from forcetorque.experiment.calibration.assumptions import LOADS
 
 LENGTH_M: Final = 0.1

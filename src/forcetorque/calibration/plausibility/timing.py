@@ -12,7 +12,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.plausibility.compared_wrenches import Doubt, Movement
 from forcetorque.experiment.calibration.moments import DataSet, Moments, symmetric_pseudo_inverse
-from forcetorque.recording.delay import EVEN, ResampledPair, residual_at_lags
+from forcetorque.recording.clock_offset import EVEN, ResampledPair, residual_at_lags
 
 _FEWEST = 20
 """Changes of a channel below which it may rise all the while by chance."""

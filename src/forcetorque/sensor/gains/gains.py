@@ -16,8 +16,8 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.raw_counts import RawCounts, raw_counts
+from forcetorque.experiment.sample_quality import expected_at
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.usable_samples import expected_at
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.frozen_and_saturated_samples import smallest_steps, white_variance
 from forcetorque.recording.recording import Interval, Use

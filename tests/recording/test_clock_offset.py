@@ -11,7 +11,7 @@ from scipy.signal import lfilter
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RecordingError
-from forcetorque.recording.delay import Delay, estimate_delay
+from forcetorque.recording.clock_offset import Delay, estimate_delay
 
 READING_HZ, REFERENCE_HZ, SECONDS = 97.0, 61.0, 40.0
 
