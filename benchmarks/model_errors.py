@@ -51,6 +51,8 @@ from forcetorque.simulation.sensor_family import Specimen, draw_specimen
 from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
 
 LIMBS = ("l_leg_ft", "r_leg_ft", "l_foot_ft", "l_arm_ft")
+UNCERTAIN = "tolerance = {}\n"
+"""Line of the experiment file that states the default tolerances of the robot model."""
 RANDOM, RATE_HZ, HOUR_NS = "random", 100.0, 3_600_000_000_000
 MOTIONS = {"grid": ("grid",), "tz": ("tz",), "pooled": ("grid", "tz", RANDOM)}
 """Recordings of each kind of case; the random one is of another power-up."""
@@ -223,13 +225,13 @@ def _touched(trace: Trace, limb: str, force_N: float, rng: np.random.Generator) 
     return replace(trace, loads={limb: trace.loads[limb] + strength[:, None] * push})
 
 
-def _written(folder: Path, name: str, limb: str, recording: Recording, duration_s: float) -> Path:
+def _written(folder: Path, name: str, limb: str, recording: Recording, duration_s: float, robot: str) -> Path:
     """Write a recording, and an experiment file that knows of no error."""
     write_recording(folder / name, recording)
     file = folder / f"{name}.toml"
     file.write_text(
         f'schema = "forcetorque/experiment/1"\nname = "{name}"\n'
-        f'[robot]\nurdf = "robot.urdf"\n[recording]\nformat = "parquet"\npath = "{name}"\n'
+        f'[robot]\nurdf = "robot.urdf"\n{robot}[recording]\nformat = "parquet"\npath = "{name}"\n'
         f'[[sensor]]\nname = "{limb}"\nstream = "{limb}"\nserial = "SIM"\nprior = "matrix.txt"\n'
         "limit_counts = 32767.0\n"
         '[[support]]\nframe = "pelvis"\ngravity_direction = [0.0, 0.0, -1.0]\n'
@@ -240,7 +242,7 @@ def _written(folder: Path, name: str, limb: str, recording: Recording, duration_
     return file
 
 
-def measured(seed: int, family: str, limb: str, motion: str, known: dict[str, Trace]) -> Case:
+def measured(seed: int, family: str, limb: str, motion: str, known: dict[str, Trace], robot: str = UNCERTAIN) -> Case:
     """Calibrate one sensor, and compare with the truth."""
     one = specimen(seed, family, limb)
     case = Case(seed=seed, family=family, limb=limb, motion=motion)
@@ -251,7 +253,7 @@ def measured(seed: int, family: str, limb: str, motion: str, known: dict[str, Tr
         runs = []
         for part in MOTIONS[motion]:
             recording = _recorded(seed, family, limb, one, known[part])
-            file = _written(folder, part, limb, recording, known[part].movement.duration_s)
+            file = _written(folder, part, limb, recording, known[part].movement.duration_s, robot)
             runs.append(SensorRun(load_experiment(file), limb))
         start = time.process_time()
         try:
@@ -283,11 +285,13 @@ def _pair(figure: Callable[[slice], float]) -> tuple[float, float]:
     return float(figure(slice(0, 3))), float(figure(slice(3, 6)))
 
 
-def _of_limb(task: tuple[int, Robot, str], families: Sequence[str], motions: Sequence[str]) -> list[Case]:
+def _of_limb(
+    task: tuple[int, Robot, str], families: Sequence[str], motions: Sequence[str], *, table: str
+) -> list[Case]:
     seed, robot, limb = task
     known = traces(seed, robot, limb)
     own = [family for family in families if FAMILIES[family].robot == robot]
-    return [measured(seed, family, limb, motion, known) for family in own for motion in motions]
+    return [measured(seed, family, limb, motion, known, table) for family in own for motion in motions]
 
 
 def table(cases: Sequence[Case]) -> Iterator[str]:
@@ -334,6 +338,7 @@ def main() -> None:
     parser.add_argument("--limbs", nargs="+", choices=LIMBS, default=LIMBS)
     parser.add_argument("--motions", nargs="+", choices=MOTIONS, default=list(MOTIONS))
     parser.add_argument("--processes", type=int, default=2, help="set OMP_NUM_THREADS=1 beside it")
+    parser.add_argument("--exact", action="store_true", help="state no tolerance: the robot model is taken as exact")
     parser.add_argument("--quick", action="store_true", help="one seed, one limb, the motion grid")
     parser.add_argument("--json", type=Path, help="file for every case")
     options = parser.parse_args()
@@ -343,7 +348,9 @@ def main() -> None:
     seeds = range(options.first_seed, options.first_seed + options.seeds)
     tasks = [(seed, robot, limb) for seed in seeds for robot in robots for limb in options.limbs]
     with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
-        work = partial(_of_limb, families=options.families, motions=options.motions)
+        work = partial(
+            _of_limb, families=options.families, motions=options.motions, table="" if options.exact else UNCERTAIN
+        )
         cases = [case for some in pool.map(work, tasks) for case in some]
     print("\n".join(table(cases)))
     if options.json is not None:

@@ -62,6 +62,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--data", type=Path, default=Path("../shared/data"), help="folder of measured data")
     parser.add_argument("--json", type=Path, required=True, help="file for the result")
+    parser.add_argument("--exact", action="store_true", help="state no tolerance: the robot model is taken as exact")
     parser.add_argument("--only", choices=("yoga", "switching"), help="one of the two figures")
     options = parser.parse_args()
     data = options.data.resolve()
@@ -69,26 +70,27 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         for name, measure in (("yoga", yoga), ("switching", switching)):
             if options.only in (None, name):
-                result[name] = measure(data, Path(folder))
+                result[name] = measure(data, Path(folder), exact=options.exact)
     commit = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, text=True, check=False)
     result["commit"] = commit.stdout.strip()
     options.json.parent.mkdir(parents=True, exist_ok=True)
     options.json.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
 
 
-def yoga(data: Path, folder: Path) -> dict[str, Any]:
+def yoga(data: Path, folder: Path, *, exact: bool) -> dict[str, Any]:
     """Measure the four splits of one leg in the air.
 
     Args:
         data: Folder of measured data.
         folder: Folder for experiment files.
+        exact: Whether the robot model is taken as exact.
 
     Returns:
         Errors by split of prior and calibration, means over the splits, and ratios.
     """
     splits = []
     for path in sorted(EXAMPLES.glob("0[2-5]_icub_yoga_*.toml")):
-        experiment = _load(path.read_text(encoding="utf-8"), data, folder / path.name)
+        experiment = _load(path.read_text(encoding="utf-8"), data, folder / path.name, exact=exact)
         run = SensorRun(experiment, experiment.sensors[0].name)
         calibration, seconds = _timed(partial(calibrate_sensor, run, code_version=VERSION, created=CREATED))
         rows = validation_errors(run, {"new": calibration}).verdicts
@@ -121,23 +123,24 @@ def yoga(data: Path, folder: Path) -> dict[str, Any]:
     return {"splits": splits, "mean": means, "worst ratio": worst}
 
 
-def switching(data: Path, folder: Path) -> dict[str, Any]:
+def switching(data: Path, folder: Path, *, exact: bool) -> dict[str, Any]:
     """Measure the net force of both feet by prior, single fits and joint fits.
 
     Args:
         data: Folder of measured data.
         folder: Folder for experiment files.
+        exact: Whether the robot model is taken as exact.
 
     Returns:
         Errors per fit and phase.
     """
     text = (EXAMPLES / "23_icub_yoga_switching.toml").read_text(encoding="utf-8")
-    judged = _load(text, data, folder / "judged.toml")
-    air = _load(_with_intervals(text, [AIR], use="validation"), data, folder / "air.toml")
+    judged = _load(text, data, folder / "judged.toml", exact=exact)
+    air = _load(_with_intervals(text, [AIR], use="validation"), data, folder / "air.toml", exact=exact)
     fits: dict[str, dict[str, Calibration]] = {}
     about: dict[str, dict[str, Any]] = {"prior": {"fitted": [], "seconds": 0.0, "not fitted": {}}}
     for name, intervals in FITS.items():
-        fitted = _load(_with_intervals(text, intervals), data, folder / "fitted.toml")
+        fitted = _load(_with_intervals(text, intervals), data, folder / "fitted.toml", exact=exact)
         for kind, fit in (("single", _singly), ("joint", _jointly)):
             if kind == "single" and DOUBLE in intervals:
                 continue  # a single sensor is fitted while nothing touches the foot beyond it
@@ -227,7 +230,8 @@ def _with_intervals(text: str, intervals: Intervals, use: str = "calibration") -
     return "\n".join([head, *contact, *(table.format(*interval, use=use) for interval in intervals)])
 
 
-def _load(text: str, data: Path, path: Path) -> Experiment:
+def _load(text: str, data: Path, path: Path, *, exact: bool) -> Experiment:
+    text = text if exact else text.replace("[robot]\n", "[robot]\ntolerance = {}\n")
     path.write_text(text.replace("../../shared/data", data.as_posix()), encoding="utf-8")
     return load_experiment(path)
 

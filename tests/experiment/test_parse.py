@@ -236,7 +236,7 @@ def test_every_missing_key_is_named(tmp_path: Path, form: str) -> None:
 
 
 TABLES = {
-    "[robot]": ("robot", "fixed, gravity, urdf"),
+    "[robot]": ("robot", "fixed, gravity, tolerance, urdf"),
     'path = "log"': ("recording", "continued_in, format, path, stream"),
     'kind = "analog"': (r"recording.stream\[0\]", "kind, name, port"),
     'kind = "state_ext"': (r"recording.stream\[1\]", "joints, kind, name, port"),

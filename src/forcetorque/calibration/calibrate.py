@@ -159,7 +159,13 @@ def fit_doubts(calibration: Calibration, *, said: Collection[str] = ()) -> Itera
         A sentence per doubt, with the name of the sensor.
     """
     sensor = calibration.sensor.name
-    own = (*_turned(calibration), *_unmoved(calibration), *_left_prior(calibration), *_refused(calibration))
+    own = (
+        *_turned(calibration),
+        *_unmoved(calibration),
+        *_left_prior(calibration),
+        *_refused(calibration),
+        *_wrong_model(calibration),
+    )
     for sentence in (*(doubt for doubt in calibration.doubts if doubt not in said), *own):
         yield f"{sensor}: {sentence}"
 
@@ -204,6 +210,26 @@ def _refused(calibration: Calibration) -> Iterator[str]:
     """A correction that was asked for and lost."""
     if calibration.nonlinear is not None:
         yield from calibration.nonlinear.refusals()
+
+
+_MOST_ERRORS = 3
+"""Errors of the robot model that a warning lists."""
+
+
+def _wrong_model(calibration: Calibration) -> Iterator[str]:
+    """Numbers of the robot model beyond their tolerances."""
+    errors = sorted(
+        (error for error in calibration.model_errors if error.is_suspicious),
+        key=lambda error: -abs(error.value) / error.tolerance,
+    )
+    if errors:
+        listed = "; ".join(error.message for error in errors[:_MOST_ERRORS])
+        rest = f"; and {len(errors) - _MOST_ERRORS} more" if len(errors) > _MOST_ERRORS else ""
+        yield (
+            f"the robot model does not fit the data within its tolerances: {listed}{rest}. One sensor does not "
+            "separate all masses, centres and zeros, so another link or joint may be the cause: weigh or measure "
+            "before you change the URDF, or raise [robot] tolerance"
+        )
 
 
 def _unit(variable: CalibratedVariable) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.contact_windows import agreeing_samples
+from forcetorque.calibration.model_error_derivatives import model_columns
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
@@ -87,7 +88,7 @@ def recording_moments(runs: Runs) -> list[RecordingMoments]:
         if not own:
             continue
         stated_by = CampaignRecording.of(run)
-        kept, left_out = agreeing_moments(stated_by, own, variables=variables)
+        kept, left_out = agreeing_moments(stated_by, own, variables=variables, run=run)
         said = [*(doubt.message for doubt in doubts), *reference_doubts(run), *left_out]
         moments = moments_of(stated_by, kept, variables=variables, doubts=said)
         results.append(moments.model_copy(update={"load_error": _load_error(run)}))
@@ -95,7 +96,11 @@ def recording_moments(runs: Runs) -> list[RecordingMoments]:
 
 
 def agreeing_moments(
-    recording: CampaignRecording, intervals: Sequence[CampaignInterval], *, variables: Sequence[LinearVariable]
+    recording: CampaignRecording,
+    intervals: Sequence[CampaignInterval],
+    *,
+    variables: Sequence[LinearVariable],
+    run: SensorRun | None = None,
 ) -> tuple[list[IntervalMoments], list[str]]:
     """Reduce intervals of a recording, without the samples that disagree with all others.
 
@@ -103,6 +108,7 @@ def agreeing_moments(
         recording: The recording.
         intervals: Samples of its calibration intervals.
         variables: Linear variables that are fitted.
+        run: The sensor in that recording, to say what the robot model may have wrong; None to take it as exact.
 
     Returns:
         What is kept of the intervals, and a sentence per span that was left out.
@@ -111,7 +117,14 @@ def agreeing_moments(
     agree, spans = agreeing_samples(
         data_sets, recording.sensor.prior, _assumptions(recording), variables=variables, drift=options.drift
     )
-    kept = [interval.moments(marks) for interval, marks in zip(intervals, agree, strict=True) if marks.any()]
+    kept = []
+    for interval, data, marks in zip(intervals, data_sets, agree, strict=True):
+        if marks.any():
+            moments = interval.moments(marks)
+            if run is not None and recording.sensor.prior is not None:
+                model = model_columns(run, interval.part.interval, data.kept(marks))
+                moments = moments.with_model(model.terms, model.columns)
+            kept.append(moments)
     start_s = recording.start_ns * 1e-9
     return kept, [
         f"interval {span.label!r}: {span.start_s - start_s:.2f} to {span.end_s - start_s:.2f} s is left out: the "

@@ -5,14 +5,16 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar, cast
+from typing import Annotated, Any, Final, Literal, TypeVar, cast
 
+import numpy as np
 from pydantic import Field, create_model, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.toml_file import Finite, Positive, Table, Text, read_toml
+from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text, read_toml
 from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.experiment.calibration.model_error import ModelTolerance
 from forcetorque.experiment.core_tables import (
     CalibrationTable,
     ClockTable,
@@ -26,6 +28,40 @@ from forcetorque.formats.registry import AnyLog
 from forcetorque.recording.recording import Use
 from forcetorque.robot.contacts import ContactType
 
+_TOLERANCE: Final = ModelTolerance()
+
+
+class Tolerance(Table):
+    """How far the robot model may be from the robot, as standard deviations; 0 for what is exact."""
+
+    mass_relative: NotNegative = _TOLERANCE.mass
+    """Of the mass of every link, relative."""
+    centre_m: NotNegative = _TOLERANCE.centre_m
+    """Of every coordinate of the centre of mass of every link; m."""
+    joint_zero_deg: NotNegative = float(np.degrees(_TOLERANCE.joint_zero_rad))
+    """Of the zero of every joint; deg; of a joint that slides 0.0175 m for each."""
+    tilt_deg: NotNegative = float(np.degrees(_TOLERANCE.acceleration / STANDARD_GRAVITY))
+    """Of gravity in the support frame, or of what an accelerometer reads, along each axis, as a tilt; deg."""
+    delay_s: NotNegative = _TOLERANCE.delay_s
+    """Of the time by which the readings come later than the joints; s."""
+    links: dict[Text, NotNegative] = {}
+    """Of the mass of single links, relative, by their names."""
+    joints: dict[Text, NotNegative] = {}
+    """Of the zero of single joints, by their names; deg."""
+
+    @property
+    def model_tolerance(self) -> ModelTolerance:
+        """The same in SI units."""
+        return ModelTolerance(
+            mass=self.mass_relative,
+            centre_m=self.centre_m,
+            joint_zero_rad=float(np.radians(self.joint_zero_deg)),
+            acceleration=STANDARD_GRAVITY * float(np.radians(self.tilt_deg)),
+            delay_s=self.delay_s,
+            links=dict(self.links),
+            joints={name: float(np.radians(value)) for name, value in self.joints.items()},
+        )
+
 
 class Robot(Table):
     """The robot model."""
@@ -36,6 +72,9 @@ class Robot(Table):
     """Joints that nobody logged and that stand still all along, by name: rad, or m where prismatic."""
     gravity: Positive = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
+    tolerance: Tolerance | None = None
+    """How far the model may be from the robot. Left out, the fit of one sensor takes it as exact, and the joint fit
+    takes the default tolerances."""
 
 
 class Support(Table):

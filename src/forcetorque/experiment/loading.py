@@ -19,6 +19,7 @@ from pydantic import Field, create_model
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, known_names
 from forcetorque.base.toml_file import Table, Text, read_toml, toml_content
 from forcetorque.experiment.additions import read_robot
+from forcetorque.experiment.calibration.model_error import ModelTolerance
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.contacts import read_contacts
 from forcetorque.experiment.core_tables import CalibrationTable, ProcessingTable, Sensor, fit_options, processing_of
@@ -258,13 +259,32 @@ def _load(parsed: ExperimentFile, file: Path) -> Experiment:
         processing=processing_of(
             parsed.processing, gravity=Processing().gravity if parsed.robot is None else parsed.robot.gravity
         ),
-        fit_options=replace(fit_options(parsed.calibration), sphere_intervals=_sphere_intervals(parsed, file)),
+        fit_options=replace(
+            fit_options(parsed.calibration),
+            sphere_intervals=_sphere_intervals(parsed, file),
+            tolerance=_tolerance(parsed, file, loading.model),
+        ),
         roles=_roles(parsed),
         inputs_sha256=hashes,
         log_sha256=frozenset(hashes[name] for name in logs),
         supports=tuple(support for support in loading.supports.values() if isinstance(support, Support)),
         sections=contents,
     )
+
+
+def _tolerance(parsed: ExperimentFile, file: Path, model: RobotModel) -> ModelTolerance | None:
+    """How far the robot model may be off, for links and joints that it has; None where the file does not say so."""
+    tolerance = None if parsed.robot is None else parsed.robot.tolerance
+    if tolerance is None:
+        return None
+    for key, named, known in (("links", tolerance.links, model.links), ("joints", tolerance.joints, model.joints)):
+        for name in named:
+            if name not in known:
+                raise ExperimentError(
+                    f"{file}: [robot] tolerance.{key}: expected {key} of robot {model.name!r}, got {name!r}; "
+                    f"{known_names(name, known)}"
+                )
+    return tolerance.model_tolerance
 
 
 def _stand_in(loading: Loading) -> StandIn:

@@ -22,8 +22,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
-from forcetorque.calibration.joint.model_error_columns import ModelTolerance
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.model_error import ModelTolerance
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

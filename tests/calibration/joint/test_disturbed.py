@@ -10,9 +10,9 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.joint import sums
-from forcetorque.calibration.joint.model_error_columns import ModelTolerance
 from forcetorque.calibration.joint.robust_fit import JointResult, UntouchedStretch, fit_stretches
 from forcetorque.calibration.joint.unknowns import JointFit
+from forcetorque.experiment.calibration.model_error import ModelTolerance
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying
 

@@ -12,7 +12,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.joint.fit import KINDS, fit_jointly
-from forcetorque.calibration.joint.model_error_columns import EXACT, ModelTolerance, delay_terms, error_terms
+from forcetorque.calibration.joint.model_error_columns import delay_terms, error_terms
 from forcetorque.calibration.joint.robust_fit import (
     JointResult,
     PartResidual,
@@ -24,6 +24,7 @@ from forcetorque.calibration.joint.robust_fit import (
 from forcetorque.calibration.joint.sums import part_sums
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.calibration.joint.windows import part_windows
+from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying
 

@@ -13,7 +13,7 @@ from forcetorque.app.python.run import Run
 from forcetorque.base.lazy import LazyMethod
 from forcetorque.base.output_file import refuse_output
 from forcetorque.calibration.calibrate import SensorCalibrations
-from forcetorque.calibration.joint.model_error_columns import ModelTolerance
+from forcetorque.experiment.calibration.model_error import ModelTolerance
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.experiment.experiment import Experiment as ExperimentContent
@@ -254,7 +254,7 @@ def calibrate_jointly(
         recordings: Experiments with one robot.
         sensors: Sensors to calibrate; all of the first file if None.
         folder: Where `save` of the result writes a file per sensor, and what they share.
-        tolerance: How far the robot model may be off; `ModelTolerance()` if None.
+        tolerance: How far the robot model may be off; what the first file says if None, else `ModelTolerance()`.
         progress: Called with a line for people as work goes on, such as `print`.
 
     Returns:

@@ -20,7 +20,7 @@ WINDOW_S = 1.0
 APART_S = 1e5
 """Pause between recordings that are put one after the other; s. Slow noise has forgotten itself by then."""
 
-_ROUNDING = 1e-6
+WINDOW_ROUNDING = 1e-6
 """Part of a window by which a stamp may be rounded: 0.99999999 s belongs to the second window of 1 s."""
 
 
@@ -52,7 +52,7 @@ def means_over(time_s: Any, columns: Any, window_s: float = WINDOW_S) -> tuple[F
         raise FitError("time_s: expected instants that do not fall; sort the samples")
     if not len(time):
         return time.copy(), signals.copy(), np.zeros(0, dtype=np.int64)
-    window = np.floor((time - time[0]) / window_s + _ROUNDING)
+    window = np.floor((time - time[0]) / window_s + WINDOW_ROUNDING)
     starts = np.flatnonzero(np.diff(window, prepend=-1.0))
     counts = np.diff(starts, append=len(time))
     middle = time[0] + np.add.reduceat(time - time[0], starts) / counts

@@ -220,7 +220,12 @@ def generative_calibration(
             [_fitted_loads(fit, interval) for interval in intervals],
         ),
         selection=Selection(rule=_RULE),
-        doubts=(*dict.fromkeys(d for recording in recordings for d in recording.doubts), *_disagreeing(fit, stretches)),
+        doubts=(
+            *dict.fromkeys(d for recording in recordings for d in recording.doubts),
+            *_exact_beside_uncertain(intervals),
+            *_disagreeing(fit, stretches),
+        ),
+        model_errors=fit.model_errors,
         provenance=_provenance(recordings, code_version=code_version, created=created),
     )
 
@@ -317,6 +322,16 @@ def _variable(
         minimum=min(float(interval.variable_minimum[k]) for interval in intervals),
         maximum=max(float(interval.variable_maximum[k]) for interval in intervals),
     )
+
+
+def _exact_beside_uncertain(intervals: Sequence[IntervalMoments]) -> Iterator[str]:
+    """Name intervals whose robot model is taken as exact, where that of others is not."""
+    exact = [f"{interval.recording}: {interval.interval.label}" for interval in intervals if not interval.terms]
+    if exact and len(exact) < len(intervals):
+        yield (
+            f"the robot model is taken as exact in {', '.join(exact)}, and as uncertain in the other intervals; state "
+            "[robot] tolerance in all files, and store moments anew"
+        )
 
 
 def _disagreeing(fit: GenerativeFit, stretches: Sequence[WindowMeans]) -> Iterator[str]:

@@ -5,20 +5,139 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, read_only
+from forcetorque.base.arrays import FloatArray, IntArray, read_only
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise
 from forcetorque.calibration.generative.agreement import require_rank, require_response, require_sensor
-from forcetorque.calibration.generative.model import Design, Unknowns, design_of, infer, whiten
+from forcetorque.calibration.generative.model import Design, Sizes, Unknowns, design_of, infer, whiten
 from forcetorque.experiment.calibration import assumptions as expected
 from forcetorque.experiment.calibration.assumptions import LOADS, Assumptions, Rows, Scale, rows_of
-from forcetorque.experiment.calibration.moments import WindowMeans, in_order
+from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError
+from forcetorque.experiment.calibration.moments import WindowMeans, in_order, model_terms
 from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
+
+
+def _frame_changes() -> FloatArray:
+    """What rotations about and shifts along the axes of a sensor do to a load; shape (6, 6, 6)."""
+    skew = np.cross(np.eye(3)[:, None], np.eye(3)).transpose(0, 2, 1)
+    changes = np.zeros((LOADS, LOADS, LOADS))
+    changes[:3, :3, :3] = changes[:3, 3:, 3:] = changes[3:, 3:, :3] = skew
+    return changes
+
+
+_FRAME_CHANGES: Final = _frame_changes()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Layout:
+    """Unknowns of a row: its own, then those that all rows share where the robot model may be wrong.
+
+    Without terms of the model gain and frame of the reference are deviations of every row by itself.
+    """
+
+    variables: int
+    """Number of linear variables."""
+    channels: int
+    """Number of channels."""
+    terms: int
+    """Numbers of the robot model that may be wrong; 0 where it is taken as exact."""
+
+    def _slice(self, index: int) -> slice:
+        ends = np.cumsum([0, *self._counts])
+        return slice(int(ends[index]), int(ends[index + 1]))
+
+    @property
+    def _counts(self) -> tuple[int, ...]:
+        own = (LOADS, 0 if self.terms else LOADS, self.variables, len(PAIRS[0]), LOADS)
+        return own + ((self.channels, 3, 3, self.terms) if self.terms else (0, 0, 0, 0))
+
+    @property
+    def unknowns(self) -> int:
+        """Number of unknowns of a row."""
+        return sum(self._counts)
+
+    @property
+    def coefficients(self) -> slice:
+        """Coefficients of the matrix."""
+        return self._slice(0)
+
+    @property
+    def reference(self) -> slice:
+        """Gain and frame of the reference in this row alone."""
+        return self._slice(1)
+
+    @property
+    def of_variables(self) -> slice:
+        """Coefficients of the variables."""
+        return self._slice(2)
+
+    @property
+    def quadratic(self) -> slice:
+        """Quadratic terms."""
+        return self._slice(3)
+
+    @property
+    def flattening(self) -> slice:
+        """What derivative windows took from the reference."""
+        return self._slice(4)
+
+    @property
+    def gains(self) -> slice:
+        """Gains of the channels."""
+        return self._slice(5)
+
+    @property
+    def rotation(self) -> slice:
+        """Rotation of the sensor."""
+        return self._slice(6)
+
+    @property
+    def shift(self) -> slice:
+        """Shift of its origin."""
+        return self._slice(7)
+
+    @property
+    def model(self) -> slice:
+        """Errors of the robot model, over their tolerances."""
+        return self._slice(8)
+
+    def sizes(self, group: IntArray, terms: Sequence[ErrorTerm], *, with_prior: bool) -> Sizes:
+        """Say which unknowns have one size, and what is expected of it.
+
+        Args:
+            group: Rows of one number share the sizes of their own unknowns; shape (rows,).
+            terms: Numbers of the robot model that may be wrong.
+            with_prior: Whether the sensor has a prior matrix.
+
+        Returns:
+            The sizes.
+        """
+        sensor = expected.COEFFICIENTS if terms else expected.SENSOR
+        if not with_prior:  # nothing is known of the sensor: its deviations may be as large as they like
+            sensor = Scale(expected=1e3, weight=np.inf)
+        own = (sensor, expected.FRAME, Scale(expected=1.0, weight=np.inf), expected.QUADRATIC, expected.FLATTENING)
+        kinds = list(dict.fromkeys(term.kind for term in terms))
+        shared = (expected.GAIN, expected.ROTATION, expected.SHIFT, *(expected.MODEL for _ in kinds)) if terms else ()
+        scales = (*own * (int(group.max()) + 1), *shared)
+        counts = self._counts
+        of_own = np.repeat(np.arange(len(own)), counts[: len(own)])
+        of_shared = np.repeat(np.arange(3), counts[len(own) : -1]) if terms else np.zeros(0, dtype=np.int64)
+        of_shared = np.concatenate([of_shared, [3 + kinds.index(term.kind) for term in terms]]).astype(np.int64)
+        rows, first = len(group), len(own) * (int(group.max()) + 1)
+        together = np.arange(len(of_shared)) + rows * len(of_own)
+        return Sizes(
+            places=np.stack([np.r_[np.arange(len(of_own)) + k * len(of_own), together] for k in range(rows)]),
+            size=np.concatenate([*(of_own + len(own) * number for number in group), first + of_shared]),
+            expected=np.array([scale.expected for scale in scales]),
+            weight=np.array([scale.weight for scale in scales]),
+            least=np.array([scale.least for scale in scales]),
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -33,6 +152,10 @@ class SolvedRows:
     """What the columns of the design are worth in the unknowns of every row; shape (a, q) each."""
     unknowns: Sequence[Unknowns]
     """Unknowns of every row."""
+    layout: Layout
+    """Where these stand."""
+    terms: Sequence[ErrorTerm]
+    """Numbers of the robot model that may be wrong."""
     expected_rows: FloatArray
     """What variables were expected to add to every row, which was taken off; shape (rows, v)."""
     matrix: FloatArray
@@ -93,9 +216,27 @@ class SolvedRows:
         Returns:
             Coefficients; shape (rows, 21); N, N m or counts.
         """
-        place = 2 * LOADS + self.expected_rows.shape[1]
-        terms = np.stack([unknown.coefficients[place : place + len(PAIRS[0])] for unknown in self.unknowns])
+        terms = np.stack([unknown.coefficients[self.layout.quadratic] for unknown in self.unknowns])
         return terms * self.rows.unit[:, None]
+
+    def model_errors(self) -> tuple[ModelError, ...]:
+        """Give what was found of the robot model.
+
+        Returns:
+            An error per term.
+        """
+        own, unknown = self.layout.model, self.unknowns[0]  # rows share them
+        values, variances = unknown.coefficients[own], np.diag(unknown.covariance)[own]
+        return tuple(
+            ModelError(
+                name=term.name,
+                unit=term.unit,
+                value=float(value) * term.deviation,
+                standard_error=float(np.sqrt(max(variance, 0.0))) * term.deviation,
+                tolerance=term.deviation,
+            )
+            for term, value, variance in zip(self.terms, values, variances, strict=True)
+        )
 
     def _noise(self) -> tuple[RowNoise, ...]:
         """Noise of every row, in its unit of readings."""
@@ -109,7 +250,14 @@ class SolvedRows:
         )
 
     def _row(self, k: int) -> tuple[FloatArray, FloatArray]:
-        """Mean and covariance of [six coefficients, variables, offsets, drifts] of a row, in its unit."""
+        """Mean and covariance of [six coefficients, variables, offsets, drifts] of a row, in its unit.
+
+        The offset is that which suits the robot model as it is: what the model is found to be off by in the mean of a
+        session stays in it, and widens its covariance.
+
+        Returns:
+            Mean, shape (p,), and covariance, shape (p, p).
+        """
         unknown, basis, design = self.unknowns[k], self.basis[k], self.design
         sessions, free = len(design.sessions), design.free.shape[1]
         used = LOADS + self.expected_rows.shape[1]
@@ -119,12 +267,16 @@ class SolvedRows:
         from_unknowns[:used] = basis[:used]
         from_unknowns[used:] = -worth
         from_unknowns[used : used + sessions] -= design.column_means[:, :used] @ basis[:used]
+        of_model = design.model_means[:, k] @ basis[len(basis) - len(self.terms) :]  # (sessions, q)
+        kept_in_offset = of_model @ unknown.coefficients
+        from_unknowns[used : used + sessions] -= of_model
         constant = np.zeros(used + free)
         constant[LOADS:used] = self.expected_rows[k]
-        constant[used:] = data.free_response[:, k]
-        constant[used : used + sessions] += design.response_means[:, k]
+        constant[used:] = data.free_response
+        constant[used : used + sessions] += design.response_means[:, k] + kept_in_offset
         covariance = from_unknowns @ unknown.covariance @ from_unknowns.T
         covariance[used:, used:] += unknown.variance * data.free_covariance
+        covariance[used : used + sessions, used : used + sessions] += np.outer(kept_in_offset, kept_in_offset)
         return constant + from_unknowns @ unknown.coefficients, 0.5 * (covariance + covariance.T)
 
     def _matrix(self, change: FloatArray, noise: Sequence[RowNoise]) -> tuple[FloatArray, FloatArray]:
@@ -144,7 +296,7 @@ class SolvedRows:
         """Covariance of the six coefficients of every row before any data."""
         prior = []
         for k, unknown in enumerate(self.unknowns):
-            root = self.basis[k][:LOADS, : 2 * LOADS] * unknown.deviations[: 2 * LOADS]
+            root = self.basis[k][:LOADS] * unknown.deviations
             prior.append(unit[k] ** 2 * root @ root.T)
         return np.stack(prior)
 
@@ -183,6 +335,8 @@ class GenerativeFit:
     """Shares of full scale that loads make, of which the quadratic terms are, about their mean; shape (6, 6)."""
     means: int
     """Number of means that were fitted."""
+    model_errors: tuple[ModelError, ...] = ()
+    """What was found of the robot model."""
 
 
 def fit_generative(
@@ -240,19 +394,21 @@ def fit_generative(
     expected_rows = -rows.from_load @ usual
     response = raw @ rows.from_raw.T - wrench @ rows.from_load.T - (values - centre) @ expected_rows.T
     shares = wrench @ rows.load_to_full_scale.T if quadratic else np.zeros((len(wrench), LOADS))
-    design = design_of(ordered, response, shares, drift=drift, centre=centre)
+    # without a prior matrix nothing separates an error of the model from one of the sensor
+    terms, derivatives = ((), np.zeros((len(raw), LOADS, 0))) if prior is None else model_terms(ordered)
+    model = np.einsum("kc,nct->nkt", rows.from_load, derivatives * [term.deviation for term in terms])
+    design = design_of(ordered, response, shares, model, drift=drift, centre=centre)
     _require_means(design, drift=drift)
+    layout = Layout(variables=len(variables), channels=raw.shape[1], terms=len(terms))
     basis = [
-        _basis(rows, k, variables=_variable_sizes(variables, values, rows, k), width=design.columns.shape[1])
+        _basis(rows, matrix, k, layout, variables=_variable_sizes(variables, values, rows, k))
         for k in range(len(rows.unit))
     ]
-    kinds = np.repeat(np.arange(5), [LOADS, LOADS, len(variables), len(PAIRS[0]), LOADS])
     unknowns = infer(
         whiten(design, shapes),
         basis,
-        kinds,
-        _scales(with_prior=prior is not None),
-        group=rows.group,
+        layout.sizes(rows.group, terms, with_prior=prior is not None),
+        sensor=np.arange(LOADS),
         accuracy=rows.accuracy,
         freedom=max(len(raw) - design.free.shape[1], 1),
     )
@@ -261,6 +417,8 @@ def fit_generative(
         design=design,
         basis=basis,
         unknowns=unknowns,
+        layout=layout,
+        terms=terms,
         expected_rows=expected_rows,
         matrix=matrix,
         with_prior=prior is not None,
@@ -301,6 +459,7 @@ def _fit(
         quadratic=solved.quadratic(),
         load_to_full_scale=solved.rows.load_to_full_scale,
         means=len(raw),
+        model_errors=solved.model_errors(),
     )
 
 
@@ -321,12 +480,6 @@ def _rough(raw: FloatArray, wrench: FloatArray) -> FloatArray:
     return np.linalg.pinv(response)
 
 
-def _scales(*, with_prior: bool) -> tuple[Scale, ...]:
-    # without a prior matrix nothing is known of the sensor: its deviations may be as large as they like
-    sensor = expected.SENSOR if with_prior else Scale(expected=1e3, weight=np.inf)
-    return sensor, expected.FRAME, Scale(expected=1.0, weight=np.inf), expected.QUADRATIC, expected.FLATTENING
-
-
 def _variable_sizes(variables: Sequence[LinearVariable], values: FloatArray, rows: Rows, row: int) -> FloatArray:
     """Standard deviation of what a unit of every variable may add to a row; shape (v,)."""
     sizes = np.zeros(len(variables))
@@ -343,17 +496,24 @@ def _variable_sizes(variables: Sequence[LinearVariable], values: FloatArray, row
     return sizes
 
 
-def _basis(rows: Rows, row: int, *, variables: FloatArray, width: int) -> FloatArray:
+def _basis(rows: Rows, matrix: FloatArray, row: int, layout: Layout, *, variables: FloatArray) -> FloatArray:
     """What the columns of the design are worth in the unknowns of a row; shape (a, q)."""
-    v, pairs = len(variables), len(PAIRS[0])
-    basis = np.zeros((width, 2 * LOADS + v + pairs + LOADS))
-    basis[:LOADS, :LOADS], basis[:LOADS, LOADS : 2 * LOADS] = rows.sensor_root[row], rows.frame_root[row]
-    place, column = 2 * LOADS, LOADS
-    basis[column : column + v, place : place + v] = np.diag(variables)
-    place, column = place + v, column + v
-    basis[column : column + pairs, place : place + pairs] = np.eye(pairs)
-    place, column = place + pairs, column + pairs
-    basis[column:, place:] = np.diag(rows.from_load[row])
+    v, pairs = layout.variables, len(PAIRS[0])
+    basis = np.zeros((2 * LOADS + v + pairs + layout.terms, layout.unknowns))
+    basis[:LOADS, layout.coefficients] = rows.sensor_root[row]
+    column = LOADS
+    basis[column : column + v, layout.of_variables] = np.diag(variables)
+    column += v
+    basis[column : column + pairs, layout.quadratic] = np.eye(pairs)
+    column += pairs
+    basis[column : column + LOADS, layout.flattening] = np.diag(rows.from_load[row])
+    if not layout.terms:
+        basis[:LOADS, layout.reference] = rows.frame_root[row]
+        return basis
+    basis[:LOADS, layout.gains] = (rows.from_raw[row][:, None] * np.linalg.pinv(matrix)).T
+    moved = np.einsum("c,kcd->dk", rows.from_load[row], _FRAME_CHANGES)
+    basis[:LOADS, layout.rotation], basis[:LOADS, layout.shift] = moved[:, :3], moved[:, 3:]
+    basis[column + LOADS :, layout.model] = np.eye(layout.terms)
     return basis
 
 

@@ -14,13 +14,13 @@ from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrati
 from forcetorque.calibration.joint.artefact import sensor_artefact
 from forcetorque.calibration.joint.fit import ChangeSpread
 from forcetorque.calibration.joint.interval import JointInterval, joint_interval, required_prior
-from forcetorque.calibration.joint.model_error_columns import ModelTolerance
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
 from forcetorque.calibration.moments import channel_full_scale
 from forcetorque.calibration.summary import learnt_directions
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.calibration.model_error import ModelTolerance
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignRecording
 from forcetorque.experiment.experiment import Experiment
@@ -228,7 +228,8 @@ def calibrate_jointly(
         sensors: Sensors to calibrate, which have a prior matrix; all of the first file if None.
         code_version: Version of this library, for the record.
         created: Date and time, ISO 8601, for the record.
-        tolerance: How far the robot model may be off; `ModelTolerance()` if None.
+        tolerance: How far the robot model may be off; what the first file says if None, else
+            `ModelTolerance()`.
         progress: Called with what is being done.
 
     Returns:
@@ -242,7 +243,8 @@ def calibrate_jointly(
         FitError: If a sensor that was asked for is beside no untouched part whose joints were logged.
     """
     data = JointData.of(experiments, sensors, progress)
-    result = data.fit(data.intervals, tolerance, progress)
+    specified = experiments[0].fit_options.tolerance if tolerance is None else tolerance
+    result = data.fit(data.intervals, specified, progress)
     calibrations = data.calibrations(data.intervals, result, code_version=code_version, created=created)
     if not calibrations:
         raise FitError(

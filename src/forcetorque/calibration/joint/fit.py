@@ -25,10 +25,10 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray, require_shape
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.joint.model_error_columns import ErrorTerm
 from forcetorque.calibration.joint.sums import PartSums
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit, Places
 from forcetorque.experiment.calibration.assumptions import FRAME, FRAME_ROOTS, SENSOR
+from forcetorque.experiment.calibration.model_error import ErrorTerm
 
 KINDS: Final = (SENSOR, FRAME)
 """Expected size of both kinds of changes, and what that expectation weighs."""

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -12,6 +11,14 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import cross
 from forcetorque.base.wrench import transform_wrench
+from forcetorque.experiment.calibration.model_error import (
+    ACCELERATION,
+    DELAY,
+    ZERO,
+    ErrorTerm,
+    ModelTolerance,
+    TermKind,
+)
 from forcetorque.robot.dynamics import net_wrench
 from forcetorque.robot.mechanics.sub_model_equations import (
     PartEquation,
@@ -21,46 +28,10 @@ from forcetorque.robot.mechanics.sub_model_equations import (
     part_equations,
 )
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import BodyTree, SubModel
+from forcetorque.robot.tree import BodyTree, Connection, SubModel
 
-ZERO: Final = "zero of "
-"""How the name of the error of a joint begins."""
-DELAY: Final = "delay of the readings of "
-"""How the name of the delay of a recording begins."""
 _STEP: Final = 1e-6
 """Step of numerical derivatives by joint positions; rad or m."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ModelTolerance:
-    """How far a robot model may be from the robot, as standard deviations."""
-
-    mass: float = 0.03
-    """Of the mass of every body, relative."""
-    centre_m: float = 0.003
-    """Of every coordinate of its centre of mass; m."""
-    joint_zero_rad: float = float(np.radians(0.5))
-    """Of the zero of every joint; rad, or m for one that slides."""
-    acceleration: float = 0.05
-    """Of every component of what an accelerometer reads at rest, or of gravity in a still frame; m/s2."""
-    delay_s: float = 0.005
-    """Of the time by which the readings of a recording come later than the joints; s."""
-
-
-EXACT: Final = ModelTolerance(mass=0.0, centre_m=0.0, joint_zero_rad=0.0, acceleration=0.0, delay_s=0.0)
-"""A model that is taken to be exact."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ErrorTerm:
-    """One number that the model may have wrong."""
-
-    name: str
-    """What it is, such as `mass of l_upper_leg`."""
-    unit: str
-    """Its unit; empty for a relative one."""
-    deviation: float
-    """Standard deviation before any data."""
 
 
 def error_terms(
@@ -85,18 +56,39 @@ def _terms(
 ) -> Iterator[ErrorTerm]:
     for part in weighed:
         for k in heavy_bodies(tree, part):
-            yield ErrorTerm(name=_mass(tree, k), unit="", deviation=tolerance.mass)
+            yield _mass_term(tree, k, tolerance)
     for part in parts:
         for k in heavy_bodies(tree, part):
-            name = _name(tree, k)
-            yield ErrorTerm(name=_mass(tree, k), unit="", deviation=tolerance.mass)
+            name, mass = _name(tree, k), tree.bodies[k].inertia.mass
+            yield _mass_term(tree, k, tolerance)
             for axis in "xyz":
-                yield ErrorTerm(name=f"{axis} of centre of {name}", unit="m", deviation=tolerance.centre_m)
+                yield ErrorTerm(
+                    name=f"{axis} of centre of {name}", kind=TermKind.CENTRE, deviation=tolerance.centre_m, nominal=mass
+                )
+    sliding = {
+        body.coordinate.joint
+        for body in tree.bodies
+        if body.coordinate is not None and body.connection is Connection.PRISMATIC
+    }
     of_cuts = (joint for part in weighed for joint in joints_of_cuts(tree, part))
     for joint in dict.fromkeys((*_joints(tree, parts), *of_cuts)):
-        yield ErrorTerm(name=f"{ZERO}{joint}", unit="rad", deviation=tolerance.joint_zero_rad)
+        yield ErrorTerm(
+            name=f"{ZERO}{joint}",
+            kind=TermKind.POSITION if joint in sliding else TermKind.ZERO,
+            deviation=tolerance.joints.get(joint, tolerance.joint_zero_rad),
+        )
     for axis in "xyz":
-        yield ErrorTerm(name=_acceleration(axis, tree), unit="m/s2", deviation=tolerance.acceleration)
+        yield ErrorTerm(name=_acceleration(axis, tree), kind=TermKind.ACCELERATION, deviation=tolerance.acceleration)
+
+
+def _mass_term(tree: BodyTree, k: int, tolerance: ModelTolerance) -> ErrorTerm:
+    body = tree.bodies[k]
+    deviation, total = tolerance.mass, body.inertia.mass
+    if not tolerance.links.keys().isdisjoint(body.links):
+        # of links at fixed joints, each by its own tolerance
+        errors = [tree.inertias[link].mass * tolerance.links.get(link, tolerance.mass) for link in body.links]
+        deviation = float(np.linalg.norm(errors)) / total
+    return ErrorTerm(name=_mass(tree, k), kind=TermKind.MASS, deviation=deviation, nominal=total)
 
 
 def delay_terms(recordings: Sequence[str], tolerance: ModelTolerance) -> tuple[ErrorTerm, ...]:
@@ -109,12 +101,17 @@ def delay_terms(recordings: Sequence[str], tolerance: ModelTolerance) -> tuple[E
     Returns:
         A term per recording; none where there can be no delay.
     """
-    terms = (ErrorTerm(name=DELAY + name, unit="s", deviation=tolerance.delay_s) for name in dict.fromkeys(recordings))
+    terms = (
+        ErrorTerm(name=DELAY + name, kind=TermKind.DELAY, deviation=tolerance.delay_s)
+        for name in dict.fromkeys(recordings)
+    )
     return tuple(term for term in terms if term.deviation > 0.0)
 
 
 def body_columns(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray]:
     """Say what a unit of every error of bodies, and of the acceleration of the root, adds to the left side.
+
+    Centres move along the axes of the heaviest link of a body, after which it is called.
 
     Args:
         tree: The robot.
@@ -129,7 +126,8 @@ def body_columns(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray
         inertia, pose, name = tree.bodies[k].inertia, equation.poses[k], _name(tree, k)
         columns[_mass(tree, k)] = -transform_wrench(pose, net_wrench(inertia, state))
         omega, alpha, proper = state.angular_velocity, state.angular_acceleration, state.proper_acceleration
-        for axis, unit in zip("xyz", inertia.mass * np.eye(3), strict=True):
+        body_R_link = tree.frames[name][1][:3, :3]
+        for axis, unit in zip("xyz", inertia.mass * body_R_link.T, strict=True):
             force = cross(alpha, unit) + cross(omega, cross(omega, unit))
             columns[f"{axis} of centre of {name}"] = -transform_wrench(
                 pose, np.concatenate([force, cross(unit, proper)], axis=1)
@@ -187,7 +185,7 @@ def _mass(tree: BodyTree, k: int) -> str:
 
 
 def _acceleration(axis: str, tree: BodyTree) -> str:
-    return f"{axis} of acceleration of {tree.root_link}"
+    return f"{axis}{ACCELERATION}{tree.root_link}"
 
 
 def _name(tree: BodyTree, k: int) -> str:

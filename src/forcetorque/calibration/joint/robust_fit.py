@@ -12,12 +12,13 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.calibration.contact_windows import FEWEST, disagreeing, minority, with_neighbours
 from forcetorque.calibration.joint.fit import ChangeSpread, fit_jointly
-from forcetorque.calibration.joint.model_error_columns import ErrorTerm, ModelTolerance, delay_terms, error_terms
+from forcetorque.calibration.joint.model_error_columns import delay_terms, error_terms
 from forcetorque.calibration.joint.nodes import Stretch
 from forcetorque.calibration.joint.sums import part_sums
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.calibration.joint.windows import WINDOW_S, PartWindows, part_windows
 from forcetorque.experiment.calibration.assumptions import LOADS
+from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelTolerance
 from forcetorque.robot.tree import SubModel
 
 _NEIGHBOURS = 2

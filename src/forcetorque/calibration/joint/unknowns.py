@@ -10,8 +10,8 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.calibration.joint.model_error_columns import ZERO, ErrorTerm
 from forcetorque.experiment.calibration.assumptions import LOADS
+from forcetorque.experiment.calibration.model_error import ZERO, ErrorTerm
 
 LENGTH_M: Final = 0.1
 """Moment over force that weigh alike: 0.1 N m is as much as 1 N."""

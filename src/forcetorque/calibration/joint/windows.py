@@ -17,17 +17,11 @@ from typing import Any, Final
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.calibration.joint.model_error_columns import (
-    DELAY,
-    ZERO,
-    ErrorTerm,
-    body_columns,
-    demand_columns,
-    mass_shares,
-)
+from forcetorque.calibration.joint.model_error_columns import body_columns, demand_columns, mass_shares
 from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, Stretch, WindowNodes
 from forcetorque.calibration.joint.unknowns import CHANGES, UNITS, JointFit
 from forcetorque.experiment.calibration.assumptions import LOADS
+from forcetorque.experiment.calibration.model_error import DELAY, ZERO, ErrorTerm
 from forcetorque.robot.mechanics.sub_model_equations import (
     PartEquation,
     joints_of_cuts,

@@ -21,6 +21,7 @@ from forcetorque.base.errors import FormatError, RecordingError, SerialNumberErr
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.stored_model import StoredTable, read_json, validated_table
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.experiment.calibration.model_error import ModelError
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.provenance import Lambda, Provenance, Selection, SensorIdentity, Validity
 from forcetorque.experiment.calibration.quadratic_correction import NonlinearTrial, QuadraticCorrection
@@ -145,6 +146,8 @@ class Calibration(StoredTable):
     """How lambda came about."""
     doubts: tuple[str, ...] = ()
     """What makes the data doubtful that were fitted."""
+    model_errors: tuple[ModelError, ...] = ()
+    """What the fit found of the robot model, which it took as uncertain; none where it was taken as exact."""
     provenance: Provenance
     """What the fit was made from."""
 

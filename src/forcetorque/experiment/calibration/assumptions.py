@@ -32,13 +32,25 @@ class Scale:
     expected: float
     """Root mean square deviation."""
     weight: float
-    """Pseudo coefficients: data overrule the expectation when they tell more coefficients than that."""
+    """Pseudo coefficients: data overrule the expectation when they determine more coefficients than that."""
+    least: float = 0.0
+    """Size below which no evidence takes it."""
 
 
 SENSOR: Final = Scale(expected=0.06, weight=6.0)
 """Every coefficient of the matrix, relative to the root mean square of its row."""
 FRAME: Final = Scale(expected=0.02, weight=6.0)
 """Gain, rotation and displacement of the reference."""
+COEFFICIENTS: Final = Scale(expected=0.06, weight=2.0)
+"""The same where the robot model may be wrong: gain and frame of the sensor then have sizes of their own."""
+GAIN: Final = Scale(expected=0.02, weight=4.0)
+"""Gain of every channel, relative."""
+ROTATION: Final = Scale(expected=float(np.radians(0.7)), weight=1.0)
+"""Rotation of the sensor about each of its axes; rad."""
+SHIFT: Final = Scale(expected=0.002, weight=1.0)
+"""Shift of its origin along each of them; m."""
+MODEL: Final = Scale(expected=1.0, weight=4.0, least=1.0)
+"""Errors of the robot model of one kind, over their tolerance: evidence may find them larger, never smaller."""
 QUADRATIC: Final = Scale(expected=0.05, weight=6.0)
 """Quadratic terms, over full scale."""
 FLATTENED: Final = 1.0 / 3.0

@@ -13,6 +13,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, check_arrays, read_only, require_shape
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.base.noise.means import means_over
+from forcetorque.experiment.calibration.model_error import ErrorTerm
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 
 _BLOCK = 8192
@@ -286,6 +287,10 @@ class WindowMeans(ArrayRecord):
     """What a derivative window of twice the length takes from them; shape (n, 6); N, N m."""
     variables: FloatArray = field(metadata=array("n", None))
     """Linear variables; shape (n, v)."""
+    terms: tuple[ErrorTerm, ...] = ()
+    """Numbers of the robot model that may be wrong."""
+    model: FloatArray | None = field(default=None, metadata=array("n", 6, None))
+    """Derivatives of the expected wrenches by these; shape (n, 6, terms); N, N m per unit of the term."""
 
     def __len__(self) -> int:
         return len(self.time_s)
@@ -311,7 +316,8 @@ class WindowMeans(ArrayRecord):
             The others left out.
         """
         names = ("time_s", "count", "raw", "reference", "flattening", "variables")
-        return replace(self, **{name: getattr(self, name)[marks] for name in names})
+        model = None if self.model is None else self.model[marks]
+        return replace(self, model=model, **{name: getattr(self, name)[marks] for name in names})
 
     @classmethod
     def of(cls, data: DataSet) -> WindowMeans:
@@ -368,3 +374,24 @@ def in_order(stretches: Sequence[WindowMeans]) -> list[WindowMeans]:
         raise ShapeError(f"data sets: expected one number of raw channels and of variables, got {sorted(shapes)}")
     recordings = list(dict.fromkeys(stretch.recording for stretch in stretches))
     return sorted(stretches, key=lambda s: (recordings.index(s.recording), s.time_s[0]))
+
+
+def model_terms(stretches: Sequence[WindowMeans]) -> tuple[tuple[ErrorTerm, ...], FloatArray]:
+    """Put the terms of the robot model of several intervals together.
+
+    Args:
+        stretches: Means of one sensor.
+
+    Returns:
+        The terms, one of a name and nominal value once; and the derivatives by them of all means, zero where an
+        interval does not depend on a term; shape (n, 6, terms); N, N m per unit of the term.
+    """
+    known = {(term.name, term.nominal): term for stretch in stretches for term in stretch.terms}
+    places = {key: place for place, key in enumerate(known)}
+    parts = []
+    for stretch in stretches:
+        part = np.zeros((len(stretch), 6, len(known)))
+        if stretch.model is not None:
+            part[:, :, [places[term.name, term.nominal] for term in stretch.terms]] = stretch.model
+        parts.append(part)
+    return tuple(known.values()), np.concatenate(parts)

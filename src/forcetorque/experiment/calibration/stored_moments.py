@@ -16,6 +16,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.stored_model import StoredTable, read_stored_table
 from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.model_error import ErrorTerm
 from forcetorque.experiment.calibration.moments import DataSet, Moments, WindowMeans
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.provenance import FittedInterval, SensorIdentity
@@ -71,6 +72,11 @@ class IntervalMoments(StoredTable):
     """Readings that lie at an end of the interval's range; counts; None in files of earlier versions."""
     extreme_variables: _Table | None = None
     """Variables at the same samples."""
+    terms: tuple[ErrorTerm, ...] = ()
+    """Numbers of the robot model that may be wrong; none where it is taken as exact."""
+    model: _Table | None = None
+    """Derivatives of the expected wrenches by these, components before terms; shape (n, 6 terms); None where there are
+    no terms."""
 
     @classmethod
     def of(
@@ -146,7 +152,23 @@ class IntervalMoments(StoredTable):
             reference=self.reference,
             flattening=self.flattening,
             variables=self.variables if self.variables.size else np.zeros((n, 0)),
+            terms=self.terms,
+            model=None if self.model is None else self.model.reshape(n, 6, len(self.terms)),
         )
+
+    def with_model(self, terms: tuple[ErrorTerm, ...], columns: FloatArray) -> IntervalMoments:
+        """Add what the robot model may have wrong.
+
+        Args:
+            terms: The numbers of the model.
+            columns: Derivatives of the expected wrenches by these, on the same windows; shape (n, 6, terms).
+
+        Returns:
+            The same with them.
+        """
+        if not terms:
+            return self
+        return self.model_copy(update={"terms": terms, "model": columns.reshape(len(columns), -1)})
 
     @property
     def moments(self) -> Moments:

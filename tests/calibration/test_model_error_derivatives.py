@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Derivatives of expected wrenches by the robot model, and the calibration that estimates its errors."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.noise.means import means_over
+from forcetorque.calibration.calibrate import calibrate_sensor, fit_doubts
+from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
+from forcetorque.calibration.model_error_derivatives import SAMPLES_PER_WINDOW, model_columns
+from forcetorque.calibration.moments import recording_moments
+from forcetorque.experiment.calibration import assumptions
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.assumptions import Scale
+from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError, TermKind
+from forcetorque.experiment.calibration.moments import WindowMeans
+from forcetorque.experiment.calibration.stored_moments import read_moments
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Use
+from forcetorque.robot.model import RobotModel
+from forcetorque.simulation.modified_robot import RobotErrors
+from tests.calibration.synthetic import LIMIT_COUNTS, PRIOR, anyhow, read_by
+from tests.calibration.synthetic import assumptions as assumed
+from tests.scenes.experiments import PARQUET
+
+HAND = ("hand", "tool")
+"""Links of one body: the tool is at a fixed joint, with the axes of the hand."""
+STEP = 1e-4
+"""Step of the central differences: their own error is its square."""
+ALL, SAMPLED = 1e-3, 0.1
+"""Share of a column by which it may differ: at all samples by the steps of both, at ten of a window by sampling."""
+
+
+def _run(folder: Path, robot: str = "tolerance = {}\n") -> SensorRun:
+    text = (folder / PARQUET).read_text(encoding="utf-8").replace('urdf = "arm.urdf"\n', f'urdf = "arm.urdf"\n{robot}')
+    (folder / "own.toml").write_text(text, encoding="utf-8")
+    return SensorRun(load_experiment(folder / "own.toml"), "arm_ft")
+
+
+def _expected(run: SensorRun, model: RobotModel) -> FloatArray:
+    """Window means of what the sensor must read by another robot, its log being the same."""
+    other = SensorRun(replace(run.experiment, model=model), run.sensor)
+    (samples,) = other.samples(Use.CALIBRATION)
+    return means_over(samples.data_set.time_s, samples.data_set.reference)[1]
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [("mass of hand", "mass"), ("y of centre of hand", "centre"), ("zero of wrist", "zero"), ("zero of elbow", "zero")],
+)
+@pytest.mark.parametrize(("samples_per_window", "close"), [(1_000, ALL), (SAMPLES_PER_WINDOW, SAMPLED)])
+def test_columns_are_differences_between_robots(
+    arm: Path, monkeypatch: pytest.MonkeyPatch, name: str, kind: str, samples_per_window: int, close: float
+) -> None:
+    """By the readable dynamics of robots whose mass, centre or zero differs; a column of another name is no match."""
+    monkeypatch.setattr("forcetorque.calibration.model_error_derivatives.SAMPLES_PER_WINDOW", samples_per_window)
+    run = _run(arm)
+    (samples,) = run.samples(Use.CALIBRATION)
+    columns = model_columns(run, samples.interval, samples.data_set)
+    by_name = {term.name: columns.columns[:, :, k] for k, term in enumerate(columns.terms)}
+
+    def robot(step: float) -> RobotModel:
+        model = run.experiment.model
+        if kind == "centre":  # the second moment about the origin of the link stays
+            own, mass = model.links[HAND[0]], sum(model.links[link].mass for link in HAND)
+            moved = {HAND[0]: replace(own, first_moment=own.first_moment + mass * np.array([0.0, step, 0.0]))}
+            return replace(model, links={**model.links, **moved})
+        zero = {} if kind == "mass" else {name.removeprefix("zero of "): step}
+        masses = dict.fromkeys(HAND, step) if kind == "mass" else {}
+        return RobotErrors(mass=masses, centre_m={}, joint_zero_rad=zero).applied_to(model)
+
+    difference = (_expected(run, robot(STEP)) - _expected(run, robot(-STEP))) / (2.0 * STEP)
+    size = np.abs(difference).max()
+    assert size > 0.0
+    np.testing.assert_allclose(by_name.pop(name), difference, rtol=0.0, atol=close * size)
+    assert all(np.abs(other - difference).max() > 3.0 * close * size for other in by_name.values())
+
+
+def test_a_model_that_is_exact_has_no_columns(arm: Path) -> None:
+    """Without tolerances, and with 0 for all, there are none; for one link or joint, its columns alone are missing."""
+    none = "tolerance = { mass_relative = 0, centre_m = 0, joint_zero_deg = 0, tilt_deg = 0, delay_s = 0 }\n"
+    for text in ("", none):
+        run = _run(arm, text)
+        (samples,) = run.samples(Use.CALIBRATION)
+        assert model_columns(run, samples.interval, samples.data_set).terms == ()
+        assert _calibrated(run).model_errors == ()
+    one = _run(arm, "tolerance = { links = { hand = 0.0, tool = 0.0 }, joints = { wrist = 2.0 } }\n")
+    terms = {term.name: term for term in model_columns(one, samples.interval, samples.data_set).terms}
+    assert "mass of hand" not in terms
+    assert terms["zero of wrist"].deviation == pytest.approx(np.radians(2.0))
+    assert terms["zero of elbow"].deviation == pytest.approx(np.radians(0.5))
+
+
+def test_a_link_and_a_joint_of_one_name_have_tolerances_of_their_own(arm: Path) -> None:
+    """Neither overwrites the other."""
+    run = _run(arm, "tolerance = { links = { hand = 0.01, tool = 0.01 }, joints = { wrist = 20.0 } }\n")
+    tolerance = run.experiment.fit_options.tolerance
+    assert tolerance is not None
+    assert (tolerance.links, tolerance.joints) == ({"hand": 0.01, "tool": 0.01}, {"wrist": np.radians(20.0)})
+
+
+@pytest.mark.parametrize("load_kg", [0.5, 0.8, 1.6])
+def test_an_attached_load_is_no_error_of_a_link(arm: Path, load_kg: float) -> None:
+    """Masses and centres stay those of the robot, also where the load makes another link of the body the heaviest."""
+    run = _run(arm)
+    (samples,) = run.samples(Use.CALIBRATION)
+    bare = model_columns(run, samples.interval, samples.data_set)
+    file = arm / "own.toml"
+    load = f'\n[[load]]\nlink = "tool"\nmass_kg = {load_kg}\ncentre_of_mass_m = [0.0, 0.0, 0.0]\n'
+    file.write_text(file.read_text(encoding="utf-8") + load, encoding="utf-8")
+    run = SensorRun(load_experiment(file), "arm_ft")
+    (samples,) = run.samples(Use.CALIBRATION)
+    loaded = model_columns(run, samples.interval, samples.data_set)
+    of_bare = {term.name: bare.columns[:, :, k] for k, term in enumerate(bare.terms)}
+    of_loaded = {term.name: loaded.columns[:, :, k] for k, term in enumerate(loaded.terms)}
+    np.testing.assert_allclose(of_loaded["mass of hand"], of_bare["mass of hand"], rtol=1e-9)
+    assert np.abs(of_loaded["zero of wrist"]).max() > np.abs(of_bare["zero of wrist"]).max()
+
+
+def test_recordings_with_and_without_tolerances_are_a_warning(arm: Path) -> None:
+    """By the names of the intervals in which the model is taken as exact."""
+    uncertain, exact = recording_moments(_run(arm))[0], recording_moments(_run(arm, ""))[0]
+    (interval,) = exact.intervals
+    named = interval.interval.model_copy(update={"label": "other"})
+    apart = interval.model_copy(update={"interval": named, "recording": "other day"})
+    both = [uncertain, exact.model_copy(update={"intervals": (apart,)})]
+    fit = calibrate_sensor(None, moments=both, code_version="1", created="now")
+    assert any("taken as exact in other day: other" in doubt for doubt in fit.doubts)
+
+
+@pytest.mark.parametrize(("key", "known"), [("links = { hend = 0.0 }", "hand"), ("joints = { wrst = 1.0 }", "wrist")])
+def test_a_tolerance_of_something_unknown_is_refused(arm: Path, key: str, known: str) -> None:
+    """With the names that there are."""
+    with pytest.raises(ExperimentError, match=rf"\[robot\] tolerance.*{known}"):
+        _run(arm, f"tolerance = {{ {key} }}\n")
+
+
+def test_stored_moments_carry_the_model(arm: Path) -> None:
+    """A calibration from a file of moments is that from the recording, errors of the model included."""
+    run = _run(arm)
+    (moments,) = recording_moments(run)
+    moments.save(arm / "moments.json")
+    stored = calibrate_sensor(None, moments=[read_moments(arm / "moments.json")], code_version="1", created="now")
+    direct = _calibrated(run)
+    assert direct.model_errors
+    assert stored.model_errors == direct.model_errors
+    np.testing.assert_array_equal(stored.matrix, direct.matrix)
+
+
+def _calibrated(run: SensorRun) -> Calibration:
+    return calibrate_sensor(run, code_version="1", created="now")
+
+
+def test_a_mass_that_is_wrong_is_named(arm: Path) -> None:
+    """A hand of twice its weight, known to 3 %, is a warning with value and interval; the right one is none."""
+    right, run = _calibrated(_run(arm)), _run(arm)
+    heavy = RobotErrors(mass=dict.fromkeys(HAND, 1.0), centre_m={}, joint_zero_rad={}).applied_to(run.experiment.model)
+    wrong = _calibrated(SensorRun(replace(run.experiment, model=heavy), run.sensor))
+    assert not [doubt for doubt in fit_doubts(right) if "robot model" in doubt]
+    (warning,) = [doubt for doubt in fit_doubts(wrong) if "robot model" in doubt]
+    assert "mass of hand: off by" in warning
+    assert "95 %" in warning
+    (error,) = [error for error in wrong.model_errors if error.name == "mass of hand"]
+    assert error.value < -3.0 * error.tolerance
+
+
+def test_an_error_is_suspicious_beyond_three_tolerances() -> None:
+    """And only where its interval excludes zero."""
+    error = ModelError(name="mass of hand", unit="", value=0.1, standard_error=0.01, tolerance=0.03)
+    assert error.is_suspicious
+    assert error.message == "mass of hand: off by +10 % (95 %: +8.04 to +12), tolerance 3 %"
+    assert not error.model_copy(update={"value": 0.08}).is_suspicious
+    assert not error.model_copy(update={"standard_error": 0.06}).is_suspicious
+
+
+SIZES = {"COEFFICIENTS": 0.06, "GAIN": 0.02, "ROTATION": 0.012, "SHIFT": 0.002, "MODEL": 1.0, "QUADRATIC": 0.05}
+TERMS = (
+    ErrorTerm(name="mass of tool", kind=TermKind.MASS, deviation=0.03, nominal=2.0),
+    ErrorTerm(name="zero of wrist", kind=TermKind.ZERO, deviation=0.01),
+)
+
+
+def _means_with_model() -> WindowMeans:
+    rng = np.random.default_rng(5)
+    load = anyhow(n=50, seed=6)
+    derivatives = np.stack([load, rng.normal(size=load.shape) * [20.0, 20.0, 20.0, 2.0, 2.0, 2.0]], axis=2)
+    return replace(read_by(load, noise_counts=5.0), terms=TERMS, model=derivatives)
+
+
+def _written_out(means: WindowMeans, result: GenerativeFit) -> tuple[FloatArray, FloatArray]:
+    """Mean and covariance of coefficients E of all rows and of the two errors, by one dense system of all readings."""
+    n, load, inverse = len(means), means.reference, np.linalg.inv(PRIOR)
+    size = LIMIT_COUNTS * np.sqrt((PRIOR**2).mean(axis=1))
+    root = np.linalg.cholesky(inverse.T @ inverse)
+    changes, deviations = [], []
+    for row in range(6):
+        for column in range(6):
+            changes.append(np.outer(np.eye(6)[row], size[row] / LIMIT_COUNTS * root[:, column]))
+            deviations.append(SIZES["COEFFICIENTS"])
+    for channel in range(6):
+        changes.append(np.outer(PRIOR[:, channel], inverse[channel]))
+        deviations.append(SIZES["GAIN"])
+    for axis in np.eye(3):
+        skew = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
+        changes.append(np.block([[skew, np.zeros((3, 3))], [np.zeros((3, 3)), skew]]))
+        deviations.append(SIZES["ROTATION"])
+    for axis in np.eye(3):
+        skew = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
+        changes.append(np.block([[np.zeros((3, 3)), np.zeros((3, 3))], [skew, np.zeros((3, 3))]]))
+        deviations.append(SIZES["SHIFT"])
+    assert means.model is not None
+    columns = [load @ change.T for change in changes] + [means.model[:, :, k] for k in range(2)]
+    deviations += [term.deviation for term in TERMS]
+    counts = load @ inverse.T / LIMIT_COUNTS
+    about = counts - counts.mean(axis=0)
+    first, second = np.triu_indices(6)
+    for row in range(6):
+        for term in (about[:, first] * about[:, second]).T:
+            columns.append(np.outer(term, np.eye(6)[row]))
+            deviations.append(SIZES["QUADRATIC"] * size[row])
+    for row in range(6):
+        columns.append(np.outer(np.ones(n), np.eye(6)[row]))
+        deviations.append(1e7)  # an offset of which nothing is known
+    design = np.stack([column.ravel() for column in columns], axis=1)
+    time = means.time_s
+    blocks = []
+    for noise in result.posterior.noise:
+        apart = np.abs(time[:, None] - time)
+        slow = noise.ratio * np.exp(-apart / noise.time_constant_s) if noise.ratio else np.zeros((n, n))
+        blocks.append(np.linalg.inv(noise.white**2 * (np.eye(n) + slow)))
+    precision = np.zeros((6 * n, 6 * n))
+    for row, block in enumerate(blocks):
+        precision[row::6, row::6] = block
+    weighed = precision @ design
+    # in units of the deviations, for the sake of the condition
+    scale = np.array(deviations)
+    known = np.linalg.inv(scale[:, None] * (design.T @ weighed) * scale + np.eye(len(scale)))
+    measured = (means.raw @ PRIOR.T - load).ravel()
+    mean, covariance = scale * (known @ (scale * (weighed.T @ measured))), known * np.outer(scale, scale)
+    told = np.zeros((38, len(scale)))
+    told[:36, : len(changes)] = np.stack([change.ravel() for change in changes], axis=1)
+    told[36:, len(changes) : len(changes) + 2] = np.eye(2)
+    return told @ mean, told @ covariance @ told.T
+
+
+@pytest.mark.parametrize("as_they_are", [True, False])
+def test_rows_with_a_common_model_are_one_gaussian_inference(
+    monkeypatch: pytest.MonkeyPatch, as_they_are: bool
+) -> None:
+    """Coefficients of all rows and errors of the model, the noise being given; other sizes give another result."""
+    for name, size in SIZES.items():
+        taken = size if as_they_are or name != "GAIN" else 3.0 * size
+        monkeypatch.setattr(assumptions, name, Scale(expected=taken, weight=np.inf))
+    means = _means_with_model()
+    result = fit_generative([means], PRIOR, assumed())
+    mean, covariance = _written_out(means, result)
+    spread = np.sqrt(np.diag(covariance))
+    found = np.r_[result.posterior.mean[:, :6].ravel(), [error.value for error in result.model_errors]]
+    deviations = np.sqrt(np.r_[np.einsum("kii->ki", result.posterior.covariance[:, :6, :6]).ravel(), np.zeros(2)])
+    deviations[36:] = [error.standard_error for error in result.model_errors]
+    close = np.allclose(found / spread, mean / spread, atol=1e-5) and np.allclose(deviations / spread, 1.0, atol=1e-5)
+    assert close is as_they_are
+
+
+def test_the_errors_of_the_model_are_in_the_file(arm: Path) -> None:
+    """Name, unit, value, standard error and tolerance of each, and a file without them is read as before."""
+    calibration = _calibrated(_run(arm))
+    calibration.save(arm / "own.json")
+    content = json.loads((arm / "own.json").read_text(encoding="utf-8"))
+    assert {"name", "unit", "value", "standard_error", "tolerance"} == set(content["model_errors"][0])
+    del content["model_errors"]
+    assert Calibration.model_validate(content).model_errors == ()
