@@ -52,10 +52,15 @@ def leave_out_empty_arguments(*event: Any) -> tuple[str, None] | None:
     return ("", None) if arguments == "(**data: Any)" else None
 
 
+AMBIGUOUS = {"Experiment"}
+"""Classes of several modules, which an annotation in quotes does not distinguish."""
+
+
 def leave_builtins_alone(app: Sphinx, doctree: nodes.document) -> None:
-    """Have `type` and its like in an annotation not be taken for fields of that name."""
+    """Have `type` and its like in an annotation not be taken for fields of that name, nor link ambiguous names."""
     for node in list(doctree.findall(pending_xref)):
-        if node.get("refdomain") == "py" and hasattr(builtins, node["reftarget"]):
+        target = node.get("reftarget")
+        if node.get("refdomain") == "py" and (hasattr(builtins, target) or target in AMBIGUOUS):
             node.replace_self(node.children)
 
 
