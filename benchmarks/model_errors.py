@@ -51,8 +51,8 @@ from forcetorque.simulation.sensor_family import Specimen, draw_specimen
 from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
 
 LIMBS = ("l_leg_ft", "r_leg_ft", "l_foot_ft", "l_arm_ft")
-UNCERTAIN = "tolerance = {}\n"
-"""Line of the experiment file that states the default tolerances of the robot model."""
+UNCERTAIN, EXACT = "tolerance = {}\n", 'tolerance = "exact"\n'
+"""Lines of the experiment file that state the default tolerances of the robot model, and none."""
 RANDOM, RATE_HZ, HOUR_NS = "random", 100.0, 3_600_000_000_000
 MOTIONS = {"grid": ("grid",), "tz": ("tz",), "pooled": ("grid", "tz", RANDOM)}
 """Recordings of each kind of case; the random one is of another power-up."""
@@ -349,7 +349,7 @@ def main() -> None:
     tasks = [(seed, robot, limb) for seed in seeds for robot in robots for limb in options.limbs]
     with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
         work = partial(
-            _of_limb, families=options.families, motions=options.motions, table="" if options.exact else UNCERTAIN
+            _of_limb, families=options.families, motions=options.motions, table=EXACT if options.exact else UNCERTAIN
         )
         cases = [case for some in pool.map(work, tasks) for case in some]
     print("\n".join(table(cases)))

@@ -231,7 +231,7 @@ def _with_intervals(text: str, intervals: Intervals, use: str = "calibration") -
 
 
 def _load(text: str, data: Path, path: Path, *, exact: bool) -> Experiment:
-    text = text if exact else text.replace("[robot]\n", "[robot]\ntolerance = {}\n")
+    text = text.replace("[robot]\n", '[robot]\ntolerance = "exact"\n') if exact else text
     path.write_text(text.replace("../../shared/data", data.as_posix()), encoding="utf-8")
     return load_experiment(path)
 

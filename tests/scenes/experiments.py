@@ -36,7 +36,7 @@ FT_LOG, ARM_LOG = "log/arm_ft/analog:o/data.log", "log/arm/stateExt:o/data.log"
 _TOOL = (link_xml("tool", mass=0.5, xyz="0.03 0 -0.05"), joint_xml("tool_joint", "hand", "tool", xyz="0 0 -0.1"))
 """Something in the hand, at a fixed joint that carries no sensor tag."""
 
-_HEAD = 'schema = "forcetorque/experiment/1"\nname = "small arm"\n\n[robot]\nurdf = "arm.urdf"\n'
+_HEAD = 'schema = "forcetorque/experiment/1"\nname = "small arm"\n\n[robot]\nurdf = "arm.urdf"\ntolerance = "exact"\n'
 _PARQUET = '\n[recording]\nformat = "parquet"\npath = "recording"\n'
 _YARP = f"""
 [recording]

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.noise.means import WINDOW_ROUNDING, WINDOW_S
 from forcetorque.calibration.joint.model_error_columns import body_columns, delay_terms, error_terms
-from forcetorque.experiment.calibration.model_error import ACCELERATION, DELAY, ZERO, ErrorTerm, TermKind
+from forcetorque.experiment.calibration.model_error import ACCELERATION, DELAY, EXACT, ZERO, ErrorTerm, TermKind
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, MovingSupport, Support
@@ -57,15 +57,15 @@ def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> ModelCol
         data: The fitted samples of the interval.
 
     Returns:
-        Derivatives on the windows of `data`; no terms where the experiment states no tolerance, no link beyond the
-        sensor has inertia, or where a load stands in for the robot.
+        Derivatives on the windows of `data`; no terms where the model is exact, no link beyond the sensor has inertia,
+        or where a load stands in for the robot.
     """
     picked, window = _picked(data)
     nothing = ModelColumns(terms=(), columns=np.zeros((int(window[-1]) + 1, 6, 0)))
     experiment, support, loads = run.experiment, interval.support, run.experiment.loads
     tolerance = experiment.fit_options.tolerance
     of_load = loads is not None and (loads.applied is not None or loads.in_place_of_robot)
-    if tolerance is None or support is None or of_load:
+    if tolerance == EXACT or support is None or of_load:
         return nothing
     tree = build_tree(experiment.model_on(support), support.frame)
     part = next((part for part in sub_models(tree, [run.sensor.name]) if part.sensor == run.sensor.name), None)

@@ -88,7 +88,7 @@ def recording_moments(runs: Runs) -> list[RecordingMoments]:
         if not own:
             continue
         stated_by = CampaignRecording.of(run)
-        kept, left_out = agreeing_moments(stated_by, own, variables=variables, run=run)
+        kept, left_out = agreeing_moments(run, own, variables=variables)
         said = [*(doubt.message for doubt in doubts), *reference_doubts(run), *left_out]
         moments = moments_of(stated_by, kept, variables=variables, doubts=said)
         results.append(moments.model_copy(update={"load_error": _load_error(run)}))
@@ -96,32 +96,29 @@ def recording_moments(runs: Runs) -> list[RecordingMoments]:
 
 
 def agreeing_moments(
-    recording: CampaignRecording,
-    intervals: Sequence[CampaignInterval],
-    *,
-    variables: Sequence[LinearVariable],
-    run: SensorRun | None = None,
+    run: SensorRun, intervals: Sequence[CampaignInterval], *, variables: Sequence[LinearVariable]
 ) -> tuple[list[IntervalMoments], list[str]]:
     """Reduce intervals of a recording, without the samples that disagree with all others.
 
+    With a prior matrix they come with what errors of the robot model do to the expected wrenches.
+
     Args:
-        recording: The recording.
+        run: The sensor in the recording.
         intervals: Samples of its calibration intervals.
         variables: Linear variables that are fitted.
-        run: The sensor in that recording, to say what the robot model may have wrong; None to take it as exact.
 
     Returns:
         What is kept of the intervals, and a sentence per span that was left out.
     """
-    options, data_sets = recording.options, [interval.data_set for interval in intervals]
+    recording, data_sets = CampaignRecording.of(run), [interval.data_set for interval in intervals]
     agree, spans = agreeing_samples(
-        data_sets, recording.sensor.prior, _assumptions(recording), variables=variables, drift=options.drift
+        data_sets, recording.sensor.prior, _assumptions(recording), variables=variables, drift=recording.options.drift
     )
     kept = []
     for interval, data, marks in zip(intervals, data_sets, agree, strict=True):
         if marks.any():
             moments = interval.moments(marks)
-            if run is not None and recording.sensor.prior is not None:
+            if recording.sensor.prior is not None:
                 model = model_columns(run, interval.part.interval, data.kept(marks))
                 moments = moments.with_model(model.terms, model.columns)
             kept.append(moments)

@@ -12,7 +12,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.experiment.calibration.assumptions import REPEATABILITY
 from forcetorque.experiment.calibration.estimation_type import EstimationType, OffsetStrategy
-from forcetorque.experiment.calibration.model_error import ModelTolerance
+from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.input_files import path_endings, recording_name
 from forcetorque.experiment.section import Section
@@ -50,8 +50,8 @@ class FitOptions:
     """Whether the offset of a session may move evenly in time."""
     nonlinear: bool = False
     """Whether quadratic terms may correct readings, where they win on recordings that were not fitted."""
-    tolerance: ModelTolerance | None = None
-    """How far the robot model may be from the robot; None where the file does not say so."""
+    tolerance: ModelTolerance = EXACT
+    """How far the robot model may be from the robot."""
 
     offset: OffsetStrategy = OffsetStrategy.ONE_SHOT
     """How the offset is found."""

@@ -72,9 +72,8 @@ class Robot(Table):
     """Joints that nobody logged and that stand still all along, by name: rad, or m where prismatic."""
     gravity: Positive = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
-    tolerance: Tolerance | None = None
-    """How far the model may be from the robot. Left out, the fit of one sensor takes it as exact, and the joint fit
-    takes the default tolerances."""
+    tolerance: Tolerance | Literal["exact"] = Tolerance()
+    """How far the model may be from the robot; "exact" for a simulated robot, or one that was measured part by part."""
 
 
 class Support(Table):

@@ -19,7 +19,7 @@ from pydantic import Field, create_model
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, known_names
 from forcetorque.base.toml_file import Table, Text, read_toml, toml_content
 from forcetorque.experiment.additions import read_robot
-from forcetorque.experiment.calibration.model_error import ModelTolerance
+from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.contacts import read_contacts
 from forcetorque.experiment.core_tables import CalibrationTable, ProcessingTable, Sensor, fit_options, processing_of
@@ -272,11 +272,11 @@ def _load(parsed: ExperimentFile, file: Path) -> Experiment:
     )
 
 
-def _tolerance(parsed: ExperimentFile, file: Path, model: RobotModel) -> ModelTolerance | None:
-    """How far the robot model may be off, for links and joints that it has; None where the file does not say so."""
-    tolerance = None if parsed.robot is None else parsed.robot.tolerance
-    if tolerance is None:
-        return None
+def _tolerance(parsed: ExperimentFile, file: Path, model: RobotModel) -> ModelTolerance:
+    """How far the robot model may be off, for links and joints that it has; exact where a section stands in for it."""
+    tolerance = "exact" if parsed.robot is None else parsed.robot.tolerance
+    if tolerance == "exact":
+        return EXACT
     for key, named, known in (("links", tolerance.links, model.links), ("joints", tolerance.joints, model.joints)):
         for name in named:
             if name not in known:

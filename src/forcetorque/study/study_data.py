@@ -206,7 +206,9 @@ def _kept(data: StudyData) -> tuple[dict[str, IntervalMoments], dict[str, list[s
     variables = [variable.linear for variable in data.sensor.variables]
     for name in dict.fromkeys(interval.recording for interval in data.calibration):
         own = [interval for interval in data.calibration if interval.recording == name]
-        moments, doubts[name] = agreeing_moments(data.recordings[name], own, variables=variables)
+        # read once more, for what errors of the robot model do to the expected wrenches
+        run = SensorRun(load_experiment(data.recordings[name].file), data.sensor.name)
+        moments, doubts[name] = agreeing_moments(run, own, variables=variables)
         kept |= {one.interval.label: one for one in moments}
     return kept, doubts
 

@@ -254,7 +254,7 @@ def calibrate_jointly(
         recordings: Experiments with one robot.
         sensors: Sensors to calibrate; all of the first file if None.
         folder: Where `save` of the result writes a file per sensor, and what they share.
-        tolerance: How far the robot model may be off; what the first file says if None, else `ModelTolerance()`.
+        tolerance: How far the robot model may be off; what the first file says if None.
         progress: Called with a line for people as work goes on, such as `print`.
 
     Returns:

@@ -228,8 +228,7 @@ def calibrate_jointly(
         sensors: Sensors to calibrate, which have a prior matrix; all of the first file if None.
         code_version: Version of this library, for the record.
         created: Date and time, ISO 8601, for the record.
-        tolerance: How far the robot model may be off; what the first file says if None, else
-            `ModelTolerance()`.
+        tolerance: How far the robot model may be off; what the first file says if None.
         progress: Called with what is being done.
 
     Returns:
