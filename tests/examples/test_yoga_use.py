@@ -44,7 +44,7 @@ def run(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> SensorRun:
 
 
 def test_a_foot_that_was_free_is_not_to_be_stood_upon(run: SensorRun) -> None:
-    """Without a stated use it is asked for the weight of the robot: do not use, and the 99 % interval holds the truth.
+    """Without a stated use it is asked for the weight of the robot: not enough data; the 99 % interval holds the truth.
 
     The error is predicted as 28 to 84 N with 95 %, that of the prior as 29 to 81 N.
     """
@@ -52,7 +52,7 @@ def test_a_foot_that_was_free_is_not_to_be_stood_upon(run: SensorRun) -> None:
     (case,) = operating_load_cases([run])
     assert case.words.startswith("the weight of the robot, 324 N, on r_sole")
     (verdict,) = use_verdicts(run, {"new": calibration})
-    assert verdict.decision == "do not use"
+    assert verdict.decision == "not enough data"
     assert verdict.within == 0.0
     after, before = predict(calibration, case), predict_prior(calibration, case)
     assert before is not None

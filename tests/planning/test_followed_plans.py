@@ -102,11 +102,12 @@ def test_a_foot_that_hung_free_may_be_used_after_recordings_with_weights(tmp_pat
     """And not after recordings without: a foot by itself is too light to teach what the use needs."""
     judged = outcomes(range(811, 812), fitted={"tz": ["tz"]})
     (push,) = (one for one in judged if (one.case.sensor, one.use.name) == (FOOT, "push"))
-    assert push.decision == "do not use"
+    assert push.decision == "not enough data"
+    assert push.within < 0.1
     followed = Lab(folder=tmp_path, rest=_POLE + _WEIGHTS).follow(push)
     assert followed.decision == "use"
     assert followed.good
-    assert Lab(folder=tmp_path, rest=_POLE).follow(push).decision == "do not use"
+    assert Lab(folder=tmp_path, rest=_POLE).follow(push).decision == "not enough data"
 
 
 @pytest.mark.long
@@ -125,8 +126,8 @@ def test_planned_recordings_bring_refused_sensors_to_use(
     """All 31 legs, all 100 feet with weights, 20 of 100 feet without; all are good, none errs more than stated."""
     lab = Lab(folder=tmp_path, rest=rest)
     followed = [(one, lab.follow(one)) for one in refused if one.case.sensor == sensor]
-    for hopeless in (False, True):
-        used = [after.decision == "use" for one, after in followed if one.hopeless == hopeless]
+    for unlikely in (False, True):
+        used = [after.decision == "use" for one, after in followed if (one.within <= 0.1) == unlikely]
         assert least * len(used) <= sum(used) <= most * len(used)
     good = [after for _, after in followed if after.decision == "use"]
     assert sum(not one.good for one in good) <= 0.05 * len(good)

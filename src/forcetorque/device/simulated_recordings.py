@@ -193,7 +193,7 @@ def device_experiment_text(device: DeviceFile, simulated: DeviceRecording, *, ur
     name = json.dumps(f"{device.name}, {simulated.load.name}")
     text = [
         f'schema = "forcetorque/experiment/1"\nname = {name}\n',
-        f"\n[robot]\nurdf = {json.dumps(urdf)}\ngravity = {device.gravity!r}\ntolerance = "exact"\n",
+        f'\n[robot]\nurdf = {json.dumps(urdf)}\ngravity = {device.gravity!r}\ntolerance = "exact"\n',
         f'\n[recording]\nformat = "parquet"\npath = {json.dumps(recording)}\n',
         *(_sensor_text(device, number) for number in range(len(device.sensor))),
         f"\n[calibration]\naccuracy = {{ force_N = {simulation.accuracy_N!r}, "

@@ -11,7 +11,7 @@ from typing import TypeVar
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.calibration.summary import LITTLE_LEARNT, learnt_directions, to_learn
 from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
-from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts
+from forcetorque.evaluation.load_cases.verdict import KEEP_PRIOR, UseVerdict, use_verdicts
 from forcetorque.evaluation.section import LOAD_CASES
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
@@ -228,7 +228,10 @@ def _as_it_is(verdict: UseVerdict) -> str:
             else "Its offset holds until the sensor is switched off or mounted anew."
         )
         return "Put {calibration} on the robot for {use}: `forcetorque export` writes what robots read. " + offset
-    return "Do not rely on {calibration} for {use} yet." + (_instead(verdict) if _predicts_too_much(verdict) else "")
+    # where the prior was measured to err less, a remedy says so
+    measured = any(reason.remedy == KEEP_PRIOR for reason in verdict.reasons)
+    instead = _instead(verdict) if _predicts_too_much(verdict) and not measured else ""
+    return "Do not rely on {calibration} for {use} yet." + instead
 
 
 def _instead(verdict: UseVerdict) -> str:

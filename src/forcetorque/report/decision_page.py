@@ -19,7 +19,7 @@ from forcetorque.results.table import Table, short_names, table_of, with_first_c
 _WORDS = (
     "use: with 95 % probability the predicted errors are within what is allowed, and data that were not fitted, with a "
     "load that moved, do not speak against it.",
-    "do not use: that probability is 10 % or less, or such data speak against it.",
+    "do not use: on data that were not fitted the errors are beyond what is allowed, or above those of the prior.",
     "not enough data: neither of the two.",
     "The allowed error is specified with the load case; by default it is a twentieth of the loads.",
 )

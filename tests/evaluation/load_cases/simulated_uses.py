@@ -20,7 +20,7 @@ from forcetorque.evaluation.load_cases.load_case import (
     pushes_at,
 )
 from forcetorque.evaluation.load_cases.validation_evidence import Evidence, ValidationSegment, evidence
-from forcetorque.evaluation.load_cases.verdict import UNLIKELY, Decision, LoadCaseAssessment
+from forcetorque.evaluation.load_cases.verdict import Decision, LoadCaseAssessment
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moments import DataSet
 from tests.calibration.push_error import LIMIT_COUNTS, Case, cases
@@ -62,11 +62,6 @@ class Outcome:
     def above(self) -> bool:
         """Whether its true force or moment error is larger than the largest that is stated."""
         return bool((self.true > self.stated).any())
-
-    @property
-    def hopeless(self) -> bool:
-        """Whether it is refused by its predicted error."""
-        return self.within <= UNLIKELY
 
 
 def outcomes(seeds: range, *, fitted: Mapping[str, Sequence[str]] = FITTED) -> Iterator[Outcome]:

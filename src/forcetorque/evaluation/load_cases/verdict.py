@@ -148,6 +148,11 @@ LOOK_FOR_CAUSE: Final = (
     "and losses; masses that the robot's model lacks, and a sensor that warms up, look like it too."
 )
 """About an error on data that were not fitted which nothing predicts."""
+KEEP_PRIOR: Final = (
+    "Keep the prior matrix, which erred less on these data, until the cause is found: `forcetorque inspect` names "
+    "contacts, steps, delays and losses; look for masses that the robot model lacks, too."
+)
+"""About a calibration that errs more than its prior on data that were not fitted."""
 CORRECT_DATA: Final = "Correct in the recording or the experiment file what the warning names, and calibrate again."
 """About fitted data with warnings."""
 ADD_VALIDATION: Final = (
@@ -189,8 +194,6 @@ def error_reduction_advice(after: PredictedError, allowed: tuple[float, float]) 
     return f"Most of the {quantity} error comes from {_BY_SOURCE[max(shares, key=shares.__getitem__)]}"
 
 
-UNLIKELY: Final = 0.1
-"""Predicted probability of an error within what is allowed up to which the verdict is `do not use`."""
 FEWEST_S: Final = 5
 """Seconds of validation data below which they test nothing."""
 CONSTANT_SHARE: Final = 0.01
@@ -263,7 +266,7 @@ class LoadCaseAssessment:
                 f"on data that were not fitted its {row.quantity} error is larger than that of its prior, "
                 f"{amount(row.mean, row.unit)} against {amount(row.prior_mean, row.unit)}"
             )
-            yield Reason(against="use", text=text, remedy=LOOK_FOR_CAUSE)
+            yield Reason(against="use", text=text, remedy=KEEP_PRIOR)
 
     def _predicted(self) -> Iterator[Reason]:
         if self.after is None:
@@ -278,8 +281,6 @@ class LoadCaseAssessment:
         remedy = error_reduction_advice(self.after, self.case.requirement)
         if share >= CONFIDENCE:
             yield Reason(against=None, text=words)
-        elif share <= UNLIKELY:
-            yield Reason(against="use", text=words, remedy=remedy)
         else:
             chance = f"{words}; the chance that it is within that is {100.0 * share:.0f} %"
             yield Reason(against="data", text=chance, remedy=remedy)
@@ -416,7 +417,8 @@ def use_verdicts(
     """Decide for every calibration and load case whether it may be used.
 
     It may where the predicted error is within the allowed one with 95 %, and the loads of the validation data moved and
-    their errors agree. It may not where that has a probability of at most 10 %, or the validation data contradict it.
+    their errors agree. It may not where measured errors contradict that: they are beyond what is allowed, or larger
+    than those of the prior. A prediction alone never forbids a use: where it is too large, data are lacking.
 
     Args:
         runs: The sensor in one recording, or in several.
