@@ -39,8 +39,8 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
+from forcetorque.robot.modified_robot import RobotErrors
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.modified_robot import RobotErrors
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import grid_movement, random_movement, z_torque_movement
 from forcetorque.simulation.robots import named_robot

@@ -20,14 +20,14 @@ from forcetorque.calibration.moments import recording_moments
 from forcetorque.experiment.calibration import assumptions
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.assumptions import Scale
-from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError, TermKind
+from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError, ModelTolerance, TermKind
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.experiment.calibration.stored_moments import read_moments
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
 from forcetorque.robot.model import RobotModel
-from forcetorque.simulation.modified_robot import RobotErrors
+from forcetorque.robot.modified_robot import RobotErrors
 from tests.calibration.synthetic import LIMIT_COUNTS, PRIOR, anyhow, read_by
 from tests.calibration.synthetic import assumptions as assumed
 from tests.scenes.experiments import PARQUET
@@ -36,12 +36,14 @@ HAND = ("hand", "tool")
 """Links of one body: the tool is at a fixed joint, with the axes of the hand."""
 STEP = 1e-4
 """Step of the central differences: their own error is its square."""
+EXACT = 'tolerance = "exact"\n'
+"""Line of the scene's experiment file."""
 ALL, SAMPLED = 1e-3, 0.1
 """Share of a column by which it may differ: at all samples by the steps of both, at ten of a window by sampling."""
 
 
 def _run(folder: Path, robot: str = "tolerance = {}\n") -> SensorRun:
-    text = (folder / PARQUET).read_text(encoding="utf-8").replace('urdf = "arm.urdf"\n', f'urdf = "arm.urdf"\n{robot}')
+    text = (folder / PARQUET).read_text(encoding="utf-8").replace(EXACT, robot)
     (folder / "own.toml").write_text(text, encoding="utf-8")
     return SensorRun(load_experiment(folder / "own.toml"), "arm_ft")
 
@@ -86,9 +88,9 @@ def test_columns_are_differences_between_robots(
 
 
 def test_a_model_that_is_exact_has_no_columns(arm: Path) -> None:
-    """Without tolerances, and with 0 for all, there are none; for one link or joint, its columns alone are missing."""
+    """Stated as exact, and with 0 for all, there are none; for one link or joint, its columns alone are missing."""
     none = "tolerance = { mass_relative = 0, centre_m = 0, joint_zero_deg = 0, tilt_deg = 0, delay_s = 0 }\n"
-    for text in ("", none):
+    for text in (EXACT, none):
         run = _run(arm, text)
         (samples,) = run.samples(Use.CALIBRATION)
         assert model_columns(run, samples.interval, samples.data_set).terms == ()
@@ -100,11 +102,17 @@ def test_a_model_that_is_exact_has_no_columns(arm: Path) -> None:
     assert terms["zero of elbow"].deviation == pytest.approx(np.radians(0.5))
 
 
+def test_a_model_may_be_off_where_the_file_says_nothing(arm: Path) -> None:
+    """By the same tolerances as with an empty table."""
+    silent, stated = _run(arm, ""), _run(arm)
+    assert silent.experiment.fit_options.tolerance == stated.experiment.fit_options.tolerance == ModelTolerance()
+    assert _calibrated(silent).model_errors == _calibrated(stated).model_errors != ()
+
+
 def test_a_link_and_a_joint_of_one_name_have_tolerances_of_their_own(arm: Path) -> None:
     """Neither overwrites the other."""
     run = _run(arm, "tolerance = { links = { hand = 0.01, tool = 0.01 }, joints = { wrist = 20.0 } }\n")
     tolerance = run.experiment.fit_options.tolerance
-    assert tolerance is not None
     assert (tolerance.links, tolerance.joints) == ({"hand": 0.01, "tool": 0.01}, {"wrist": np.radians(20.0)})
 
 
@@ -128,7 +136,7 @@ def test_an_attached_load_is_no_error_of_a_link(arm: Path, load_kg: float) -> No
 
 def test_recordings_with_and_without_tolerances_are_a_warning(arm: Path) -> None:
     """By the names of the intervals in which the model is taken as exact."""
-    uncertain, exact = recording_moments(_run(arm))[0], recording_moments(_run(arm, ""))[0]
+    uncertain, exact = recording_moments(_run(arm))[0], recording_moments(_run(arm, EXACT))[0]
     (interval,) = exact.intervals
     named = interval.interval.model_copy(update={"label": "other"})
     apart = interval.model_copy(update={"interval": named, "recording": "other day"})

@@ -17,7 +17,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.simulation.modified_robot import RobotErrors
+from forcetorque.robot.modified_robot import RobotErrors
 from tests.estimation.torque.fusion_trials import JOINTS, Arm, Faults, Trial, figures, pooled
 
 SEEDS: Final = 100

@@ -40,11 +40,11 @@ def _require(name: str, known: dict[str, Callable[[], dict[str, Any]]]) -> None:
 
 
 def _files() -> dict[str, Callable[[], dict[str, Any]]]:
-    from forcetorque.calibration.joint.artefact import JointPosterior
     from forcetorque.contests.entries import ContestFile
     from forcetorque.device.device_file import DeviceFile
     from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
     from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.calibration.joint_posterior import JointPosterior
     from forcetorque.experiment.calibration.stored_moments import RecordingMoments
     from forcetorque.experiment.file import experiment_file
     from forcetorque.locomotion.torque_control.file import TorqueLoopFile

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import stat
 from pathlib import Path
-from xml.etree.ElementTree import Element, ParseError
+from xml.etree.ElementTree import Element, ParseError, TreeBuilder
 
 from defusedxml.common import DefusedXmlException
-from defusedxml.ElementTree import parse
+from defusedxml.ElementTree import DefusedXMLParser, parse
 
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.run_files import declare_input
@@ -126,11 +126,12 @@ def require_unpacked(path: Path, size: int, *, where: str = "") -> None:
         )
 
 
-def read_xml(file: Path) -> Element | None:
+def read_xml(file: Path, *, comments: bool = False) -> Element | None:
     """Parse an XML file that exists.
 
     Args:
         file: The file.
+        comments: Whether comments inside the root element are kept, to write it again.
 
     Returns:
         Its root element.
@@ -140,7 +141,8 @@ def read_xml(file: Path) -> Element | None:
     """
     declare_input(file)
     try:
-        root: Element | None = parse(file).getroot()
+        parser = DefusedXMLParser(target=TreeBuilder(insert_comments=comments))
+        root: Element | None = parse(file, parser=parser).getroot()
     except ParseError as error:
         raise FormatError(f"{file}:{error.position[0]}: expected XML, got {error.msg}") from error
     except (DefusedXmlException, ValueError, LookupError) as error:

@@ -14,7 +14,7 @@ from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.generative.artefact import generative_calibration
-from forcetorque.calibration.joint.artefact import JointPosterior
+from forcetorque.calibration.joint.artefact import joint_posterior
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.moments import recording_moments
 from forcetorque.calibration.summary import (
@@ -286,7 +286,7 @@ class SensorCalibrations(Result):
             entry.calibration.save(file, force=force)
         if self.joint is not None and self.joint.file is not None:
             sensors = [entry.calibration.sensor for entry in self.calibrations]
-            JointPosterior.of(self.joint.fit, {one.name: one.serial for one in sensors}).save(
+            joint_posterior(self.joint.fit, {one.name: one.serial for one in sensors}).save(
                 self.joint.file, force=force
             )
         return self.model_copy(update={"saved": True})

@@ -76,6 +76,14 @@ def calibrate(
             "left of the equation of every part.",
         ),
     ] = None,
+    write_urdf: Annotated[
+        Path | None,
+        typer.Option(
+            "--write-urdf",
+            help="URDF file to write: that of the first experiment with the masses, centres of mass and joint zeros "
+            "that the fit found. With one sensor, which does not separate all of them, or --jointly.",
+        ),
+    ] = None,
     force: ForceOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
@@ -92,6 +100,7 @@ def calibrate(
     from forcetorque.base.output_file import declare_outputs
     from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file
     from forcetorque.calibration.calibrate_jointly_command import calibrate_together, refuse_beside_jointly
+    from forcetorque.calibration.corrected_urdf import write_corrected_urdf
     from forcetorque.calibration.moments import store_moments
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.results.result import created_now
@@ -104,13 +113,17 @@ def calibrate(
     if jointly:
         alone = {"--lambda": regularisation, "--type": kind, "--nonlinear": nonlinear, "--moments": moments}
         refuse_beside_jointly(alone)
-        calibrate_together(experiments, output, sensor, figure, log, output_format, force=force)
+        calibrate_together(experiments, output, sensor, figure, write_urdf, log, output_format, force=force)
         return
     stored = stored_moments(experiments)
     contents = read_experiments([path for path in experiments if path.suffix != ".json"], log)
     names = _sensors(contents, stored, sensor)
     files = _files(output, names)
-    declare_outputs(*filter(Path.exists, files), force=force)  # folders of the others are made when they are written
+    if write_urdf is not None:
+        _require_one_fit(write_urdf, names, contents)
+    declare_outputs(
+        *filter(Path.exists, [*files, *_given(write_urdf)]), force=force
+    )  # folders of the others are made when they are written
     fit = partial(
         calibrate_for_file,
         code_version=version("forcetorque"),
@@ -134,7 +147,30 @@ def calibrate(
             _warn_of_doubts(campaign, log)
     if results:
         refusals += _show(SensorCalibrations.together(results).save(force=force), figure, output_format)
+        if write_urdf is not None:
+            write_corrected_urdf(next(iter(contents.values())), files[0], write_urdf, force=force)
+            log.info("corrected robot model written to %s", write_urdf)
     _end(refusals)
+
+
+def _require_one_fit(write_urdf: Path, sensors: Sequence[object], contents: Mapping[Path, Experiment]) -> None:
+    from forcetorque.experiment.calibration.model_error import EXACT
+
+    if len(sensors) != 1 or not contents:
+        raise ExperimentError(
+            f"--write-urdf {write_urdf}: expected an experiment and one sensor, or all sensors --jointly, got "
+            f"{len(sensors)} sensors and {len(contents)} experiments; fits of several sensors find several masses for "
+            "one link"
+        )
+    if next(iter(contents.values())).fit_options.tolerance == EXACT:
+        raise ExperimentError(
+            f'--write-urdf {write_urdf}: expected [robot] tolerance other than "exact", by which nothing is found of the '
+            "robot model"
+        )
+
+
+def _given(file: Path | None) -> list[Path]:
+    return [] if file is None else [file]
 
 
 def _warn_of_doubts(campaign: Campaign | None, log: logging.Logger) -> None:

@@ -11,6 +11,7 @@ from pathlib import Path
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import declare_outputs, write_bytes_atomically
 from forcetorque.calibration.calibrate import SensorCalibrations
+from forcetorque.calibration.corrected_urdf import write_corrected_urdf
 from forcetorque.calibration.joint.calibrate import JOINT_FILE, calibrate_jointly, calibration_file
 from forcetorque.results.result import created_now
 from forcetorque.results.terminal.output import Format, show
@@ -38,6 +39,7 @@ def calibrate_together(
     output: Path,
     sensors: Sequence[str] | None,
     figure: Path | None,
+    write_urdf: Path | None,
     log: logging.Logger,
     output_format: Format,
     *,
@@ -50,6 +52,7 @@ def calibrate_together(
         output: Folder for the calibrations.
         sensors: Names of the sensors; None for all of the first file.
         figure: File for the figure of what is left of the equations; None for none.
+        write_urdf: File for the corrected URDF of the first experiment; None for none.
         log: Where messages go.
         output_format: Form of the result.
         force: As of `declare_outputs`.
@@ -64,7 +67,9 @@ def calibrate_together(
     contents = list(read_experiments(experiments, log).values())
     chosen = sensors_named(contents[0], sensors)
     files = [output / calibration_file(sensor.name, sensor.serial) for sensor in chosen]
-    declare_outputs(*filter(Path.exists, [*files, output / JOINT_FILE]), force=force)  # as of one sensor alone
+    declare_outputs(
+        *filter(Path.exists, [*files, output / JOINT_FILE, *([] if write_urdf is None else [write_urdf])]), force=force
+    )  # as of one sensor alone
     result = calibrate_jointly(
         contents,
         output,
@@ -74,6 +79,9 @@ def calibrate_together(
         progress=log.info,
     )
     written = result.save(force=force)
+    if write_urdf is not None:
+        write_corrected_urdf(contents[0], output / JOINT_FILE, write_urdf, force=force)
+        log.info("corrected robot model written to %s", write_urdf)
     show(_drawn(written, figure) if figure is not None else written, output_format)
 
 

@@ -17,29 +17,11 @@ from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.experiment import file as schema
 from forcetorque.experiment.clocks import aligned_clocks
 from forcetorque.experiment.core_tables import PoseTable, TransformTable
-from forcetorque.experiment.input_files import Inputs, stated_in
+from forcetorque.experiment.input_files import stated_in
 from forcetorque.recording.frames import orientation_at, pose_at, wrench_in_frame
 from forcetorque.recording.recording import Finding, Recording
 from forcetorque.results.result import Result, UnusableSamples
 from forcetorque.robot.model import RobotModel
-from forcetorque.robot.motion import fix_joints
-from forcetorque.robot.urdf import read_urdf
-
-
-def read_robot(table: schema.Robot, file: Path, inputs: Inputs) -> RobotModel:
-    """Read the robot of an experiment, with the joints fixed that stand still all along.
-
-    Args:
-        table: What the file says of it.
-        file: The experiment file, for messages.
-        inputs: Resolves and remembers the files.
-
-    Returns:
-        The robot.
-    """
-    model = read_urdf(inputs.file(table.urdf))
-    with stated_in(f"{file}: robot: fixed"):
-        return fix_joints(model, table.fixed)
 
 
 def follow_recipes(
@@ -71,7 +53,7 @@ def follow_recipes(
     for index, entry in enumerate(parsed.transform):
         with stated_in(f"{file}: transform[{index}]"):
             recording = _transformed(recording, entry)
-    findings = (*recording.findings, *_standing(fixed, parsed))
+    findings = (*recording.findings, *_standing(fixed, parsed), *_corrected(parsed))
     return replace(recording, findings=findings)
 
 
@@ -94,6 +76,13 @@ def _standing(fixed: Mapping[str, float], parsed: schema.ExperimentFile) -> Sequ
         f"not logged, taken to stand still all along (rad, m): {values}; what they weigh and do elsewhere is an error"
     )
     return (Finding(stream=parsed.name, kind="fixed_joint", message=text, count=len(fixed)),)
+
+
+def _corrected(parsed: schema.ExperimentFile) -> Sequence[Finding]:
+    if parsed.robot is None or parsed.robot.tolerance == "exact" or parsed.robot.tolerance.found_by is None:
+        return ()
+    text = f"the robot model is corrected by the masses, centres and joint zeros of {parsed.robot.tolerance.found_by}"
+    return (Finding(stream=parsed.name, kind="corrected_robot", message=text, count=1),)
 
 
 def _transformed(recording: Recording, entry: TransformTable) -> Recording:
@@ -134,7 +123,7 @@ def _pose(table: PoseTable | None) -> FloatArray:
 Options = ParamSpec("Options")
 Answer = TypeVar("Answer", bound=Result)
 
-ADDED = {"clock", "transformed", "fixed_joint", "stated_rate", "skipped_rows"}
+ADDED = {"clock", "transformed", "fixed_joint", "corrected_robot", "stated_rate", "skipped_rows"}
 """Kinds of findings that say what the experiment file adds to its log."""
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal, TypeVar, cast
@@ -48,10 +49,19 @@ class Tolerance(Table):
     """Of the mass of single links, relative, by their names."""
     joints: dict[Text, NotNegative] = {}
     """Of the zero of single joints, by their names; deg."""
+    found_by: Path | None = Field(default=None, alias="from")
+    """A calibration, or joint.json of a joint one: the model is corrected by what it found of masses, centres and joint
+    zeros, and the standard errors of these are their tolerances."""
 
-    @property
-    def model_tolerance(self) -> ModelTolerance:
-        """The same in SI units."""
+    def model_tolerance(self, found: Mapping[str, float]) -> ModelTolerance:
+        """Give the same in SI units.
+
+        Args:
+            found: Standard errors of what an earlier calibration found, by the names of the errors.
+
+        Returns:
+            The tolerance.
+        """
         return ModelTolerance(
             mass=self.mass_relative,
             centre_m=self.centre_m,
@@ -60,6 +70,7 @@ class Tolerance(Table):
             delay_s=self.delay_s,
             links=dict(self.links),
             joints={name: float(np.radians(value)) for name, value in self.joints.items()},
+            found=found,
         )
 
 

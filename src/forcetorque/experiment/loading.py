@@ -18,8 +18,7 @@ from pydantic import Field, create_model
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, known_names
 from forcetorque.base.toml_file import Table, Text, read_toml, toml_content
-from forcetorque.experiment.additions import read_robot
-from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
+from forcetorque.experiment.calibration.model_error import EXACT
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.contacts import read_contacts
 from forcetorque.experiment.core_tables import CalibrationTable, ProcessingTable, Sensor, fit_options, processing_of
@@ -28,8 +27,9 @@ from forcetorque.experiment.file import ExperimentFile, Robot, parse_experiment,
 from forcetorque.experiment.file import Support as SupportTable
 from forcetorque.experiment.input_files import Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
+from forcetorque.experiment.robot_model import read_robot
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
-from forcetorque.experiment.sensors import declare_sensors, full_scale_of, read_prior, read_sensors
+from forcetorque.experiment.sensors import full_scale_of, read_prior, read_sensors
 from forcetorque.experiment.streams import read_streams
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.recording import Recording, Support, Use
@@ -93,7 +93,7 @@ def load_unrecorded(file: Path, specified: Collection[str]) -> Experiment:
         )
     parsed = read_toml(file, _file_type(), what="an experiment file")
     inputs = Inputs.of(file)
-    model = declare_sensors(parsed.sensor, file, read_robot(parsed.robot, file, inputs))
+    model, tolerance = read_robot(parsed.robot, parsed.sensor, file, inputs)
     for index, entry in enumerate(parsed.support):
         if entry.imu is not None:
             raise ExperimentError(
@@ -114,7 +114,7 @@ def load_unrecorded(file: Path, specified: Collection[str]) -> Experiment:
         sensors=sensors,
         contacts=(),
         processing=processing_of(parsed.processing, gravity=parsed.robot.gravity),
-        fit_options=fit_options(parsed.calibration),
+        fit_options=replace(fit_options(parsed.calibration), tolerance=tolerance),
         roles={},
         inputs_sha256=inputs.sha256(),
         supports=tuple(support for support in supports.values() if isinstance(support, Support)),
@@ -226,8 +226,9 @@ def _lacks_sensors(parsed: ExperimentFile, file: Path) -> str:
 
 def _load(parsed: ExperimentFile, file: Path) -> Experiment:
     inputs = Inputs.of(file)
-    urdf = None if parsed.robot is None else read_robot(parsed.robot, file, inputs)
-    robot = None if urdf is None else declare_sensors(parsed.sensor, file, urdf)
+    robot, tolerance = None, EXACT
+    if parsed.robot is not None:
+        robot, tolerance = read_robot(parsed.robot, parsed.sensor, file, inputs)
     before = inputs.names()
     streams = read_streams(parsed, file, robot, inputs)
     logs = inputs.names() - before
@@ -262,7 +263,7 @@ def _load(parsed: ExperimentFile, file: Path) -> Experiment:
         fit_options=replace(
             fit_options(parsed.calibration),
             sphere_intervals=_sphere_intervals(parsed, file),
-            tolerance=_tolerance(parsed, file, loading.model),
+            tolerance=tolerance,
         ),
         roles=_roles(parsed),
         inputs_sha256=hashes,
@@ -270,21 +271,6 @@ def _load(parsed: ExperimentFile, file: Path) -> Experiment:
         supports=tuple(support for support in loading.supports.values() if isinstance(support, Support)),
         sections=contents,
     )
-
-
-def _tolerance(parsed: ExperimentFile, file: Path, model: RobotModel) -> ModelTolerance:
-    """How far the robot model may be off, for links and joints that it has; exact where a section stands in for it."""
-    tolerance = "exact" if parsed.robot is None else parsed.robot.tolerance
-    if tolerance == "exact":
-        return EXACT
-    for key, named, known in (("links", tolerance.links, model.links), ("joints", tolerance.joints, model.joints)):
-        for name in named:
-            if name not in known:
-                raise ExperimentError(
-                    f"{file}: [robot] tolerance.{key}: expected {key} of robot {model.name!r}, got {name!r}; "
-                    f"{known_names(name, known)}"
-                )
-    return tolerance.model_tolerance
 
 
 def _stand_in(loading: Loading) -> StandIn:

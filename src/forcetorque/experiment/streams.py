@@ -12,11 +12,11 @@ from pathlib import Path
 
 from forcetorque.base.errors import ExperimentError, MissingFileError
 from forcetorque.experiment import file as schema
-from forcetorque.experiment.additions import follow_recipes, read_robot
+from forcetorque.experiment.additions import follow_recipes
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
-from forcetorque.experiment.sensors import declare_sensors
+from forcetorque.experiment.robot_model import read_robot
 from forcetorque.formats.registry import not_recognised, read_log, recognised_format
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.stream import Stream
@@ -139,7 +139,5 @@ def load_tried_clocks(path: Path | str) -> Recording:
     file = Path(path)
     parsed = parse_experiment(file)
     inputs = Inputs(file.parent)
-    model = None
-    if parsed.robot is not None:
-        model = declare_sensors(parsed.sensor, file, read_robot(parsed.robot, file, inputs))
+    model = None if parsed.robot is None else read_robot(parsed.robot, parsed.sensor, file, inputs)[0]
     return read_streams(parsed, file, model, inputs, clocks_must_tell=False)

@@ -19,9 +19,9 @@ from forcetorque.planning.section import PlanTable, PlanTool
 from forcetorque.recording.recording import Support, Use
 from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import JointType, RobotModel
+from forcetorque.robot.modified_robot import with_load
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import joint_range, outboard_bodies
-from forcetorque.simulation.modified_robot import with_load
 from forcetorque.simulation.motions.held_robot import Stand, limb_of
 from forcetorque.simulation.motions.trajectories import Waypoints, shortest_moves
 

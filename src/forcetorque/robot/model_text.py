@@ -7,12 +7,16 @@ from collections.abc import Iterable
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+import numpy as np
+
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import RobotError
+from forcetorque.base.errors import FormatError, RobotError
 from forcetorque.base.inertia import Inertia
+from forcetorque.base.input_file import read_xml
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.pose import invert_pose, rpy_from_rotation, skew, split_pose
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, RobotModel, SensorFrame
+from forcetorque.robot.urdf import read_urdf
 
 
 def urdf_text(model: RobotModel) -> str:
@@ -49,6 +53,60 @@ def write_urdf(path: Path | str, model: RobotModel) -> None:
         model: The robot.
     """
     write_bytes_atomically(Path(path), urdf_text(model).encode())
+
+
+def corrected_urdf_text(path: Path | str, model: RobotModel) -> str:
+    """Write a URDF file again, with other inertias and places of joints, and all else as it was.
+
+    Args:
+        path: URDF file.
+        model: What is to be read from the new text, but for sensors: links and joints of the file.
+
+    Returns:
+        The text; comments before the root element are lost.
+
+    Raises:
+        FormatError: If the file is empty.
+    """
+    file = Path(path)
+    before, robot = read_urdf(file), read_xml(file, comments=True)
+    if robot is None:
+        raise FormatError(f"{file}: expected the root element <robot>, got nothing")
+    for tag in robot.findall("link"):
+        name = tag.get("name", "")
+        old, new = before.links[name], model.links[name]
+        inertial = tag.find("inertial")
+        if inertial is not None and old.mass > 0.0 and not _alike(old.matrix(), new.matrix()):
+            _correct_inertial(inertial, old, new)
+    for tag in robot.findall("joint"):
+        name = tag.get("name", "")
+        pose = model.joints[name].parent_H_child
+        if not _alike(before.joints[name].parent_H_child, pose):
+            rotation, position = split_pose(pose)
+            values = {"xyz": _numbers(position), "rpy": _numbers(rpy_from_rotation(rotation))}
+            _origin(tag).attrib.update(values)
+    return f'<?xml version="1.0"?>\n{tostring(robot, encoding="unicode")}\n'
+
+
+def _alike(old: FloatArray, new: FloatArray) -> bool:
+    return bool(np.allclose(old, new, rtol=1e-12, atol=1e-15))
+
+
+def _correct_inertial(inertial: Element, old: Inertia, new: Inertia) -> None:
+    """Scale mass and tensor, and move the centre of mass; the axes of the tensor stay."""
+    share = new.mass / old.mass
+    for tag, keys in (("mass", ("value",)), ("inertia", ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))):
+        for element in inertial.findall(tag):
+            element.attrib.update({key: _number(share * float(element.get(key, "0"))) for key in keys})
+    _origin(inertial).set("xyz", _numbers(new.first_moment / new.mass))
+
+
+def _origin(parent: Element) -> Element:
+    tag = parent.find("origin")
+    if tag is None:
+        tag = Element("origin")
+        parent.insert(0, tag)
+    return tag
 
 
 def _add_link(robot: Element, name: str, inertia: Inertia) -> None:

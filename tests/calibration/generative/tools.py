@@ -16,8 +16,8 @@ from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
 from forcetorque.robot.mechanics.samples import Processing, sensor_samples
+from forcetorque.robot.modified_robot import with_load
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.modified_robot import with_load
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.sensor import SimulatedSensor

@@ -12,8 +12,8 @@ import pytest
 
 from forcetorque.app.python.experiment import calibrate_jointly, load_experiment
 from forcetorque.base.errors import FormatError
-from forcetorque.calibration.joint.artefact import read_joint_posterior
 from forcetorque.experiment.calibration.artefact import JOINT, read_calibration
+from forcetorque.experiment.calibration.joint_posterior import read_joint_posterior
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.scenes.experiments import PARQUET, TWO, edit, edit_lines, snapshot

@@ -13,7 +13,9 @@ from forcetorque.base.pose import cross
 from forcetorque.base.wrench import transform_wrench
 from forcetorque.experiment.calibration.model_error import (
     ACCELERATION,
+    CENTRE,
     DELAY,
+    MASS,
     ZERO,
     ErrorTerm,
     ModelTolerance,
@@ -48,7 +50,11 @@ def error_terms(
     Returns:
         Terms of bodies, then of joints, then of the acceleration of the root; none that cannot be wrong.
     """
-    return tuple(term for term in _terms(tree, parts, weighed, tolerance) if term.deviation > 0.0)
+    terms = (
+        term.model_copy(update={"deviation": tolerance.found.get(term.name, term.deviation)})
+        for term in _terms(tree, parts, weighed, tolerance)
+    )
+    return tuple(term for term in terms if term.deviation > 0.0)
 
 
 def _terms(
@@ -63,7 +69,7 @@ def _terms(
             yield _mass_term(tree, k, tolerance)
             for axis in "xyz":
                 yield ErrorTerm(
-                    name=f"{axis} of centre of {name}", kind=TermKind.CENTRE, deviation=tolerance.centre_m, nominal=mass
+                    name=f"{axis}{CENTRE}{name}", kind=TermKind.CENTRE, deviation=tolerance.centre_m, nominal=mass
                 )
     sliding = {
         body.coordinate.joint
@@ -129,7 +135,7 @@ def body_columns(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray
         body_R_link = tree.frames[name][1][:3, :3]
         for axis, unit in zip("xyz", inertia.mass * body_R_link.T, strict=True):
             force = cross(alpha, unit) + cross(omega, cross(omega, unit))
-            columns[f"{axis} of centre of {name}"] = -transform_wrench(
+            columns[f"{axis}{CENTRE}{name}"] = -transform_wrench(
                 pose, np.concatenate([force, cross(unit, proper)], axis=1)
             )
         mass += inertia.mass
@@ -181,7 +187,7 @@ def mass_shares(tree: BodyTree, part: SubModel, terms: Sequence[ErrorTerm]) -> F
 
 
 def _mass(tree: BodyTree, k: int) -> str:
-    return f"mass of {_name(tree, k)}"
+    return f"{MASS}{_name(tree, k)}"
 
 
 def _acceleration(axis: str, tree: BodyTree) -> str:

@@ -11,10 +11,9 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.experiment.calibration.assumptions import LOADS
+from forcetorque.experiment.calibration.joint_posterior import LENGTH_M
 from forcetorque.experiment.calibration.model_error import ZERO, ErrorTerm
 
-LENGTH_M: Final = 0.1
-"""Moment over force that weigh alike: 0.1 N m is as much as 1 N."""
 UNITS: Final = np.array([1.0, 1.0, 1.0, LENGTH_M, LENGTH_M, LENGTH_M])
 """Unit of every component; N, N m."""
 CHANGES: Final = 36

@@ -12,6 +12,10 @@ import numpy as np
 
 from forcetorque.base.stored_model import StoredTable
 
+MASS: Final = "mass of "
+"""How the name of the error of a mass begins."""
+CENTRE: Final = " of centre of "
+"""What the name of the error of a centre of mass has between axis and body."""
 ZERO: Final = "zero of "
 """How the name of the error of a joint begins."""
 ACCELERATION: Final = " of acceleration of "
@@ -66,6 +70,8 @@ class ModelTolerance:
     """Of the mass of single links, relative, by their names."""
     joints: Mapping[str, float] = field(default_factory=dict)
     """Of the zero of single joints, by their names; rad or m."""
+    found: Mapping[str, float] = field(default_factory=dict)
+    """Of numbers that an earlier calibration found, by the names of their errors; in the unit of each."""
 
 
 EXACT: Final = ModelTolerance(mass=0.0, centre_m=0.0, joint_zero_rad=0.0, acceleration=0.0, delay_s=0.0)

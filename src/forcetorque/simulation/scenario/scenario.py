@@ -20,9 +20,9 @@ from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.model import RobotModel
+from forcetorque.robot.modified_robot import RobotErrors, with_load
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.imu_and_motor import SimulatedImu
-from forcetorque.simulation.modified_robot import RobotErrors, with_load
 from forcetorque.simulation.motions.contact_switching import contact_switching_movement
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import (

@@ -10,9 +10,9 @@ from forcetorque.base.errors import RobotError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
+from forcetorque.robot.modified_robot import with_load
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
-from forcetorque.simulation.modified_robot import with_load
 from tests.simulation.motions.stands import robot
 
 AT = np.array([0.03, -0.02, 0.05])

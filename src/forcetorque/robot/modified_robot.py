@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How a simulated robot differs from its model: errors of masses and joint zeros, and masses fastened to it."""
+"""How a robot differs from its model: errors of masses, centres and joint zeros, and masses fastened to it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,10 @@ class RobotErrors(ArrayRecord):
     centre_m: Mapping[str, FloatArray] = field(metadata=mapping(3))
     """How far the centre of mass of every link is away from the model's, in the link's frame; shape (3,); m."""
     joint_zero_rad: Mapping[str, float] = field(metadata=mapping())
-    """How far every rotary joint is turned where it reads zero; rad."""
+    """How far every joint is turned, or moved, where it reads zero; rad, or m where it slides.
+
+    Joints that mimic it are turned by as much as that moves them.
+    """
 
     @classmethod
     def draw(
@@ -79,7 +82,10 @@ class RobotErrors(ArrayRecord):
         for name, angle in self.joint_zero_rad.items():
             if name not in joints:
                 raise RobotError(f"errors: robot {model.name!r} has no joint {name!r}; {known_names(name, joints)}")
-            joints[name] = _turned(joints[name], angle)
+            for joint in joints.values():
+                ratio = _ratio(model, joint, name)
+                if ratio:
+                    joints[joint.name] = _moved(joint, ratio * angle)
         return replace(model, links=links, joints=joints)
 
 
@@ -93,10 +99,23 @@ def _changed(inertia: Inertia, share: float, shift: FloatArray) -> Inertia:
     )
 
 
-def _turned(joint: Joint, angle: float) -> Joint:
-    axis = rotation_with_z_along(joint.axis)
-    turn = axis @ rotation_about_z(np.array(angle)) @ axis.T
-    return replace(joint, parent_H_child=joint.parent_H_child @ make_pose(turn, np.zeros(3)))
+def _ratio(model: RobotModel, joint: Joint, name: str) -> float:
+    """By how much a joint moves where a joint of some name moves by 1."""
+    ratio, seen = 1.0, {joint.name}
+    while joint.name != name and joint.mimic is not None and joint.mimic.leader in model.joints.keys() - seen:
+        ratio *= joint.mimic.multiplier
+        joint = model.joints[joint.mimic.leader]
+        seen.add(joint.name)
+    return ratio if joint.name == name else 0.0
+
+
+def _moved(joint: Joint, by: float) -> Joint:
+    if joint.type is JointType.PRISMATIC:
+        move = make_pose(np.eye(3), by * joint.axis)
+    else:
+        axis = rotation_with_z_along(joint.axis)
+        move = make_pose(axis @ rotation_about_z(np.array(by)) @ axis.T, np.zeros(3))
+    return replace(joint, parent_H_child=joint.parent_H_child @ move)
 
 
 def with_load(

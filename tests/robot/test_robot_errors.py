@@ -10,9 +10,9 @@ from forcetorque.base.errors import RobotError
 from forcetorque.base.pose import skew
 from forcetorque.robot.dynamics import expected_wrenches, link_pose
 from forcetorque.robot.model import RobotModel
+from forcetorque.robot.modified_robot import RobotErrors
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
-from forcetorque.simulation.modified_robot import RobotErrors
 from forcetorque.simulation.motions.on_both_feet import sway_movement
 from tests.simulation.motions.stances import stance
 from tests.simulation.motions.stands import ROBOTS, robot
