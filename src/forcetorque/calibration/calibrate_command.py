@@ -164,8 +164,8 @@ def _require_one_fit(write_urdf: Path, sensors: Sequence[object], contents: Mapp
         )
     if next(iter(contents.values())).fit_options.tolerance == EXACT:
         raise ExperimentError(
-            f'--write-urdf {write_urdf}: expected [robot] tolerance other than "exact", by which nothing is found of the '
-            "robot model"
+            f'--write-urdf {write_urdf}: expected [robot] tolerance other than "exact", which leaves nothing to '
+            "correct"
         )
 
 
