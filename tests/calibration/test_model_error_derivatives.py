@@ -277,6 +277,14 @@ def test_rows_with_a_common_model_are_one_gaussian_inference(
     deviations[36:] = [error.standard_error for error in result.model_errors]
     close = np.allclose(found / spread, mean / spread, atol=1e-5) and np.allclose(deviations / spread, 1.0, atol=1e-5)
     assert close is as_they_are
+    # what would go if both errors were known: covariance less that given the errors
+    shared = covariance[:36, 36:]
+    by_model = np.diag(shared @ np.linalg.solve(covariance[36:, 36:], shared.T))
+    of_model = result.posterior.model_covariance
+    assert of_model is not None
+    own = np.einsum("kii->ki", of_model[:, :6, :6]).ravel()
+    assert np.allclose(own / spread[:36] ** 2, by_model / spread[:36] ** 2, atol=1e-5) is as_they_are
+    assert by_model.max() > 0.05 * (spread[:36] ** 2)[by_model.argmax()]
 
 
 def test_the_errors_of_the_model_are_in_the_file(arm: Path) -> None:

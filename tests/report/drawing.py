@@ -366,6 +366,7 @@ def use_of(
             from_offset=0.0,
             from_variables=0.0,
             from_noise=0.0,
+            from_model=0.0,
         )
 
     enough = allowed is None or 2.0 * force <= allowed

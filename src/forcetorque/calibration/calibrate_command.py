@@ -164,8 +164,7 @@ def _require_one_fit(write_urdf: Path, sensors: Sequence[object], contents: Mapp
         )
     if next(iter(contents.values())).fit_options.tolerance == EXACT:
         raise ExperimentError(
-            f'--write-urdf {write_urdf}: expected [robot] tolerance other than "exact", which leaves nothing to '
-            "correct"
+            f'--write-urdf {write_urdf}: expected [robot] tolerance other than "exact", which leaves nothing to correct'
         )
 
 

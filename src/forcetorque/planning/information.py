@@ -261,6 +261,7 @@ class Knowledge:
             "mean": np.zeros((len(together), used + 1)),
             "covariance": covariance,
             "learnt_covariance": together[:, :6, :6].copy(),
+            "model_covariance": None,
             "load_centre": (self.seconds * posterior.load_centre + len(line) * mean[:6]) / seconds,
         }
         after = posterior.model_copy(update=update)

@@ -94,6 +94,20 @@ def test_every_source_adds_its_own_mean_square() -> None:
             assert size.sources[source] ** 2 == pytest.approx(squares[:3].sum(), rel=STATISTICAL)  # type: ignore[index]
 
 
+def test_errors_of_the_robot_model_are_taken_off_the_others() -> None:
+    """Of a posterior of which a third is theirs, a third of all but the noise."""
+    posterior, case = _posterior(), _case(offset="fitted", changes={"temperature": 8.0})
+    of_model = posterior.model_copy(update={"model_covariance": posterior.covariance / 3.0})
+    exact, wrong = (predict_from_posterior(one, case).force for one in (posterior, of_model))
+    assert exact.sources["model"] == 0.0
+    np.testing.assert_array_equal(wrong.draws, exact.draws)
+    squares = _mean_squares(posterior, case, fitted=True, change=8.0)[:3].sum() - exact.sources["noise"] ** 2
+    assert wrong.sources["model"] ** 2 == pytest.approx(squares / 3.0, rel=1e-9)
+    for source in ("matrix", "offset", "variables"):
+        ratio = (wrong.sources[source] / exact.sources[source]) ** 2  # type: ignore[index]
+        assert ratio == pytest.approx(2.0 / 3.0, rel=STATISTICAL)
+
+
 def test_ends_of_an_interval_are_exceeded_as_often_as_they_say() -> None:
     """By 2.5 % of the draws each, and the median by half; force and moment are within a limit only if both are."""
     error = predict_from_posterior(_posterior(), _case())

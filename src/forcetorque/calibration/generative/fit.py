@@ -182,7 +182,7 @@ class SolvedRows:
         rows, unit, sessions = self.rows, self.rows.unit, self.design.sessions
         known = [self._row(k) for k in range(len(unit))]
         mean = np.stack([row[0] for row in known]) * unit[:, None]
-        covariance = np.stack([row[1] for row in known]) * unit[:, None, None] ** 2
+        covariance, of_model = (np.stack([row[n] for row in known]) * unit[:, None, None] ** 2 for n in (1, 2))
         learnt = covariance[:, :LOADS, :LOADS].copy()
         noise = self._noise()
         matrix, to_wrench = self._matrix(mean[:, :LOADS], noise)
@@ -207,6 +207,7 @@ class SolvedRows:
             accuracy=self.assumptions.reference_accuracy(self.matrix),
             repeatability=self.assumptions.repeatability,
             load_centre=self.design.load_centre,
+            model_covariance=of_model if self.terms else None,
         )
         return matrix, posterior
 
@@ -249,14 +250,14 @@ class SolvedRows:
             for unknown, unit in zip(self.unknowns, self.rows.unit, strict=True)
         )
 
-    def _row(self, k: int) -> tuple[FloatArray, FloatArray]:
+    def _row(self, k: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Mean and covariance of [six coefficients, variables, offsets, drifts] of a row, in its unit.
 
         The offset is that which suits the robot model as it is: what the model is found to be off by in the mean of a
         session stays in it, and widens its covariance.
 
         Returns:
-            Mean, shape (p,), and covariance, shape (p, p).
+            Mean, shape (p,), covariance, and the part of it by errors of the model; shape (p, p).
         """
         unknown, basis, design = self.unknowns[k], self.basis[k], self.design
         sessions, free = len(design.sessions), design.free.shape[1]
@@ -277,7 +278,10 @@ class SolvedRows:
         covariance = from_unknowns @ unknown.covariance @ from_unknowns.T
         covariance[used:, used:] += unknown.variance * data.free_covariance
         covariance[used : used + sessions, used : used + sessions] += np.outer(kept_in_offset, kept_in_offset)
-        return constant + from_unknowns @ unknown.coefficients, 0.5 * (covariance + covariance.T)
+        with_model = from_unknowns @ unknown.covariance[:, self.layout.model]
+        by_model = with_model @ np.linalg.pinv(unknown.covariance[self.layout.model, self.layout.model]) @ with_model.T
+        mean = constant + from_unknowns @ unknown.coefficients
+        return mean, 0.5 * (covariance + covariance.T), 0.5 * (by_model + by_model.T)
 
     def _matrix(self, change: FloatArray, noise: Sequence[RowNoise]) -> tuple[FloatArray, FloatArray]:
         """The matrix, and what turns errors of rows into errors of wrenches."""

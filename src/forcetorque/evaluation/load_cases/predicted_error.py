@@ -33,9 +33,10 @@ _DRAWS: Final = 4000
 _SEED: Final = 16
 
 
-ErrorSource = Literal["matrix", "offset", "variables", "noise"]
+ErrorSource = Literal["matrix", "offset", "variables", "noise", "model"]
 """What adds to an error: the matrix; the offset, nothing where it is taken anew; coefficients of variables such as
-temperature; noise of a measurement that is averaged over a second."""
+temperature; noise of a measurement that is averaged over a second; and what the robot model may have wrong, by way of
+the others, from which it is taken off."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -200,21 +201,31 @@ def _error(unknowns: FloatArray, posterior: Posterior, to_wrench: FloatArray, mo
     v = len(posterior.variables)
     shares = [
         np.einsum("mij,jk,mik->i", unknowns[..., at], moment[at, at], unknowns[..., at], optimize=True) / len(unknowns)
+        - _of_model(posterior, to_wrench, moment, at)
         for at in (slice(6), slice(6 + v, None), slice(6, 6 + v))
     ]
-    sizes = [_size(square[:, part], [share[part].sum() for share in (*shares, noise)]) for part in FORCE_AND_MOMENT]
+    shares += [noise, _of_model(posterior, to_wrench, moment, slice(None))]
+    sizes = [_size(square[:, part], [share[part].sum() for share in shares]) for part in FORCE_AND_MOMENT]
     return PredictedError(force=sizes[0], moment=sizes[1])
+
+
+def _of_model(posterior: Posterior, to_wrench: FloatArray, moment: FloatArray, at: slice) -> FloatArray:
+    """Mean square error of every component by errors of the robot model in some unknowns; shape (6,)."""
+    if posterior.model_covariance is None:
+        return np.zeros(6)
+    rows = np.einsum("kij,ij->k", posterior.model_covariance[:, at, at], moment[at, at])
+    return np.asarray(to_wrench**2 @ rows)
 
 
 def _size(square: FloatArray, shares: list[float]) -> ErrorMagnitude:
     draws = np.sqrt(square.sum(axis=1))
-    matrix, offset, variables, noise = np.sqrt(shares).tolist()
+    matrix, offset, variables, noise, model = np.sqrt(np.maximum(shares, 0.0)).tolist()
     low, middle, high = np.quantile(draws, [_TAIL, 0.5, 1.0 - _TAIL]).tolist()
     return ErrorMagnitude(
         typical=middle,
         at_least=low,
         at_most=high,
         axes=np.sqrt(square.mean(axis=0)),
-        sources={"matrix": matrix, "offset": offset, "variables": variables, "noise": noise},
+        sources={"matrix": matrix, "offset": offset, "variables": variables, "noise": noise, "model": model},
         draws=draws,
     )

@@ -94,6 +94,8 @@ class LoadCaseError(Row):
     """Part that the coefficients of variables such as temperature make."""
     from_noise: Annotated[float, Shown("noise", digits=3)]
     """Part that noise makes in a mean over a second."""
+    from_model: Annotated[float, Shown("robot model", digits=3)]
+    """Part that would go if the robot model were known exactly; it is in none of the others."""
 
 
 class UseVerdict(Row):
@@ -173,6 +175,8 @@ _BY_SOURCE: Final[dict[ErrorSource, str]] = {
     "offset": 'the offset: tare the sensor before use and state offset = "tared" in [[load_case]], or record loads '
     "that are known better.",
     "variables": "temperature and other variables: record over their whole range in use, and calibrate again.",
+    "model": "the robot model: weigh its links, or take what a calibration of all sensors found (`from` of [robot] "
+    "tolerance), or record other postures and loads.",
     "noise": "noise, which no recording lowers: average readings over more than a second, or allow more.",
 }
 
@@ -326,6 +330,7 @@ class LoadCaseAssessment:
                 from_offset=after.sources["offset"],
                 from_variables=after.sources["variables"],
                 from_noise=after.sources["noise"],
+                from_model=after.sources["model"],
             )
 
     def _measured_size(self, quantity: str) -> float | None:

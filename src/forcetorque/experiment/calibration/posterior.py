@@ -55,6 +55,9 @@ class Posterior(StoredTable):
     """Share of its response by which the sensor differs from one motion to the next."""
     load_centre: Annotated[FloatArray, ArrayField((6,))]
     """Mean fitted wrench; N, N m."""
+    model_covariance: Annotated[FloatArray, ArrayField((None, None, None))] | None = None
+    """Part of the covariance that would go if the robot model were known exactly; shape (rows, p, p); None where it was
+    taken as exact."""
 
     def error_covariance(self, wrench: Any, *, variables: Any = None, session: str | None = None) -> FloatArray:
         """Predict the covariance of the error of readings under given loads.
