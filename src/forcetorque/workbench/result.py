@@ -306,6 +306,11 @@ class Workbench(Result):
     picture: BenchPicture | None = Field(default=None, exclude=True, repr=False)
     """Content of the figure; None where nothing was measured."""
 
+    @property
+    def passed(self) -> bool:
+        """Whether all limits are kept."""
+        return all(criterion.passed for criterion in self.criteria)
+
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.
 
