@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     ),
 )
 def workbench(
-    *recordings: Annotated[
+    *files: Annotated[
         "BenchRecording | Path | str", Option("Workbench files (TOML), one per sensor; see docs/workbench.md.")
     ],
     only_next: Annotated[
@@ -54,7 +54,7 @@ def workbench(
     from forcetorque.workbench.recording import BenchRecording, read_bench
 
     return workbench(
-        [given if isinstance(given, BenchRecording) else read_bench(given) for given in recordings],
+        [given if isinstance(given, BenchRecording) else read_bench(given) for given in files],
         code_version=version("forcetorque"),
         created=created_now(),
         full_matrix=full_matrix,
