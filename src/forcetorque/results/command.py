@@ -146,7 +146,8 @@ def command_of(analysis: Any) -> Command | None:
     Returns:
         Its options and figure; None if it is no analysis that `command` offers.
     """
-    return getattr(analysis, "command", None)
+    offered = getattr(analysis, "command", None)
+    return offered if isinstance(offered, Command) else None
 
 
 def _has_option(hint: Any) -> bool:

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from forcetorque.sensor.temperature.command import thermal
 
 CAPABILITY = Capability(
+    page="sensor/temperature.md",
     commands=(
         "forcetorque.sensor.gains.command:gains",
         "forcetorque.sensor.bandwidth.command:response",

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from forcetorque.skin.taxels.calibrate import read_patches
 
 CAPABILITY = Capability(
+    page="skin/layout.md",
     needs=("simulation",),
     commands=("forcetorque.skin.commands:skin",),
     sections=("forcetorque.skin.experiment:PATCHES",),
