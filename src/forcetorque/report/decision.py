@@ -73,7 +73,7 @@ def decide_uses(
         for file, calibration in files.items():
             try:
                 campaign = Campaign(_unseen(own, file, calibration))
-                # a load case that cannot be had leaves the others to be judged
+                # a load case that cannot be had leaves the others to be evaluated
                 verdicts += use_verdicts(campaign, {file: calibration}, more, refuse=partial(refuse, key, file))
             except ForceTorqueError as error:
                 refuse(key, file, error)
@@ -115,7 +115,7 @@ def _by_sensor(runs: Sequence[Mapping[str, SensorRun]]) -> dict[SensorKey, list[
 
 
 def _unseen(runs: Sequence[SensorRun], file: str, calibration: Calibration) -> list[SensorRun]:
-    """The runs on which a calibration may be judged; the first reason where it is none of them."""
+    """The runs on which a calibration may be evaluated; the first reason where it is none of them."""
     left = list(_accepted(runs, file, calibration))
     if not left:
         require_unseen_if_judged(file, calibration, runs[0])

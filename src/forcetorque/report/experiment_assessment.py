@@ -154,7 +154,7 @@ def assess_experiment(
 
     Args:
         experiment: The experiment.
-        calibrations: Calibrations by name of their file, by sensor; the sensors that have any are judged, or all if
+        calibrations: Calibrations by name of their file, by sensor; the sensors that have any are evaluated, or all if
             none has.
         file: Name of its file.
         demands: Limits and other sensors.
