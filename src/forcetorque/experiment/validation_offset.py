@@ -39,7 +39,7 @@ class Offset(StrEnum):
 
 
 KNOWN_BEFORE = (Offset.FIRST_SECOND, Offset.FITTED)
-"""Offsets that are known when the judging begins."""
+"""Offsets that are known before an evaluation begins."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

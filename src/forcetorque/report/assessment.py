@@ -42,7 +42,7 @@ from forcetorque.results.number_text import with_error
 from forcetorque.results.table import Row, Shown, short_names
 
 _FEW_INDEPENDENT = 20.0
-"""Independent samples below which a standard error from ten blocks is itself a guess."""
+"""Independent samples below which a standard error from ten blocks is itself uncertain."""
 
 
 class VerdictLine(Row):
@@ -91,7 +91,7 @@ class Assessment(Row):
     smoothing: tuple[str, ...] = ()
     """Whether measured and expected wrench were smoothed, as text."""
     validity: tuple[ReadingsOutside, ...] = ()
-    """How far the judged readings lie outside what each calibration was fitted on."""
+    """How far the evaluated readings lie outside what each calibration was fitted on."""
     warnings: tuple[str, ...]
     """Warnings about the verdict."""
     not_judged: dict[str, str]

@@ -47,7 +47,7 @@ def decide_uses(
     """Decide on every calibration over all recordings whose validation intervals were not fitted.
 
     Args:
-        runs: For every experiment the runs of the judged sensors, by sensor.
+        runs: For every experiment the runs of the evaluated sensors, by sensor.
         calibrations: For every experiment calibrations by name of their file, by sensor.
         demands: Limits, whose load cases are evaluated too.
 
@@ -126,7 +126,7 @@ def _accepted(runs: Sequence[SensorRun], file: str, calibration: Calibration) ->
     for run in runs:
         try:
             require_unseen_if_judged(file, calibration, run)
-        except ForceTorqueError:  # what it has seen there flatters it; other recordings may judge it
+        except ForceTorqueError:  # it was fitted on these data; other recordings may evaluate it
             continue
         yield run
 
@@ -327,7 +327,8 @@ def _begin(
     """What comes before there can be a verdict."""
     unjudged = [names[row.candidate] for row in undecided if row.candidate is not None]
     if unjudged:
-        yield f"Mend what keeps {' and '.join(unjudged)} from a verdict, as said above, and write this report again."
+        names_of = " and ".join(unjudged)
+        yield f"Remove what prevents a verdict on {names_of}, as listed above, and write this report again."
     if len(unjudged) < len(undecided):
         command = shlex.join(["forcetorque", "calibrate", *files, "--sensor", sensor, "-o", f"{sensor}.json"])
         yield f"Calibrate it, `{command}`, and write this report again with the calibration."

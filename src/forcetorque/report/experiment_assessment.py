@@ -169,7 +169,7 @@ def assess_experiment(
         if calibrations and sensor.name not in calibrations:
             continue
         if progress is not None:
-            progress(f"judging {sensor.name}")
+            progress(f"evaluating {sensor.name}")
         others = {
             name: calibration
             for other, group in calibrations.items()

@@ -273,7 +273,7 @@ class ErrorComparison(Row):
     ratio_high: Annotated[float | None, Shown("at most", digits=2)]
     """Upper end."""
     stretches: Annotated[int, Shown("stretches")]
-    """Independent stretches of time that the interval comes from."""
+    """Independent segments of time that the interval comes from."""
     judgement: Annotated[Judgement, Shown("judgement")]
     """Conclusion of the interval about the calibration."""
 
