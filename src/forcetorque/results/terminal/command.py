@@ -164,7 +164,7 @@ class _Analysis:
             results = list(self.by_sensor(given, options, log))
             return type(results[0]).together(results)
         first = next(iter(self.parameters))
-        file = next(iter(files), options.get(first))
+        file = options.get(first)
         if isinstance(file, Path) and not self.offered.options[first].flags and _PROGRESS not in self.named_by_kind:
             log.info("reading %s", file)
         return self.function(*files, **options)
