@@ -17,6 +17,8 @@ import forcetorque
 from forcetorque.app.command_line import whole_program
 from forcetorque.app.python.experiment import Experiment
 from forcetorque.app.python.run import Run
+from forcetorque.results.capability import capabilities
+from tests.app.added_command import added_command
 from tests.app.commands import typed_commands
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -101,12 +103,30 @@ def test_every_page_is_in_the_index() -> None:
     assert "docs/README.md" in _links(ROOT / "README.md")
 
 
-def test_every_page_is_in_the_sidebar() -> None:
-    """What is not would be a warning of `make docs`, which is an error."""
-    sidebar = (ROOT / "docs" / "site" / "index.rst").read_text(encoding="utf-8").split()
+def _with_pages(sidebar: str, pages: set[str]) -> str:
+    """The sidebar with the pages that it lacks below those of commands."""
+    missing = sorted(pages - set(sidebar.split()) - {"docs/README"})
+    head, title, rest = sidebar.partition("   :caption: Which command when\n")
+    assert title
+    listed, end, after = rest.partition("\n\n.. toctree::")
+    return f"{head}{title}{listed}" + "".join(f"\n   {page}" for page in missing) + end + after
+
+
+def test_every_page_is_in_the_sidebar(request: pytest.FixtureRequest) -> None:
+    """What is not would be an error of `make docs`. `pytest --write-snapshots` adds a page among those of commands."""
+    sidebar = ROOT / "docs" / "site" / "index.rst"
+    text = sidebar.read_text(encoding="utf-8")
     pages = {page.relative_to(ROOT).with_suffix("").as_posix() for page in (ROOT / "docs").rglob("*.md")}
-    pages -= {"docs/README"}
-    assert pages <= set(sidebar)
+    if request.config.getoption("--write-snapshots"):
+        sidebar.write_text(_with_pages(text, pages), encoding="utf-8")
+    assert sidebar.read_text(encoding="utf-8") == _with_pages(text, pages)
+
+
+def test_a_page_that_the_sidebar_lacks_is_added() -> None:
+    """Behind the last page of commands; the others stay where they are."""
+    text = ".. toctree::\n   :caption: Which command when\n\n   docs/a\n\n.. toctree::\n\n   docs/b\n"
+    assert _with_pages(text, {"docs/a", "docs/b", "docs/README"}) == text
+    assert _with_pages(text, {"docs/a", "docs/toy"}) == text.replace("docs/a\n", "docs/a\n   docs/toy\n")
 
 
 def test_every_example_is_on_their_page() -> None:
@@ -116,11 +136,62 @@ def test_every_example_is_on_their_page() -> None:
     assert {path for path in page.parent.iterdir() if path.is_file()} == linked | {page}
 
 
-def test_the_index_says_when_to_take_every_command() -> None:
-    """Each stands in its table."""
-    _, _, table = INDEX.read_text(encoding="utf-8").partition("## Which command when")
-    named = set(re.findall(r"`([a-z]+(?:[ -][a-z]+)*)`", table.partition("\n## ")[0]))
-    assert named == set(typed_commands(whole_program()))
+def _help(program: typer.Typer, group: str = "") -> dict[str, str]:
+    """Docstring of every command."""
+    texts = {
+        f"{group}{command.name}": inspect.getdoc(command.callback) or "" for command in program.registered_commands
+    }
+    for added in program.registered_groups:
+        assert added.typer_instance is not None
+        texts |= _help(added.typer_instance, f"{added.typer_instance.info.name} ")
+    return dict(sorted(texts.items()))
+
+
+def _commands_of(index: str) -> tuple[str, set[str]]:
+    """The table of commands of the index, and the commands that it has."""
+    _, _, table = index.partition("## Which command when")
+    table = table.partition("\n\n## ")[0]
+    return table, set(re.findall(r"`([a-z]+(?:[ -][a-z]+)*)`", table))
+
+
+def _with_commands(index: str, program: typer.Typer) -> str:
+    """The index with a row for every command that it lacks: sentence of its help, and page of its capability."""
+    pages = {
+        reference.partition(":")[2].replace("_", "-"): capability.page
+        for capability in capabilities()
+        for reference in capability.commands
+    }
+    table, named = _commands_of(index)
+    rows = []
+    for command, text in _help(program).items():
+        if command not in named:
+            page = pages[command.split()[0]]
+            title = (INDEX.parent / page).read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")
+            sentence = text.partition("\n")[0].rstrip(".")
+            rows.append(f"\n| {sentence[:1].lower()}{sentence[1:]} | `{command}` | [{title}]({page}) |")
+    return index.replace(table, table + "".join(rows))
+
+
+def test_the_index_says_when_to_take_every_command(request: pytest.FixtureRequest) -> None:
+    """Each stands in its table, which leads to the page of every capability. `pytest --write-snapshots` adds rows."""
+    program, text = whole_program(), INDEX.read_text(encoding="utf-8")
+    if request.config.getoption("--write-snapshots"):
+        INDEX.write_text(_with_commands(text, program), encoding="utf-8")
+    assert INDEX.read_text(encoding="utf-8") == _with_commands(text, program)
+    table, named = _commands_of(text)
+    assert named == set(typed_commands(program))
+    assert [one.page for one in capabilities() if f"({one.page})" not in table] == []
+
+
+def test_a_command_that_the_index_lacks_is_added() -> None:
+    """As the last row of the table, from the line of its capability and its help; what stands there stays."""
+    text = INDEX.read_text(encoding="utf-8")
+    with added_command():
+        written = _with_commands(text, whole_program())
+    row = "| show how long sensors were logged | `extent` | [Recordings and experiment files](recording.md) |\n"
+    assert row in written
+    assert written.replace(row, "") == text
+    assert _commands_of(written)[1] - _commands_of(text)[1] == {"extent"}
 
 
 def _absent(code: str) -> list[str]:
@@ -129,17 +200,13 @@ def _absent(code: str) -> list[str]:
     return [f"{holder}.{name}" for holder, name in called if not hasattr(HOLDERS[holder], name)]
 
 
-def _python_lines(program: typer.Typer, group: str = "") -> dict[str, str]:
+def _python_lines(program: typer.Typer) -> dict[str, str]:
     """What stands behind `Python:` in the help of every command."""
     lines = {}
-    for command in program.registered_commands:
-        _, _, text = inspect.getdoc(command.callback).partition("\nPython: ")
-        text = " ".join(text.partition("\n\n")[0].split())
-        lines[f"{group}{command.name}"] = re.sub(r"(\w[\w ]*) \(docs/([\w./]+)\)", r"[\1](\2)", text)
-    for added in program.registered_groups:
-        assert added.typer_instance is not None
-        lines |= _python_lines(added.typer_instance, f"{added.typer_instance.info.name} ")
-    return dict(sorted(lines.items()))
+    for command, text in _help(program).items():
+        line = " ".join(text.partition("\nPython: ")[2].partition("\n\n")[0].split())
+        lines[command] = re.sub(r"(\w[\w ]*) \(docs/([\w./]+)\)", r"[\1](\2)", line)
+    return lines
 
 
 def test_the_page_on_python_has_the_line_of_every_command(request: pytest.FixtureRequest) -> None:

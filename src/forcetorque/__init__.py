@@ -13,7 +13,6 @@ from forcetorque.base.lazy import lazy_names
 if TYPE_CHECKING:
     from forcetorque.app.python.arrays import experiment_of_arrays
     from forcetorque.app.python.experiment import Experiment, calibrate_jointly, load_experiment
-    from forcetorque.app.python.functions import calibrate_skin, skin_wrench
     from forcetorque.base.errors import ForceTorqueError
     from forcetorque.calibration.calibrate import calibrate_sensor
     from forcetorque.calibration.thesis.calibrate import calibrate
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
     from forcetorque.robot.dynamics import expected_wrenches
     from forcetorque.robot.model import RobotModel
     from forcetorque.robot.urdf import read_urdf
+    from forcetorque.skin.commands import calibrate_skin, skin_wrench
 
 
 CAPABILITIES = (
@@ -89,7 +89,7 @@ __getattr__, __dir__ = lazy_names(
         "calibrate": "forcetorque.calibration.thesis.calibrate",
         "calibrate_jointly": "forcetorque.app.python.experiment",
         "calibrate_sensor": "forcetorque.calibration.calibrate",
-        "calibrate_skin": "forcetorque.app.python.functions",
+        "calibrate_skin": "forcetorque.skin.commands",
         "contest": "forcetorque.contests.command",
         "evaluate": "forcetorque.evaluation.commands",
         "expected_wrenches": "forcetorque.robot.dynamics",
@@ -99,7 +99,7 @@ __getattr__, __dir__ = lazy_names(
         "read_calibration": "forcetorque.experiment.calibration.artefact",
         "read_recording": "forcetorque.recording.storage",
         "read_urdf": "forcetorque.robot.urdf",
-        "skin_wrench": "forcetorque.app.python.functions",
+        "skin_wrench": "forcetorque.skin.commands",
         "wrench_errors": "forcetorque.experiment.calibrations_under_test",
         "write_calibration": "forcetorque.experiment.calibration.artefact",
         "write_recording": "forcetorque.recording.storage",

@@ -18,8 +18,11 @@ import numpy as np
 import pytest
 
 from forcetorque.app.command_line import whole_program
+from forcetorque.results.capability import all_named, named
+from forcetorque.results.command import command_of
 from forcetorque.results.result import Result
 from forcetorque.workbench.simulated_benches import BenchFaults
+from tests.app.added_command import added_command
 from tests.app.commands import question_of, typed_commands
 from tests.app.outcome import Run
 from tests.locomotion.foot_forces import write_foot_forces
@@ -42,7 +45,19 @@ LIMITS = (
 )
 SHORT = ("--type", "OnTdTO", "--type", "CnTdTO", "--lambda", "0", "--lambda", "100")
 KNEE = ("--column", "robot.position.knee", "--desired", "robot.position.knee_desired")
-COMMANDS = {
+
+
+def _of_experiments() -> dict[str, tuple[str, ...]]:
+    """Commands of experiments or their sensors, on the experiment of the small arm."""
+    analyses = {name.replace("_", "-"): named(reference) for name, reference in all_named("commands")}
+    return {
+        name: (name, PARQUET)
+        for name, analysis in analyses.items()
+        if command_of(analysis) and next(iter(analysis.__annotations__.values())) in ("SensorRun", "Runs", "Experiment")
+    }
+
+
+COMMANDS = _of_experiments() | {
     "accept": ("accept", PARQUET, "--spec", "limits.toml", "-c", "fitted.json"),
     "balance": ("balance", "feet/standing.toml", "--touch", "50N", "--release", "20N"),
     "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
@@ -71,6 +86,7 @@ COMMANDS = {
     "view": ("view", PARQUET, "-o", "view.html"),
     "workbench": ("workbench", "SIM001.toml"),
 }
+"""What is typed; of a command that only needs an experiment nothing has to be stated."""
 WITHOUT_TABLE = {"payload", "schema", "simulate", "torque-loop"}
 """Shown elsewhere: `payload` needs a wrist, `simulate` and `torque-loop` minutes; `schema` is JSON."""
 
@@ -153,6 +169,13 @@ def shown_widths(monkeypatch: pytest.MonkeyPatch) -> None:
         return "".join(f"===== {width} =====\n{text(result, width)}" for width in WIDTHS)
 
     monkeypatch.setattr(Result, "text", at_every_width)
+
+
+def test_a_command_of_experiments_is_here_without_a_line() -> None:
+    """The toy that is added; one that is not added is not."""
+    with added_command():
+        assert _of_experiments()["extent"] == ("extent", PARQUET)
+    assert "extent" not in _of_experiments()
 
 
 def test_every_command_is_here() -> None:

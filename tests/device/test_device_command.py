@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.app.python.functions import design_device
+from forcetorque.device.command import design_device
 from forcetorque.device.design import DeviceDesign
 from forcetorque.device.device_file import DEFAULT_DEVICE, read_device
 from forcetorque.device.simulated_recordings import write_device

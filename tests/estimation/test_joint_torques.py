@@ -257,5 +257,5 @@ def test_a_sensor_without_a_judged_sample_is_named(arm: Path) -> None:
     broken = replace(stream, signals={"raw": replace(stream.signal("raw"), values=raw)})
     gap = replace(experiment, recording=replace(recording, streams={**recording.streams, other.stream: broken}))
     found = joint_torques(SensorRun(gap, gap.sensors[0]), {}, other_sensors=OtherSensors.MEASURED)
-    assert found.left_out == ("torque of shoulder_yaw by prior over 'judge': every judged sample has a gap",)
+    assert found.left_out == ("torque of shoulder_yaw by prior over 'judge': every evaluated sample has a gap",)
     assert {verdict.joint for verdict in found.verdicts} == set(INBOARD[1:])

@@ -140,7 +140,7 @@ def test_samples_that_were_fitted_are_not_judged(arm: Path, fitted: Calibration,
     changed = load_experiment(arm / PARQUET)
     if refused:
         with pytest.raises(
-            ExperimentError, match="'new' was fitted on the interval 'fit', which overlaps the judged inte"
+            ExperimentError, match="'new' was fitted on the interval 'fit', which overlaps the validation inte"
         ):
             evaluate(SensorRun(changed, changed.sensors[0]), {"new": fitted})
     else:
@@ -259,8 +259,8 @@ def test_where_the_offset_comes_from_is_said(experiment: Experiment, fitted: Cal
     assert sources == {
         ("prior", "fitted"): "the prior matrix_SIM001.txt, offset of the data that new was fitted on",
         ("new", "fitted"): "new",
-        ("prior", "judged-mean"): "the judged samples themselves",
-        ("new", "judged-mean"): "the judged samples themselves",
+        ("prior", "judged-mean"): "the evaluated samples themselves",
+        ("new", "judged-mean"): "the evaluated samples themselves",
     }
     judged = experiment.recording.with_intervals(experiment.intervals(Use.VALIDATION))
     alone, _ = evaluate(SensorRun(replace(experiment, recording=judged), sensor), {}).verdicts

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.app.python.functions import calibrate_skin
+from forcetorque.skin.commands import calibrate_skin
 from forcetorque.skin.taxels.calibrate import SkinCalibration
 from forcetorque.skin.taxels.result import CandidateRow
 

@@ -21,7 +21,7 @@ from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Stream
 from tests.scenes.experiments import PARQUET, edit
 
-FITTED = "was fitted on the interval 'fit', which overlaps the judged interval 'judge'"
+FITTED = "was fitted on the interval 'fit', which overlaps the validation interval 'judge'"
 RNG = np.random.default_rng(5)
 
 

@@ -8,6 +8,8 @@ import struct
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -53,8 +55,7 @@ from forcetorque.sensor.bandwidth.decays import DecayCurve
 from forcetorque.sensor.bandwidth.excited_records import ExcitationKind
 from forcetorque.sensor.bandwidth.frequency_response import ResponseCurve
 from forcetorque.sensor.bandwidth.second_order import SecondOrder
-from forcetorque.sensor.figures import response_figure, thermal_figure
-from forcetorque.sensor.temperature.temperature_drift import SensorThermal, ThermalCurve, ThermalDriftRow
+from forcetorque.sensor.figures import response_figure
 from forcetorque.skin.figures import skin_event_figure, skin_layout_figure, skin_wrench_figure, taxel_figure
 from forcetorque.skin.surface import skin_surface, unrolled
 from forcetorque.skin.taxels.result import TaxelPicture
@@ -500,55 +501,6 @@ def _reference_error(rng: np.random.Generator) -> Figure:
     )
 
 
-def _thermal(rng: np.random.Generator) -> Figure:
-    degrees = np.concatenate([np.linspace(20.0, 40.0, 60), np.linspace(40.0, 20.0, 60)])
-    heating = np.repeat([1.0, -1.0], 60)
-    slopes = rng.normal(size=6)
-    rows = tuple(
-        ThermalDriftRow(
-            signal=name,
-            unit="N",
-            drift_per_degC=float(slope),
-            drift_standard_error_per_degC=0.1,
-            drift_half_width_95_per_degC=0.2,
-            hysteresis=1.0,
-            hysteresis_half_width_95=0.1,
-            drift_per_hour=None,
-            drift_half_width_95_per_hour=None,
-            residual_rms=0.1,
-        )
-        for name, slope in zip(WRENCH_COMPONENTS, slopes, strict=True)
-    )
-    reading = np.outer(degrees - 30.0, slopes) + 0.5 * heating[:, None] + 0.1 * rng.normal(size=(120, 6))
-    curve = ThermalCurve(
-        signals=tuple(f"{name}, N" for name in WRENCH_COMPONENTS),
-        temperature_degC=degrees,
-        heating=heating,
-        reading=reading,
-        reference_degC=30.0,
-    )
-    sensor = SensorThermal(
-        sensor="_left $wrist$ " + "x" * 70,
-        serial="FT1",
-        reading="the logged wrench",
-        variable="temperature",
-        thermometer_lag_s=None,
-        thermometer_lag_half_width_95_s=None,
-        samples=120,
-        sessions=1,
-        lowest_degC=20.0,
-        highest_degC=40.0,
-        reference_degC=30.0,
-        cycles=1.0,
-        told_from_time=True,
-        components=rows,
-        channels=(),
-        corrected=False,
-        curve=curve,
-    )
-    return thermal_figure([sensor, sensor])
-
-
 def _motion(rng: np.random.Generator) -> Figure:
     time = np.arange(2000) / 100.0
     columns = {
@@ -659,6 +611,21 @@ def _predicted_error(rng: np.random.Generator) -> Figure:
     return predicted_error_figure(rows)
 
 
+def _of_capabilities() -> dict[str, Callable[[np.random.Generator], Figure]]:
+    """Functions `draw_<name>` of every `drawn_figures.py` of the tests, by the names of their figures."""
+    root = Path(__file__).parents[2]
+    modules = [
+        import_module(".".join(path.relative_to(root).with_suffix("").parts))
+        for path in sorted((root / "tests").rglob("drawn_figures.py"))
+    ]
+    return {
+        name.removeprefix("draw_"): function
+        for module in modules
+        for name, function in vars(module).items()
+        if name.startswith("draw_")
+    }
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "balance": _balance,
     "bench": _bench,
@@ -686,13 +653,12 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "taxel": _taxel,
     "motion": _motion,
     "response": _response,
-    "thermal": _thermal,
     "torque": _torque,
     "torque loop": _torque_loop,
     "index": _index,
     "skin layout": _skin_layout,
     "use": _use,
-}
+} | _of_capabilities()
 """A figure of every kind that is drawn from plain arrays, of random data."""
 
 

@@ -93,7 +93,7 @@ def test_where_there_is_no_verdict_the_reason_is_what_to_mend() -> None:
     """Of a calibration; of a sensor without any the command that makes one."""
     seen = Undecided(sensor="leg_ft", serial="SN1", candidate="leg.json", reason="it was fitted on 'moving'")
     assert _steps(undecided=(seen,)) == (
-        "Mend what keeps leg.json from a verdict, as said above, and write this report again.",
+        "Remove what prevents a verdict on leg.json, as listed above, and write this report again.",
     )
     none = Undecided(sensor="leg_ft", serial="SN1", candidate=None, reason="no calibration was given")
     (step,) = _steps(undecided=(none,))

@@ -6,7 +6,12 @@ from typing import TYPE_CHECKING
 from forcetorque.base.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from forcetorque.app.python.functions import design_device, motion, motion_of_arrays, simulate, study, workbench
+    from forcetorque.app.python.functions import motion_of_arrays
+    from forcetorque.device.command import design_device
+    from forcetorque.locomotion.commands import motion
+    from forcetorque.simulation.command import simulate
+    from forcetorque.study.command import study
+    from forcetorque.workbench.command import workbench
 
 __all__ = [
     "design_device",
@@ -20,11 +25,11 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "design_device": "forcetorque.app.python.functions",
-        "motion": "forcetorque.app.python.functions",
+        "design_device": "forcetorque.device.command",
+        "motion": "forcetorque.locomotion.commands",
         "motion_of_arrays": "forcetorque.app.python.functions",
-        "simulate": "forcetorque.app.python.functions",
-        "study": "forcetorque.app.python.functions",
-        "workbench": "forcetorque.app.python.functions",
+        "simulate": "forcetorque.simulation.command",
+        "study": "forcetorque.study.command",
+        "workbench": "forcetorque.workbench.command",
     },
 )

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from forcetorque.calibration.moments import recording_moments, store_moments
 
 CAPABILITY = Capability(
+    page="calibration/calibration.md",
     needs=(
         "inspection",
         "payload",

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from forcetorque.contests.entries import read_entries
 
 CAPABILITY = Capability(
+    page="contests.md",
     needs=(
         "sensor",
         "calibration",

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 @command(
     Drawing(
         function="forcetorque.contests.figure:contest_figure",
-        of="loads",
+        of=("loads",),
         help="errors by component and load, with their intervals",
     )
 )

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from forcetorque.device.simulated_recordings import write_device
 
 CAPABILITY = Capability(
+    page="device/device.md",
     needs=(
         "simulation",
         "calibration",

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 
 CAPABILITY = Capability(
+    page="estimation/estimation.md",
     needs=("skin",),
     commands=("forcetorque.estimation.command:estimate",),
     sections=(

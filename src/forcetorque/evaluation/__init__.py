@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from forcetorque.experiment.calibrations_under_test import wrench_errors
 
 CAPABILITY = Capability(
+    page="evaluation/use.md",
     needs=(
         "sensor",
         "payload",

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque evaluate`, `accept`, `compare`, `sphere` and `validate`."""
 
+from collections.abc import Collection
 from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.results.command import Option, command
+from forcetorque.results.command import Drawing, Option, command
 from forcetorque.results.terminal.options import (
     ComparedCalibrationsOption,
-    ExperimentArgument,
     FormatOption,
     SensorOption,
     SphereIntervalOption,
@@ -18,15 +18,21 @@ from forcetorque.results.terminal.options import (
 from forcetorque.results.terminal.output import Format, TrialsChoice, show, start_logging, stop_at_failures
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from forcetorque.evaluation.acceptance.acceptance import Acceptance
     from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
     from forcetorque.evaluation.evaluation import Evaluation
+    from forcetorque.evaluation.sphere.sphere import Spheres
     from forcetorque.evaluation.trials.comparison import Comparison
     from forcetorque.evaluation.validation.validation import Validation
     from forcetorque.experiment.applicability import Population
+    from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.calibrations_under_test import Calibrations, OneCalibration, OtherCalibrations
     from forcetorque.experiment.campaign import Runs
+    from forcetorque.experiment.experiment import Experiment
     from forcetorque.experiment.free_sub_model import OtherSensors
+    from forcetorque.results.command import Progress
 
 
 @command()
@@ -222,39 +228,54 @@ def _drawn(result: "Comparison", figure: Path) -> "Comparison":
     return result.model_copy(update={"figure": str(figure)})
 
 
+@command(
+    Drawing(
+        function="forcetorque.evaluation.figures.sphere:sphere_figure",
+        of=("analyses",),
+        help="the forces, the ellipsoids and the weight by the model",
+    )
+)
 def sphere(
-    experiment: ExperimentArgument,
-    sensor: SensorOption = None,
-    calibration: ComparedCalibrationsOption = None,
-    interval: SphereIntervalOption = None,
-    figure: Annotated[
-        Path | None, typer.Option("--figure", help="PNG of the forces, the ellipsoids and the weight by the model.")
+    experiment: Annotated["Experiment", Option("Experiment in which a limb is carried around.")],
+    sensors: Annotated[Collection[str], Option("Sensor of the experiment. Default: all.", "--sensor")] = (),
+    calibrations: Annotated[
+        "Mapping[str, Calibration] | None",
+        Option(
+            "Calibration file to compare with the prior.",
+            "--calibration",
+            "-c",
+            typed=list[Path],
+            reads="forcetorque.results.terminal.reading:read_calibrations",
+        ),
     ] = None,
-    output_format: FormatOption = Format.TABLE,
-) -> None:
+    intervals: Annotated[
+        Collection[str],
+        Option(
+            "Label or kind of an interval whose motion draws a sphere. Default: the sphere intervals of each file, "
+            "else all.",
+            "--interval",
+        ),
+    ] = (),
+    *,
+    progress: Annotated["Progress", Option("Called with a line for people at every sensor.")] = lambda _: None,
+) -> "Spheres":
     """Compare how the three axes weigh a limb that is carried around.
 
     Example: forcetorque sphere experiment.toml --interval grid
 
     Python: `run.sphere(calibration)`
+
+    Returns:
+        Rows of the sensors that could be analysed; failures, each with a warning, of the others.
+
+    Raises:
+        ExperimentError: If an interval is not there, a calibration is of no sensor, or of one that is not named, or no
+            sensor can be analysed.
     """
-    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.evaluation.sphere.sphere import spheres_of_sensors
-    from forcetorque.results.terminal.output import refuse_figure
-    from forcetorque.results.terminal.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
+    from forcetorque.results.terminal.reading import refuse_left_out, sensors_named
 
-    log = start_logging()
-    refuse_figure(figure)
-    calibrations = read_calibrations(calibration)
-    content = read_experiment(experiment, log)
-    chosen = sensors_named(content, sensor)
-    refuse_left_out(content, chosen, calibrations)
-    result = spheres_of_sensors(content, chosen, calibrations, interval, file=str(experiment), progress=log.info)
-    if figure is not None:
-        from forcetorque.evaluation.figures.sphere import sphere_figure
-        from forcetorque.results.figures import png_bytes
-
-        write_bytes_atomically(figure, png_bytes(sphere_figure(result.analyses)))
-        result = result.model_copy(update={"figure": str(figure)})
-    show(result, output_format)
-    stop_at_failures(result.failures)
+    chosen, by_name = sensors_named(experiment, sensors), dict(calibrations or {})
+    refuse_left_out(experiment, chosen, by_name)
+    file = str(experiment.file)
+    return spheres_of_sensors(experiment, chosen, by_name, tuple(intervals) or None, file=file, progress=progress)

@@ -22,9 +22,9 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
 from forcetorque.evaluation.load_cases.verdict import UseVerdict, verdict_texts
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import (
-    JudgedCandidate,
-    JudgedRow,
-    JudgedWrenches,
+    CalibrationUnderTest,
+    EvaluatedRow,
+    EvaluatedWrenches,
     wrench_errors,
 )
 from forcetorque.experiment.campaign import Campaign, Runs
@@ -81,7 +81,7 @@ def error_tables(
 
     Yields:
         RMSE per axis with norms; and mean errors per axis of the same candidates, where the offset is not that of the
-        judged samples themselves, which leaves none, with what tells how much the errors are worth.
+        evaluated samples themselves, which leaves none, with what tells how much the errors are worth.
     """
     yield _named(without_vague(table_of(rows, caption, leave_out={"bias", *_WORTH})), recordings)
     kept = [k for k, row in enumerate(rows) if row.offset is not Offset.JUDGED_MEAN]
@@ -107,7 +107,7 @@ def _named(table: Table, recordings: Sequence[str] | None) -> Table:
     return table if recordings is None else with_first_column(table, "recording", recordings)
 
 
-class CandidateErrors(JudgedRow):
+class CandidateErrors(EvaluatedRow):
     """Errors of one candidate with one offset; per axis in the order fx fy fz (N) tx ty tz (N m)."""
 
     samples: int
@@ -141,7 +141,7 @@ class CandidateErrors(JudgedRow):
     excitation_Nm: Annotated[float, Shown("moved", "N m", digits=2)]
     """The same of the reference moment."""
     load_N: float
-    """What that is little or much of: root mean square judged force, or standard deviation of the fitted ones where
+    """What that is little or much of: root mean square evaluated force, or standard deviation of the fitted ones where
     that is larger."""
     load_Nm: float
     """The same of the moment."""
@@ -247,7 +247,7 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
     campaign = Campaign.of(runs)
-    wrenches: dict[str, JudgedWrenches] = {}
+    wrenches: dict[str, EvaluatedWrenches] = {}
     warnings: list[str] = []
     for run in campaign.runs_with(Use.VALIDATION):
         with campaign.stated(run):
@@ -296,7 +296,7 @@ def at_rest(verdicts: Sequence[CandidateErrors]) -> tuple[str, ...]:
         verdicts: The errors.
 
     Returns:
-        A sentence per sensor where it is so: all its candidates are judged on the same samples.
+        A sentence per sensor where it is so: all its candidates are evaluated on the same samples.
     """
     words = [(row.sensor, row.hardly_moved_words) for row in verdicts]
     return tuple(dict.fromkeys(f"{sensor}: {still}" for sensor, still in words if still is not None))
@@ -304,7 +304,7 @@ def at_rest(verdicts: Sequence[CandidateErrors]) -> tuple[str, ...]:
 
 def _errors(
     campaign: Campaign,
-    candidate: JudgedCandidate,
+    candidate: CalibrationUnderTest,
     offset: Offset,
     wrench: FloatArray,
     reference: FloatArray,

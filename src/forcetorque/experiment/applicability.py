@@ -222,6 +222,6 @@ def _read(file: Path) -> tuple[str, FloatArray]:
         return calibration.sensor.serial, calibration.matrix
     serial = file.stem.removeprefix("matrix_")
     if file.suffix != ".txt" or serial in ("", file.stem):
-        # without a serial number nobody could tell the judged sensor from the others
+        # without a serial number nobody could tell the evaluated sensor from the others
         raise FormatError(f"{file}: expected a calibration (.json), or a name with the serial number, matrix_SN026.txt")
     return serial, read_matrix_file(file).matrix

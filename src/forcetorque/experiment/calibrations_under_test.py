@@ -117,7 +117,7 @@ def errors_from_zero(wrenches: Any, time_s: Any) -> WrenchErrors:
 
 
 def offset_removed(measured: Any, reference: Any) -> FloatArray:
-    """Re-estimate the offset on the judged samples themselves: what is left is the matrix's doing.
+    """Re-estimate the offset on the evaluated samples themselves: what is left is the matrix's doing.
 
     Args:
         measured: Wrenches of the sensor; shape (n, 6); N, N m.
@@ -138,7 +138,7 @@ _SAME_OFFSET = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class JudgedCandidate:
+class CalibrationUnderTest:
     """One candidate: a calibration, or a prior."""
 
     name: str
@@ -149,7 +149,7 @@ class JudgedCandidate:
     """Name of the prior that a calibration is to be compared with; None for a prior, and where it has none."""
 
     def offset(self, offset: Offset) -> Offset:
-        """Name the offset that it is really judged with.
+        """Name the offset that it is really evaluated with.
 
         Args:
             offset: The offset that is asked for.
@@ -163,19 +163,19 @@ class JudgedCandidate:
         """Tell where an offset comes from.
 
         Args:
-            offset: Which offset it is judged with.
+            offset: Which offset it is evaluated with.
 
         Returns:
             The origin, in words.
         """
         return {
-            Offset.FIRST_SECOND: "the first second of every judged interval",
-            Offset.JUDGED_MEAN: "the judged samples themselves",
+            Offset.FIRST_SECOND: "the first second of every validation interval",
+            Offset.JUDGED_MEAN: "the evaluated samples themselves",
         }.get(offset, self.correction.source)
 
 
-class JudgedRow(Row):
-    """What every line about a judged candidate says first: of which sensor, which candidate, with which offset."""
+class EvaluatedRow(Row):
+    """What identifies a row about a calibration under test: sensor, candidate and offset."""
 
     sensor: str
     """Sensor."""
@@ -184,15 +184,15 @@ class JudgedRow(Row):
     candidate: Annotated[str, Shown("candidate", file=True)]
     """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
     offset: Annotated[Offset, Shown("offset")]
-    """Which offset it is judged with."""
+    """Which offset it is evaluated with."""
     offset_source: str
     """Where that offset comes from, in words."""
     prior: str | None
     """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
 
 
-def judged_candidates(calibrations: Mapping[str, Calibration]) -> tuple[JudgedCandidate, ...]:
-    """Decide by what a judged sensor is read in turn.
+def tested_calibrations(calibrations: Mapping[str, Calibration]) -> tuple[CalibrationUnderTest, ...]:
+    """Decide by what an evaluated sensor is read in turn.
 
     The prior of a calibration has the offset that the calibration carries for it, that of the fitted data.
 
@@ -202,18 +202,18 @@ def judged_candidates(calibrations: Mapping[str, Calibration]) -> tuple[JudgedCa
     Returns:
         The candidates, priors first; a prior that several calibrations share comes once.
     """
-    priors: list[JudgedCandidate] = []
-    fitted: list[JudgedCandidate] = []
+    priors: list[CalibrationUnderTest] = []
+    fitted: list[CalibrationUnderTest] = []
     for name, calibration in calibrations.items():
         prior = calibration.prior
         read = None if prior is None else Correction.of_prior(name, prior, calibration.sessions)
         shared = None if read is None else next((one for one in priors if _same(read, one.correction)), None)
         if read is not None and shared is None:
             label = PRIOR if len(calibrations) == 1 else f"{PRIOR} of {name}"
-            shared = JudgedCandidate(name=label, correction=read, prior=None)
+            shared = CalibrationUnderTest(name=label, correction=read, prior=None)
             priors.append(shared)
         correction = Correction.of(name, calibration)
-        fitted.append(JudgedCandidate(name=name, correction=correction, prior=shared.name if shared else None))
+        fitted.append(CalibrationUnderTest(name=name, correction=correction, prior=shared.name if shared else None))
     return (*priors, *fitted)
 
 
@@ -292,7 +292,7 @@ def _got(given: Any) -> str:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class JudgedWrenches:
+class EvaluatedWrenches:
     """Wrenches of every candidate at the same n instants, intervals in the order of time."""
 
     time_s: FloatArray
@@ -306,7 +306,7 @@ class JudgedWrenches:
     """
     intervals: tuple[tuple[str, slice], ...]
     """Label of every interval, and which of the instants are its."""
-    candidates: tuple[JudgedCandidate, ...]
+    candidates: tuple[CalibrationUnderTest, ...]
     """The same candidates: how each reads the sensor, and which prior it is to be compared with."""
 
     @property
@@ -314,8 +314,8 @@ class JudgedWrenches:
         """Name of the prior that each calibration is to be compared with, also one that it shares with others."""
         return {candidate.name: candidate.prior for candidate in self.candidates if candidate.prior is not None}
 
-    def with_either_offset(self) -> Iterator[tuple[JudgedCandidate, Offset, FloatArray]]:
-        """Give what every candidate measures, with its own offset and with that of the judged samples.
+    def with_either_offset(self) -> Iterator[tuple[CalibrationUnderTest, Offset, FloatArray]]:
+        """Give what every candidate measures, with its own offset and with that of the evaluated samples.
 
         Yields:
             Candidate, offset and wrenches; shape (n, 6); N, N m.

@@ -211,7 +211,7 @@ class CampaignInterval:
 
     @property
     def validation_set(self) -> ValidationSet:
-        """The samples as data to judge on."""
+        """The samples as data to evaluate on."""
         stamps = self.part.samples.stamp_ns
         return ValidationSet(
             label=self.label,

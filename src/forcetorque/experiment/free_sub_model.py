@@ -29,7 +29,7 @@ class OtherSensors(StrEnum):
     """What the other sensors at the cuts of the sub-model are taken to read."""
 
     MODEL = "model"
-    """What the model expects: only the judged sensor errs. Right only while the support is the one contact of the
+    """What the model expects: only the evaluated sensor errs. Right only while the support is the one contact of the
     whole robot."""
     MEASURED = "measured"
     """What they measured: contacts elsewhere do no harm, and the errors of these sensors are in the result."""
@@ -37,18 +37,18 @@ class OtherSensors(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ContactForceValidation:
-    """Which sensor is judged, by which of the two sub-models that it bounds; nothing may touch that one."""
+    """Which sensor is evaluated, by which of the two sub-models that it bounds; nothing may touch that one."""
 
     tree: BodyTree
     """Robot rooted at the link whose motion is known: that of an IMU, or the fixed one."""
     sensor: str
-    """Sensor that is judged."""
+    """Sensor that is evaluated."""
     sub_model: str | None = None
     """Sub-model that is free of contact, by the sensor at its base or the root link; None for the one outboard of the
-    judged sensor."""
+    evaluated sensor."""
     contact: Contact | None = None
     """Contact of type `wrench` on the sub-model at which the wrench is estimated; None for the origin of the link that
-    is mounted on the judged sensor on the sub-model's side, or of one that is fixed to it."""
+    is mounted on the evaluated sensor on the sub-model's side, or of one that is fixed to it."""
     other_sensors: OtherSensors = OtherSensors.MODEL
     """What the other sensors of the sub-model are taken to read."""
     support: str | None = None
@@ -103,7 +103,7 @@ class ContactForceValidation:
         return Question(tree=self.tree, expected=self.others, expected_contact=self.support, equations=())
 
     def sensor_H_contact(self, joints: JointMotion) -> FloatArray:
-        """Find where the contact is, seen from the judged sensor.
+        """Find where the contact is, seen from the evaluated sensor.
 
         Args:
             joints: Motion of at least the required joints; n samples.
@@ -123,7 +123,7 @@ class ContactForceValidation:
     def _bounded_part(self, cuts: tuple[str, ...]) -> SubModel:
         cut_of(self.tree, self.sensor)  # its error lists the sensors
         if self.sensor not in cuts:
-            raise EstimationError(f"cut_at: expected the judged sensor {self.sensor!r} among the cuts, got {cuts}")
+            raise EstimationError(f"cut_at: expected the evaluated sensor {self.sensor!r} among the cuts, got {cuts}")
         parts = sub_models(self.tree, cuts)
         sides = {part.name: part for part in parts if self.sensor in (part.sensor, *part.outboard_sensors)}
         wanted = self.sensor if self.sub_model is None else self.sub_model
@@ -188,7 +188,7 @@ class SubModelChoice:
         """Decide how the other sensors are read in a recording.
 
         Args:
-            run: The judged sensor.
+            run: The evaluated sensor.
 
         Returns:
             The sub-model.
@@ -201,7 +201,7 @@ class SubModelChoice:
         """Ask the sub-model of every recording that has validation intervals.
 
         Args:
-            campaign: The judged sensor.
+            campaign: The evaluated sensor.
             question: What is asked; its errors tell the file where there are several.
 
         Returns:
@@ -216,10 +216,10 @@ class SubModelChoice:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class FreeSubModel:
-    """A sub-model that the judged sensor bounds and that nothing touches, whatever supports the robot."""
+    """A sub-model that the evaluated sensor bounds and that nothing touches, whatever supports the robot."""
 
     run: SensorRun
-    """The judged sensor."""
+    """The evaluated sensor."""
     choice: SubModelChoice
     """Which sub-model it is, and where its contact."""
     corrections: Mapping[str, Correction]

@@ -41,7 +41,7 @@ _HARDLY, _LEVER_M = 0.05, 0.01
 _STEPS = 4.0
 """Steps of its resolution by which a channel would then have moved."""
 _AT_ENDS_S = 0.1
-"""Time at either end of a run that is not judged, beside half of the derivative window: clocks differ by as much."""
+"""Time at either end of a run that is not evaluated, beside half of the derivative window: clocks differ by as much."""
 _INSTANTS, _FEWEST = 400, 8
 """Instants of an interval, and the fewest of a run, at which the expected wrench is evaluated."""
 

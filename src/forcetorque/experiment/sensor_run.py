@@ -13,12 +13,17 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.applicability import require_fit
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.provenance import SensorIdentity
-from forcetorque.experiment.calibrations_under_test import PRIOR, JudgedCandidate, JudgedWrenches, judged_candidates
+from forcetorque.experiment.calibrations_under_test import (
+    PRIOR,
+    CalibrationUnderTest,
+    EvaluatedWrenches,
+    tested_calibrations,
+)
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact, ExperimentSensor
 from forcetorque.experiment.sensor_reading import Correction, Readings, wrench_at
 from forcetorque.experiment.sensor_samples import IntervalSamples, readings_over, samples_over
-from forcetorque.experiment.validation_offset import JudgedInstants, mean_offset
+from forcetorque.experiment.validation_offset import EvaluatedInstants, mean_offset
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.recording.stream import Stream
@@ -43,7 +48,7 @@ class SensorRun:
         self.sensor = experiment.sensor(sensor) if isinstance(sensor, str) else sensor
         self._known: dict[Hashable, object] = {}
         self._samples: dict[Hashable, IntervalSamples] = {}
-        self._judged: dict[Hashable, JudgedWrenches] = {}
+        self._judged: dict[Hashable, EvaluatedWrenches] = {}
         self._motions: dict[Hashable, list[tuple[JointMotion, RootMotion]]] = {}
 
     def __repr__(self) -> str:
@@ -200,8 +205,8 @@ class SensorRun:
         """
         return [self.interval_samples(interval, variables=variables) for interval in self._known_intervals(use)]
 
-    def instants(self, interval: Interval) -> JudgedInstants:
-        """Give the instants at which the sensor is judged in an interval.
+    def instants(self, interval: Interval) -> EvaluatedInstants:
+        """Give the instants at which the sensor is evaluated in an interval.
 
         Args:
             interval: The interval.
@@ -210,10 +215,10 @@ class SensorRun:
             Instants of all its samples, and those around it that the filter of the experiment takes.
         """
 
-        def padded_instants() -> JudgedInstants:
+        def padded_instants() -> EvaluatedInstants:
             recording, smoothing = self.experiment.recording, self.experiment.processing.smoothing
             apart = touched_otherwise(interval, recording, self.experiment.contacts)
-            return JudgedInstants(samples=padded_samples(recording, self.stream, interval, smoothing, apart=apart))
+            return EvaluatedInstants(samples=padded_samples(recording, self.stream, interval, smoothing, apart=apart))
 
         return self.once(("instants", _key(interval)), padded_instants)
 
@@ -315,7 +320,7 @@ class SensorRun:
         self.require_fit(name or "calibration", calibration)
         return Correction.of(name or "calibration", calibration)
 
-    def candidates(self, calibrations: Mapping[str, Calibration]) -> tuple[JudgedCandidate, ...]:
+    def candidates(self, calibrations: Mapping[str, Calibration]) -> tuple[CalibrationUnderTest, ...]:
         """Decide by what the sensor is read in turn.
 
         Args:
@@ -330,14 +335,14 @@ class SensorRun:
         """
         return self.once(("candidates", _names(calibrations)), lambda: self._candidates(calibrations))
 
-    def _candidates(self, calibrations: Mapping[str, Calibration]) -> tuple[JudgedCandidate, ...]:
+    def _candidates(self, calibrations: Mapping[str, Calibration]) -> tuple[CalibrationUnderTest, ...]:
         if not calibrations:
-            return (JudgedCandidate(name=PRIOR, correction=self.uncalibrated(), prior=None),)
+            return (CalibrationUnderTest(name=PRIOR, correction=self.uncalibrated(), prior=None),)
         for name, calibration in calibrations.items():
             self.require_fit(name, calibration)
-        return judged_candidates(calibrations)
+        return tested_calibrations(calibrations)
 
-    def judged(self, calibrations: Mapping[str, Calibration]) -> JudgedWrenches:
+    def judged(self, calibrations: Mapping[str, Calibration]) -> EvaluatedWrenches:
         """Read the sensor by every candidate on the validation intervals.
 
         Args:
@@ -357,7 +362,7 @@ class SensorRun:
             self._judged[key] = self._judged_wrenches(calibrations)
         return self._judged[key]
 
-    def _judged_wrenches(self, calibrations: Mapping[str, Calibration]) -> JudgedWrenches:
+    def _judged_wrenches(self, calibrations: Mapping[str, Calibration]) -> EvaluatedWrenches:
         candidates = self.candidates(calibrations)
         needed = {name for candidate in candidates for name in candidate.correction.variables}
         parts = [self.interval_samples(interval, variables=needed) for interval in self.intervals(Use.VALIDATION)]
@@ -367,7 +372,7 @@ class SensorRun:
             require_shape(matrix, name=f"{candidate.name}: matrix", shape=(6, self.channels))
         stamps = np.concatenate([part.samples.stamp_ns for part in parts])
         ends = np.cumsum([len(part.samples.stamp_ns) for part in parts]).tolist()
-        return JudgedWrenches(
+        return EvaluatedWrenches(
             time_s=seconds_since(stamps, self.experiment.recording.start_ns),
             reference=np.concatenate([part.samples.reference for part in parts]),
             measured=tuple((candidate.name, self.read(spans, candidate.correction)) for candidate in candidates),

@@ -21,12 +21,12 @@ class Offset(StrEnum):
     """Where the offset of a sensor comes from."""
 
     FIRST_SECOND = "first-second"
-    """From the first second of every judged interval, which is then not judged: the matrix is judged, as on a robot
-    that starts (thesis Table 5.5)."""
+    """From the first second of every validation interval, which is then not evaluated: errors are of the matrix, as on
+    a robot that starts (thesis Table 5.5)."""
     FITTED = "fitted"
-    """That of the fitted data: matrix and offset are judged (Table 5.6)."""
+    """That of the fitted data: matrix and offset are evaluated (Table 5.6)."""
     JUDGED_MEAN = "judged-mean"
-    """Mean of the judged samples themselves: what is left when nothing constant counts; nobody has it beforehand."""
+    """Mean of the evaluated samples themselves: what is left when nothing constant counts; nobody has it beforehand."""
     NONE = "none"
     """None was removed: the offset of the sensor is part of the error."""
     TARE = "tare"
@@ -39,7 +39,7 @@ class Offset(StrEnum):
 
 
 KNOWN_BEFORE = (Offset.FIRST_SECOND, Offset.FITTED)
-"""Offsets that are known when the judging begins."""
+"""Offsets that are known before an evaluation begins."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -165,24 +165,24 @@ class ValidationSet(ArrayRecord):
             Whether a sample is of it; shape (n,).
 
         Raises:
-            FitError: If there are too few samples to take an offset from, or to judge.
+            FitError: If there are too few samples to take an offset from, or to evaluate.
         """
         first: BoolArray = self.time_s < self.time_s[0] + OFFSET_S
         count, rest = int(first.sum()), int((~first).sum())
         if min(count, rest) < _FEWEST:
             raise FitError(
                 f"validation interval {self.label!r}: expected at least {_FEWEST} samples in its first {OFFSET_S:g} s, "
-                f"for the offset, and as many after it, to judge, got {count} and {rest}"
+                f"for the offset, and as many after it, to evaluate, got {count} and {rest}"
             )
         return first
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class JudgedInstants:
-    """Instants of one interval: filters, and tells its first second from what is judged."""
+class EvaluatedInstants:
+    """Instants of one interval: filters, and tells its first second from what is evaluated."""
 
     samples: PaddedSamples
-    """Instants of the interval, with those around it that the filter of all that is judged takes."""
+    """Instants of the interval, with those around it that the filter of all that is evaluated takes."""
 
     @property
     def at_ns(self) -> IntArray:
@@ -191,13 +191,13 @@ class JudgedInstants:
 
     @property
     def first(self) -> BoolArray:
-        """Samples of the first second of the interval, which give an offset and are not judged; shape (m,)."""
+        """Samples of the first second of the interval, which give an offset and are not evaluated; shape (m,)."""
         stamps = self.at_ns[self.samples.inside]
         return stamps < stamps[0] + round(OFFSET_S * 1e9)
 
     @property
     def judged_ns(self) -> IntArray:
-        """Instants of the later samples, which are judged; shape (m,); ns."""
+        """Instants of the later samples, which are evaluated; shape (m,); ns."""
         return self.at_ns[self.samples.inside][~self.first]
 
     def with_offset(self, error: FloatArray, source: Offset) -> FloatArray:
@@ -226,7 +226,7 @@ class JudgedInstants:
         return self.samples.smoothed(error)[~self.first]
 
     def judged_with_both(self, error: FloatArray) -> dict[Offset, FloatArray]:
-        """Give what is judged with either offset.
+        """Give what is evaluated with either offset.
 
         Args:
             error: Errors with the fitted offset, not filtered; shape (n, k).
@@ -242,37 +242,37 @@ class JudgedInstants:
         return mean_offset(-filtered[self.first])
 
 
-def nothing_left(instants: JudgedInstants, interval: Interval) -> str | None:
-    """Tell whether an interval is too short to be judged.
+def nothing_left(instants: EvaluatedInstants, interval: Interval) -> str | None:
+    """Tell whether an interval is too short to be evaluated.
 
     Args:
         instants: Its instants.
         interval: The interval.
 
     Returns:
-        What is left out, in words; None where there are samples to judge.
+        What is left out, in words; None where there are samples to evaluate.
     """
     if not instants.first.all():
         return None
-    return f"interval {interval.label!r}: it ends within its first {OFFSET_S:g} s, after which it would be judged"
+    return f"interval {interval.label!r}: it ends within its first {OFFSET_S:g} s, after which it would be evaluated"
 
 
 def gap_words(what: str, interval: Interval, judged: Mapping[Offset, FloatArray]) -> str | None:
-    """Tell whether gaps leave nothing to judge in an interval, with either offset or with that of the first second.
+    """Tell whether gaps leave nothing to evaluate in an interval, with either offset or with that of the first second.
 
     Args:
-        what: What is judged, in words.
+        what: What is evaluated, in words.
         interval: The interval.
-        judged: Errors with either offset; shape (m,) or (m, k); a sample with a NaN is not judged.
+        judged: Errors with either offset; shape (m,) or (m, k); a sample with a NaN is not evaluated.
 
     Returns:
-        What is left out, in words; None where both can be judged.
+        What is left out, in words; None where both can be evaluated.
     """
     unknown = [
         offset for offset, errors in judged.items() if np.isnan(errors.reshape(len(errors), -1)).any(axis=1).all()
     ]
     if Offset.FITTED in unknown:
-        return f"{what} over {interval.label!r}: every judged sample has a gap"
+        return f"{what} over {interval.label!r}: every evaluated sample has a gap"
     if unknown:
         offset = Offset.FIRST_SECOND.value
         return f"{what} over {interval.label!r}, offset {offset}: every sample of its first second has a gap"

@@ -291,7 +291,7 @@ def _references(parts: Sequence[IntervalSamples]) -> FloatArray:
 
 
 def require_unseen(name: str, calibration: Calibration, run: SensorRun) -> None:
-    """Refuse a calibration that may not be applied, or that has seen the samples on which it would be judged.
+    """Refuse a calibration that may not be applied, or that has seen the samples on which it would be evaluated.
 
     Args:
         name: Name of the calibration, for messages.
@@ -300,18 +300,18 @@ def require_unseen(name: str, calibration: Calibration, run: SensorRun) -> None:
 
     Raises:
         SerialNumberError: If it is of another sensor.
-        ExperimentError: If it was fitted on a judged interval, or the robot now reads the sensor in another way.
+        ExperimentError: If it was fitted on a validation interval, or the robot now reads the sensor in another way.
     """
     run.require_fit(name, calibration)
     for judged, fitted in _overlaps(run, calibration, calibration.provenance.intervals):
         raise ExperimentError(
-            f"calibration {name!r} was fitted on the interval {fitted!r}, which overlaps the judged "
-            f"interval {judged!r}; judge it on data that it has not seen"
+            f"calibration {name!r} was fitted on the interval {fitted!r}, which overlaps the validation "
+            f"interval {judged!r}; evaluate it on data that it has not seen"
         )
 
 
 def require_unseen_if_judged(name: str, calibration: Calibration, run: SensorRun) -> None:
-    """Refuse the same as `require_unseen`, where the recording may have nothing that is judged.
+    """Refuse the same as `require_unseen`, where the recording may have nothing that is evaluated.
 
     Args:
         name: Name of the calibration, for messages.
@@ -325,7 +325,7 @@ def require_unseen_if_judged(name: str, calibration: Calibration, run: SensorRun
 
 
 def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> tuple[str, ...]:
-    """Say where a calibration is judged on what it was chosen on.
+    """Say where a calibration is evaluated on what it was chosen on.
 
     Args:
         run: The sensor.
@@ -340,5 +340,5 @@ def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> 
 
 
 def _overlaps(run: SensorRun, calibration: Calibration, used: Iterable[FittedInterval]) -> Iterator[tuple[str, str]]:
-    """Labels of judged intervals and of those used before that overlap them."""
+    """Labels of validation intervals and of those used before that overlap them."""
     return overlapping(run.experiment, run.experiment.intervals(Use.VALIDATION), calibration, used)

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from forcetorque.inspection.inspect import inspect_log, inspected
 
 CAPABILITY = Capability(
+    page="recording.md",
     needs=("skin",),
     commands=(
         "forcetorque.inspection.commands:init",

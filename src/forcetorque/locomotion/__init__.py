@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from forcetorque.locomotion.torque_control.file import read_torque_loop
 
 CAPABILITY = Capability(
+    page="locomotion/balance.md",
     needs=(
         "sensor",
         "simulation",

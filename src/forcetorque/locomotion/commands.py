@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque balance`, `coherence`, `motion` and `torque-loop`."""
 
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,13 +13,14 @@ from forcetorque.results.terminal.options import CalibrationsOption, ForceOption
 from forcetorque.results.terminal.output import Format, show, start_logging
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
     from logging import Logger
 
     from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.experiment.sensor_reading import Correction
     from forcetorque.experiment.validation_offset import OffsetPolicy
+    from forcetorque.locomotion.movement import Motion
     from forcetorque.locomotion.net_force.result import Coherence
     from forcetorque.locomotion.standing.foot_wrenches import FootForces
     from forcetorque.locomotion.standing.interval import BalanceOptions
@@ -100,7 +102,7 @@ def balance(
 
 
 def _answer(
-    experiments: "Sequence[Path]", calibration: "Sequence[Path] | None", options: "BalanceOptions", log: "Logger"
+    experiments: Sequence[Path], calibration: Sequence[Path] | None, options: "BalanceOptions", log: "Logger"
 ) -> "Balance":
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.offsets import corrections_of
@@ -197,59 +199,53 @@ def coherence(
     return net_force_errors(experiment, sensors, offsets)
 
 
+@command(Drawing(function="forcetorque.locomotion.figures:motion_figure", help="the columns with their swings"))
 def motion(
-    log: Annotated[Path, typer.Argument(help="Experiment file (TOML), with or without sensors, or a log.")],
-    column: Annotated[
-        list[str] | None,
-        typer.Option("--column", help="Column of the log, or of `balance`, such as com.y; repeat for more."),
-    ] = None,
+    log: Annotated["Path | str", Option("Experiment file (TOML), with or without sensors, or a log.")],
+    columns: Annotated[Sequence[str], Option("Column of the log, or of `balance`, such as com.y.", "--column")] = (),
+    *,
     desired: Annotated[
-        list[str] | None,
-        typer.Option("--desired", help="Column of the log with what was wanted; one for each --column, in its order."),
+        Sequence[str], Option("Column of the log with what was wanted; one for each --column, in its order.")
+    ] = (),
+    intervals: Annotated[
+        Collection[str], Option("Label of an interval. Default: all that are not ignored.", "--interval")
+    ] = (),
+    steps_s: Annotated[Sequence[float], Option("Instant of a step, s. Default: steps of --desired.", "--step-at")] = (),
+    band_share: Annotated[
+        float,
+        Option(
+            "Half of the band about its end in which a column has settled. Default: 5.",
+            "--band-percent",
+            reads=lambda percent: percent / 100.0,
+        ),
+    ] = 0.05,
+    calibrations: Annotated[
+        "Mapping[str, Calibration] | None",
+        Option(
+            "Calibration file. Default: the priors.",
+            "--calibration",
+            "-c",
+            typed=list[Path],
+            reads="forcetorque.results.terminal.reading:read_calibrations",
+        ),
     ] = None,
-    interval: Annotated[
-        list[str] | None,
-        typer.Option("--interval", help="Label of an interval; repeat for more. Default: all that are not ignored."),
-    ] = None,
-    step_at: Annotated[
-        list[float] | None,
-        typer.Option("--step-at", help="Instant of a step, s; repeat for more. Default: steps of --desired."),
-    ] = None,
-    band: Annotated[
-        float, typer.Option("--band-percent", help="Half of the band about its end in which a column has settled.")
-    ] = 5.0,
-    calibration: CalibrationsOption = None,
-    figure: Annotated[Path | None, typer.Option("--figure", help="PNG of the columns with their swings.")] = None,
-    output_format: FormatOption = Format.TABLE,
-) -> None:
+) -> "Motion":
     """Say whether a motion oscillates, how long it settles, how well it tracks.
 
     Example: forcetorque motion walk.toml --column com.y --column zmp.y
 
     Python: `app.motion("swaying.toml", ["com_y"])`, of arrays `app.motion_of_arrays`
+
+    Returns:
+        Oscillations, settling times and tracking errors.
     """
-    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.locomotion.logged_signals import motion_signals
     from forcetorque.locomotion.movement import motion
-    from forcetorque.results.terminal.output import refuse_figure
-    from forcetorque.results.terminal.reading import read_calibrations
 
-    start_logging().info("reading %s", log)
-    refuse_figure(figure)
-    calibrations = read_calibrations(calibration)
     with stated_in(str(log)):
-        signals = motion_signals(
-            log, column or (), desired=desired or (), intervals=interval or (), calibrations=calibrations
-        )
-        result = motion(signals, steps_s=step_at or (), band_share=band / 100.0)
-    if figure is not None:
-        from forcetorque.locomotion.figures import motion_figure
-        from forcetorque.results.figures import png_bytes
-
-        write_bytes_atomically(figure, png_bytes(motion_figure(result)))
-        result = result.model_copy(update={"figure": str(figure)})
-    show(result, output_format)
+        signals = motion_signals(log, columns, desired=desired, intervals=intervals, calibrations=calibrations)
+        return motion(signals, steps_s=steps_s, band_share=band_share)
 
 
 @command(

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from forcetorque.payload.tare_offset import tare
 
 CAPABILITY = Capability(
+    page="payload/payload.md",
     needs=("inspection",),
     commands=(
         "forcetorque.payload.commands:payload",

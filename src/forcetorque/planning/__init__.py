@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from forcetorque.planning.trajectory_files import write_plan
 
 CAPABILITY = Capability(
+    page="planning.md",
     needs=(
         "simulation",
         "calibration",

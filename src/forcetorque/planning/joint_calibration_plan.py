@@ -54,7 +54,7 @@ class SensorForecast(Row):
     force_after_at_most_N: Annotated[float, Shown("at most", "N", digits=2)]
     """With 95 % it is no more than that."""
     force_allowed_N: Annotated[FloatOrNull, Shown("allowed", "N", digits=2)]
-    """What is allowed; infinite where it is not judged."""
+    """What is allowed; infinite where it is not evaluated."""
     moment_before_Nm: Annotated[float, Shown("moment by the prior", "N m", digits=3)]
     """Predicted moment error of the prior matrix."""
     moment_after_Nm: Annotated[float, Shown("after", "N m", digits=3)]
@@ -62,7 +62,7 @@ class SensorForecast(Row):
     moment_after_at_most_Nm: Annotated[float, Shown("at most", "N m", digits=3)]
     """With 95 % it is no more than that."""
     moment_allowed_Nm: Annotated[FloatOrNull, Shown("allowed", "N m", digits=3)]
-    """What is allowed; infinite where it is not judged."""
+    """What is allowed; infinite where it is not evaluated."""
 
     @property
     def excess(self) -> float:

@@ -47,7 +47,7 @@ class PlannedRecording(Row):
     force_after_at_most_N: Annotated[float, Shown("at most", "N", digits=2)]
     """With 95 % it is no more than that."""
     force_allowed_N: FloatOrNull
-    """What is allowed; infinite where it is not judged."""
+    """What is allowed; infinite where it is not evaluated."""
     moment_before_Nm: Annotated[float, Shown("moment before", "N m", digits=3)]
     """Predicted moment error before it."""
     moment_before_at_most_Nm: float
@@ -57,7 +57,7 @@ class PlannedRecording(Row):
     moment_after_at_most_Nm: Annotated[float, Shown("at most", "N m", digits=3)]
     """With 95 % it is no more than that."""
     moment_allowed_Nm: FloatOrNull
-    """What is allowed; infinite where it is not judged."""
+    """What is allowed; infinite where it is not evaluated."""
     within_allowed: float
     """Probability that both are within what is allowed after it."""
 

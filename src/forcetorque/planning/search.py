@@ -218,7 +218,7 @@ HASTES: Final = (1.0, 0.5, 0.0)
 
 
 class Motion(Protocol):
-    """A motion through postures that was judged as a whole."""
+    """A motion through postures that was evaluated as a whole."""
 
     @property
     def postures(self) -> FloatArray:

@@ -33,7 +33,7 @@ from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.validation.contact_forces import BestCandidate, ContactForceErrors, contact_forces
 from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibrations_under_test import PRIOR, JudgedWrenches
+from forcetorque.experiment.calibrations_under_test import PRIOR, EvaluatedWrenches
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import ReadingsOutside, doubts_about_choice, require_unseen, sentences
@@ -42,7 +42,7 @@ from forcetorque.results.number_text import with_error
 from forcetorque.results.table import Row, Shown, short_names
 
 _FEW_INDEPENDENT = 20.0
-"""Independent samples below which a standard error from ten blocks is itself a guess."""
+"""Independent samples below which a standard error from ten blocks is itself uncertain."""
 
 
 class VerdictLine(Row):
@@ -91,14 +91,14 @@ class Assessment(Row):
     smoothing: tuple[str, ...] = ()
     """Whether measured and expected wrench were smoothed, as text."""
     validity: tuple[ReadingsOutside, ...] = ()
-    """How far the judged readings lie outside what each calibration was fitted on."""
+    """How far the evaluated readings lie outside what each calibration was fitted on."""
     warnings: tuple[str, ...]
     """Warnings about the verdict."""
     not_judged: dict[str, str]
     """Reason by what could not be evaluated."""
     left_out: tuple[str, ...] = ()
     """What gaps, short intervals and missing joints leave out of contact forces and joint torques, in words."""
-    judged: JudgedWrenches | None = Field(default=None, exclude=True, repr=False)
+    judged: EvaluatedWrenches | None = Field(default=None, exclude=True, repr=False)
     """Wrenches on data that was not fitted, for figures."""
     clouds: tuple[SensorSphere, ...] = Field(default=(), exclude=True, repr=False)
     """Forces of the spheres, for figures."""
@@ -143,7 +143,7 @@ def assess(
 
     Args:
         run: The sensor.
-        calibrations: Its calibrations by name of their file; without any its prior is judged.
+        calibrations: Its calibrations by name of their file; without any its prior is evaluated.
         others: Calibrations of the other sensors.
         demands: Limits and other sensors.
 
@@ -157,7 +157,7 @@ def assess(
         if tried.passes(f"errors of {names[file]}", partial(require_unseen, file, calibration, run))
     }
     evaluation = contacts = torques = counts = judged = None
-    # where every calibration has seen the judged data there is nothing to judge it on; without any, the prior is judged
+    # where every calibration has seen the validation data nothing is left to evaluate; without any, it is the prior
     if unseen or not calibrations:
         evaluation = tried.attempt("evaluation", partial(validation_errors, run, unseen))
         contacts = tried.attempt("contact forces", partial(contact_forces, run, unseen))

@@ -47,7 +47,7 @@ def decide_uses(
     """Decide on every calibration over all recordings whose validation intervals were not fitted.
 
     Args:
-        runs: For every experiment the runs of the judged sensors, by sensor.
+        runs: For every experiment the runs of the evaluated sensors, by sensor.
         calibrations: For every experiment calibrations by name of their file, by sensor.
         demands: Limits, whose load cases are evaluated too.
 
@@ -73,7 +73,7 @@ def decide_uses(
         for file, calibration in files.items():
             try:
                 campaign = Campaign(_unseen(own, file, calibration))
-                # a load case that cannot be had leaves the others to be judged
+                # a load case that cannot be had leaves the others to be evaluated
                 verdicts += use_verdicts(campaign, {file: calibration}, more, refuse=partial(refuse, key, file))
             except ForceTorqueError as error:
                 refuse(key, file, error)
@@ -115,7 +115,7 @@ def _by_sensor(runs: Sequence[Mapping[str, SensorRun]]) -> dict[SensorKey, list[
 
 
 def _unseen(runs: Sequence[SensorRun], file: str, calibration: Calibration) -> list[SensorRun]:
-    """The runs on which a calibration may be judged; the first reason where it is none of them."""
+    """The runs on which a calibration may be evaluated; the first reason where it is none of them."""
     left = list(_accepted(runs, file, calibration))
     if not left:
         require_unseen_if_judged(file, calibration, runs[0])
@@ -126,7 +126,7 @@ def _accepted(runs: Sequence[SensorRun], file: str, calibration: Calibration) ->
     for run in runs:
         try:
             require_unseen_if_judged(file, calibration, run)
-        except ForceTorqueError:  # what it has seen there flatters it; other recordings may judge it
+        except ForceTorqueError:  # it was fitted on these data; other recordings may evaluate it
             continue
         yield run
 
@@ -330,7 +330,8 @@ def _begin(
     """What comes before there can be a verdict."""
     unjudged = [names[row.candidate] for row in undecided if row.candidate is not None]
     if unjudged:
-        yield f"Mend what keeps {' and '.join(unjudged)} from a verdict, as said above, and write this report again."
+        names_of = " and ".join(unjudged)
+        yield f"Remove what prevents a verdict on {names_of}, as listed above, and write this report again."
     if len(unjudged) < len(undecided):
         command = shlex.join(["forcetorque", "calibrate", *files, "--sensor", sensor, "-o", f"{sensor}.json"])
         yield f"Calibrate it, `{command}`, and write this report again with the calibration."

@@ -244,7 +244,7 @@ def prior_comparison_section(experiments: Sequence[ExperimentAssessment]) -> Sec
                     assessment.comparisons,
                     f"{whose}mean norm of the error (not the root mean square, by which the verdict on the first page "
                     "goes) against that of the prior on the same samples, and the ratio of the errors with its 95 % "
-                    "interval over independent stretches of time; another offset would take away what is constant",
+                    "interval over independent segments of time; another offset would take away what is constant",
                 )
             )
     return Section(title=TITLE, blocks=tuple(blocks))

@@ -154,7 +154,7 @@ def assess_experiment(
 
     Args:
         experiment: The experiment.
-        calibrations: Calibrations by name of their file, by sensor; the sensors that have any are judged, or all if
+        calibrations: Calibrations by name of their file, by sensor; the sensors that have any are evaluated, or all if
             none has.
         file: Name of its file.
         demands: Limits and other sensors.
@@ -169,7 +169,7 @@ def assess_experiment(
         if calibrations and sensor.name not in calibrations:
             continue
         if progress is not None:
-            progress(f"judging {sensor.name}")
+            progress(f"evaluating {sensor.name}")
         others = {
             name: calibration
             for other, group in calibrations.items()

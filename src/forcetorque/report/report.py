@@ -87,7 +87,7 @@ class Report(Result):
         """Give the decisions, then the other sentences, as lines.
 
         Returns:
-            A line per sentence; without an experiment where all recordings of a sensor are judged together.
+            A line per sentence; without an experiment where all recordings of a sensor are evaluated together.
         """
         decisions: list[dict[str, object]] = [
             {"experiment": None, "sensor": row.sensor, "serial": row.serial, "tone": row.tone, "text": row.text}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a capability is to the rest of the library: its commands, and its sections of the experiment file."""
+"""What a capability is to the rest of the library: its page, commands, and sections of the experiment file."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ import forcetorque
 class Capability:
     """A folder of the library; everything is named as `module:name` and imported when it is first needed."""
 
+    page: str
+    """Page of the documentation, below `docs`, that begins with it."""
     commands: tuple[str, ...] = ()
     """Functions of the command line, or groups of them, under the name that they have there."""
     sections: tuple[str, ...] = ()

@@ -28,7 +28,7 @@ _DETAILS = ("Returns", "Raises", "References")
 class Option:
     """Help of a parameter of an analysis, and how it is typed; the metadata of `Annotated`."""
 
-    __slots__ = ("choices", "flags", "help", "reads", "required", "typed")
+    __slots__ = ("all_sensors", "choices", "flags", "folder", "help", "python_only", "reads", "required", "typed")
 
     def __init__(
         self,
@@ -37,7 +37,10 @@ class Option:
         required: bool = False,
         choices: tuple[str, ...] = (),
         typed: Any = None,
-        reads: str | None = None,
+        reads: str | Callable[[Any], Any] | None = None,
+        folder: bool = False,
+        all_sensors: bool = False,
+        python_only: bool = False,
     ) -> None:
         """Describe a parameter.
 
@@ -47,11 +50,16 @@ class Option:
             required: Whether the command demands it, although the analysis has a default.
             choices: Words that it may be; any if empty.
             typed: Type that the command line has in place of that of the parameter.
-            reads: Function, as `module:name`, that makes the parameter of what is typed.
+            reads: Function, or `module:name` of one, that makes the parameter of what is typed. The default of the
+                parameter is then stated in its help.
+            folder: Whether it is a folder that the analysis makes, which must not be there yet.
+            all_sensors: Whether the command takes all sensors where none is named, also beside calibrations.
+            python_only: Whether the command line does not have it.
         """
         self.help, self.flags = help_text, flags
         self.required, self.choices = required, choices
         self.typed, self.reads = typed, reads
+        self.folder, self.all_sensors, self.python_only = folder, all_sensors, python_only
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,10 +68,27 @@ class Drawing:
 
     function: str
     """Function that draws it, as `module:name`."""
-    of: str | None = None
-    """Field of the result that it draws; the result itself if None."""
+    of: tuple[str, ...] = ()
+    """Fields of the result that it draws; the result itself if there are none."""
     help: str
     """What it shows."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Saved:
+    """A file that a command writes from its result."""
+
+    flags: tuple[str, ...]
+    """Flags of its option, the long one first."""
+    help: str
+    """What it is."""
+    function: str | None = None
+    """Function of the result and the path that writes it, as `module:name`; if None it is `save` of the result, whose
+    `file` then names it."""
+    required: bool = False
+    """Whether the command demands it."""
+    standard_output: bool = False
+    """Whether `-` writes it to standard output, in place of the result."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,10 +99,13 @@ class Command:
     """By name of the parameter."""
     drawing: Drawing | None
     """Its figure; None if it has none."""
+    saved: tuple[Saved, ...] = ()
+    """Files that are written from its result."""
 
 
 def command(
     drawing: Drawing | None = None,
+    *saved: Saved,
 ) -> Callable[[Callable[Parameters, Returned]], Callable[Parameters, Returned]]:
     """Offer an analysis as a command of its name.
 
@@ -85,6 +113,7 @@ def command(
 
     Args:
         drawing: Figure of the result; None for none.
+        saved: Files that the command writes from the result.
 
     Returns:
         A decorator. The result of the analysis states what experiment files added to their logs and what is left out.
@@ -102,7 +131,7 @@ def command(
 
             return with_notes(analysis(*args, **named), (*args, *named.values()))
 
-        noted.command = Command(options=options, drawing=drawing)  # type: ignore[attr-defined]
+        noted.command = Command(options=options, drawing=drawing, saved=saved)  # type: ignore[attr-defined]
         return noted
 
     return offer
@@ -117,7 +146,8 @@ def command_of(analysis: Any) -> Command | None:
     Returns:
         Its options and figure; None if it is no analysis that `command` offers.
     """
-    return getattr(analysis, "command", None)
+    offered = getattr(analysis, "command", None)
+    return offered if isinstance(offered, Command) else None
 
 
 def _has_option(hint: Any) -> bool:

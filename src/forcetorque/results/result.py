@@ -46,7 +46,7 @@ NOTEBOOK_WIDTH = 100
 
 
 class Result(Row):
-    """What a question gave. A class of its own for every question adds a field `schema`, rows and tables."""
+    """Result of an analysis. Its class for every analysis adds a field `schema`, rows and tables."""
 
     of_several: ClassVar[tuple[str, ...]] = ()
     """Fields that are not in the JSON where they are empty, such as those about each of several recordings."""
@@ -56,7 +56,7 @@ class Result(Row):
     or where it does not count what it leaves out."""
 
     warnings: tuple[str, ...] = Field(default=(), exclude=True)
-    """What makes the answer doubtful, in sentences; messages, not part of the JSON."""
+    """Reasons to doubt the result, in sentences; messages, not part of the JSON."""
 
     unusable_samples: tuple[UnusableSamples, ...] = Field(default=(), exclude=True)
     """Samples that are left out because they say nothing of the load; in the JSON where there are any."""
@@ -75,7 +75,7 @@ class Result(Row):
         yield from ()
 
     def records(self) -> list[dict[str, object]]:
-        """Give the answer as flat lines of numbers, for CSV.
+        """Give the result as flat records of numbers, for CSV.
 
         Returns:
             One line per row of the first list of rows; classes that hold several say what each line is.
@@ -98,7 +98,7 @@ class Result(Row):
         return list(dict.fromkeys(name for record in self.records() for name in record))
 
     def text(self, width: int = NOTEBOOK_WIDTH) -> str:
-        """Write the answer for people.
+        """Write the result as text for people.
 
         Args:
             width: Characters of a line; narrow ones get tables on their side, never a folded number.
@@ -112,7 +112,7 @@ class Result(Row):
         )
 
     def json_text(self) -> str:
-        """Write the answer as JSON.
+        """Write the result as JSON.
 
         Returns:
             One object with stable keys.
@@ -124,7 +124,7 @@ class Result(Row):
         return json.dumps(stated, indent=2, allow_nan=False)
 
     def cautions(self) -> Iterator[str]:
-        """Say what makes the answer doubtful.
+        """Give the warnings.
 
         Yields:
             Every warning once, with how often it comes.
@@ -133,7 +133,7 @@ class Result(Row):
             yield sentence if count == 1 else f"{sentence} ({count} times)"
 
     def __str__(self) -> str:
-        # the command line has standard error for what is doubtful; a script that prints an answer has no other place
+        # the command line has standard error for warnings; a script that prints a result has no other place
         doubtful = "".join(f"{wrapped(f'warning: {sentence}', NOTEBOOK_WIDTH)}\n" for sentence in self.cautions())
         return f"{doubtful}\n{self.text()}" if doubtful else self.text()
 
@@ -164,10 +164,10 @@ class Result(Row):
 
     @classmethod
     def together(cls, results: Iterable[Self]) -> Self:
-        """Put the answers for several sensors of one experiment together.
+        """Put the results of several sensors of one experiment together.
 
         Args:
-            results: Answers of one kind, at least one.
+            results: Results of one class, at least one.
 
         Returns:
             One with the rows and warnings of all; what is no list is that of the first.

@@ -8,10 +8,11 @@ from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.sensor.bandwidth.bandwidth import response
-    from forcetorque.sensor.gains.gains import select_gains, sensor_gains
+    from forcetorque.sensor.gains.gains import select_gains
     from forcetorque.sensor.temperature.command import thermal
 
 CAPABILITY = Capability(
+    page="sensor/temperature.md",
     commands=(
         "forcetorque.sensor.gains.command:gains",
         "forcetorque.sensor.bandwidth.command:response",
@@ -22,7 +23,6 @@ CAPABILITY = Capability(
 __all__ = [
     "response",
     "select_gains",
-    "sensor_gains",
     "thermal",
 ]
 
@@ -31,7 +31,6 @@ __getattr__, __dir__ = lazy_names(
     {
         "response": "forcetorque.sensor.bandwidth.bandwidth",
         "select_gains": "forcetorque.sensor.gains.gains",
-        "sensor_gains": "forcetorque.sensor.gains.gains",
         "thermal": "forcetorque.sensor.temperature.command",
     },
 )

@@ -4,6 +4,7 @@
 from forcetorque.results.capability import Capability
 
 CAPABILITY = Capability(
+    page="simulation.md",
     needs=("sensor",),
     commands=("forcetorque.simulation.command:simulate",),
 )

@@ -1,35 +1,43 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque simulate`: recordings with known truth, in the project's own form and as YARP folders."""
 
-from __future__ import annotations
-
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
-import typer
+from forcetorque.results.command import Option, command
 
-from forcetorque.results.terminal.options import FormatOption
-from forcetorque.results.terminal.output import Format, refuse_output_folder, show, start_logging
+if TYPE_CHECKING:
+    from forcetorque.results.command import Progress
+    from forcetorque.simulation.recordings import WrittenScenario
 
 
+@command()
 def simulate(
     scenario: Annotated[
-        str, typer.Argument(help="Scenario file (TOML), or a bundled one: icub-insitu, stance, switching, wrist.")
+        "Path | str",
+        Option("Scenario file (TOML), or a bundled one: icub-insitu, stance, switching, wrist.", typed=str),
     ],
-    output: Annotated[Path, typer.Option("--output", "-o", help="Folder to make.")],
-    output_format: FormatOption = Format.TABLE,
-) -> None:
+    folder: Annotated["Path | str", Option("Folder to make.", "--output", "-o", folder=True)],
+    *,
+    progress: Annotated["Progress", Option("Called with a line for people at every recording, such as `print`.")] = (
+        lambda _: None
+    ),
+) -> "WrittenScenario":
     """Make recordings of a simulated robot whose sensors are known.
 
     Example: forcetorque simulate wrist -o simulated
 
     Python: `app.simulate("wrist", "simulated")`
+
+    Returns:
+        What was written: an experiment file per recording.
+
+    Raises:
+        ForceTorqueError: If there is no such scenario, or the folder is there already.
     """
     from forcetorque.simulation.recordings import write_scenario
     from forcetorque.simulation.scenario.file import bundled_scenario
     from forcetorque.simulation.scenario.scenario import load_scenario
 
-    log = start_logging()
-    file = Path(scenario) if scenario.endswith(".toml") else bundled_scenario(scenario)
-    refuse_output_folder(output)
-    show(write_scenario(load_scenario(file), output, progress=log.info), output_format)
+    file = Path(scenario) if str(scenario).endswith(".toml") else bundled_scenario(str(scenario))
+    return write_scenario(load_scenario(file), folder, progress=progress)

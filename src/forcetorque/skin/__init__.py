@@ -7,11 +7,11 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.skin.layout.check import check_skin
-    from forcetorque.skin.taxels.calibrate import calibrate_skin, read_patches
-    from forcetorque.skin.wrench.wrench import skin_wrench
+    from forcetorque.skin.commands import calibrate_skin, check_skin, skin_wrench
+    from forcetorque.skin.taxels.calibrate import read_patches
 
 CAPABILITY = Capability(
+    page="skin/layout.md",
     needs=("simulation",),
     commands=("forcetorque.skin.commands:skin",),
     sections=("forcetorque.skin.experiment:PATCHES",),
@@ -27,9 +27,9 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "calibrate_skin": "forcetorque.skin.taxels.calibrate",
-        "check_skin": "forcetorque.skin.layout.check",
+        "calibrate_skin": "forcetorque.skin.commands",
+        "check_skin": "forcetorque.skin.commands",
         "read_patches": "forcetorque.skin.taxels.calibrate",
-        "skin_wrench": "forcetorque.skin.wrench.wrench",
+        "skin_wrench": "forcetorque.skin.commands",
     },
 )

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from forcetorque.study.study_data import read_study_data
 
 CAPABILITY = Capability(
+    page="study.md",
     needs=(
         "simulation",
         "estimation",

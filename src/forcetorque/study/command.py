@@ -1,100 +1,125 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque study`: every estimation type, lambda and combination of data sets, and the best of them."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from forcetorque.base.errors import FitError, ForceTorqueError
-from forcetorque.results.terminal.options import FormatOption, SensorOption
-from forcetorque.results.terminal.output import Format, refuse_output_folder, show, start_logging
+from forcetorque.results.command import Option, command
 
 if TYPE_CHECKING:
+    from forcetorque.results.command import Progress
+    from forcetorque.study.result import Studies
     from forcetorque.study.study import SensorStudy
 
 
+@command()
 def study(
-    experiments: Annotated[list[Path], typer.Argument(help="Experiment files (TOML) with the same sensors.")],
-    output: Annotated[Path, typer.Option("--output", "-o", help="Folder to make, with a folder per sensor.")],
-    sensor: SensorOption = None,
-    data_set: Annotated[
-        list[str] | None,
-        typer.Option(
+    *experiments: Annotated["Path | str", Option("Experiment files (TOML) with the same sensors.")],
+    folder: Annotated[
+        "Path | str | None",
+        Option("Folder to make, with a folder per sensor.", "--output", "-o", required=True, folder=True),
+    ] = None,
+    sensors: Annotated[Collection[str], Option("Sensor of the experiment. Default: all.", "--sensor")] = (),
+    data_sets: Annotated[
+        "Mapping[str, Sequence[str]] | None",
+        Option(
+            "NAME=LABEL,LABEL: intervals, by label or kind, that are fitted together. Default: every combination of "
+            "kinds.",
             "--data-set",
-            help="NAME=LABEL,LABEL: intervals, by label or kind, that are fitted together; repeat for more. Default: "
-            "every combination of kinds.",
+            typed=list[str],
+            reads="forcetorque.study.command:data_sets_of",
         ),
     ] = None,
-    kind: Annotated[
-        list[str] | None,
-        typer.Option("--type", help="Estimation type, SnTdTO to OwTrTO; repeat for more. Default: all nine."),
-    ] = None,
-    regularisation: Annotated[
-        list[float] | None,
-        typer.Option(
+    kinds: Annotated[Collection[str], Option("Estimation type, SnTdTO to OwTrTO. Default: all nine.", "--type")] = (),
+    lambdas: Annotated[
+        Sequence[float],
+        Option(
+            "Lambda of the thesis' equation (5.4) in counts2, as `calibrate` takes it. Default: the thirteen of its "
+            "tables, six times as printed there.",
             "--lambda",
-            help="Lambda of the thesis' equation (5.4) in counts2, as `calibrate` takes it; repeat for more. Default: "
-            "the thirteen of its tables, six times as printed there.",
         ),
-    ] = None,
+    ] = (),
     sphere: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--sphere",
-            help="Interval whose motion draws a sphere, for the types S...; repeat for more. Default: what the files "
-            "say.",
-        ),
-    ] = None,
-    output_format: FormatOption = Format.TABLE,
-) -> None:
+        Collection[str],
+        Option("Interval whose motion draws a sphere, for the types S... Default: what the files say."),
+    ] = (),
+    progress: Annotated["Progress", Option("Called with a line for people at every step, such as `print`.")] = (
+        lambda _: None
+    ),
+) -> "Studies":
     """Fit every estimation type, lambda and data set, and choose.
 
     Example: forcetorque study simulated/*.toml --sphere grid -o study
 
     Python: `app.study("first.toml", "second.toml", folder="study")`
+
+    Returns:
+        The choice for every sensor; `records()` has every candidate. Tables, figures and calibrations of the best are
+        in the folder, if there is one.
+
+    Raises:
+        ForceTorqueError: If there is nothing to study, or the folder is there already.
     """
     from importlib.metadata import version
 
+    from forcetorque.base.output_file import refuse_existing
     from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, estimation_type
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.results.result import created_now
     from forcetorque.study.candidate import SWEEP_LAMBDAS
     from forcetorque.study.folder import write_study_folder
+    from forcetorque.study.result import Studies, studied_sensor, study_warnings
     from forcetorque.study.study import study_sensor
     from forcetorque.study.study_data import read_study_data
 
-    log = start_logging()
-    refuse_output_folder(output)
-    combinations = None if data_set is None else _data_sets(data_set)
-    kinds = [estimation_type(name) for name in kind or ESTIMATION_TYPES]
-    lambdas = _lambdas(SWEEP_LAMBDAS if regularisation is None else regularisation)
+    if folder is not None:
+        refuse_existing(Path(folder))
+    types = [estimation_type(name) for name in kinds or ESTIMATION_TYPES]
+    values = _lambdas(lambdas or SWEEP_LAMBDAS)
     created = created_now()
-    studied = read_study_data(experiments, sensor, progress=log.info)
+    studied = read_study_data([Path(file) for file in experiments], list(sensors), progress=progress)
 
-    def studies() -> Iterator[SensorStudy]:
+    def studies() -> Iterator["SensorStudy"]:
         for data in studied:
-            log.info("studying %s (%s)", data.identity.name, data.identity.serial)
+            progress(f"studying {data.identity.name} ({data.identity.serial})")
             with stated_in(f"sensor {data.identity.name!r}"):
                 yield study_sensor(
                     data,
-                    data_sets=combinations,
-                    kinds=kinds,
-                    lambdas=lambdas,
-                    sphere=sphere,
+                    data_sets=data_sets,
+                    kinds=types,
+                    lambdas=values,
+                    sphere=sphere or None,
                     code_version=version("forcetorque"),
                     created=created,
-                    progress=log.info,
+                    progress=progress,
                 )
 
-    names = [str(path) for path in experiments]
-    show(write_study_folder(output, studies(), experiments=names, progress=log.info), output_format)
+    names = tuple(map(str, experiments))
+    if folder is not None:
+        return write_study_folder(folder, studies(), experiments=names, progress=progress)
+    fitted = list(studies())
+    return Studies(
+        experiments=names,
+        folder=None,
+        sensors=tuple(studied_sensor(one) for one in fitted),
+        warnings=tuple(sentence for one in fitted for sentence in study_warnings(one)),
+    )
 
 
-def _data_sets(texts: Sequence[str]) -> dict[str, list[str]]:
+def data_sets_of(texts: Sequence[str]) -> dict[str, list[str]]:
+    """Read data sets as they are typed.
+
+    Args:
+        texts: `NAME=LABEL,LABEL` each.
+
+    Returns:
+        Labels or kinds by name.
+
+    Raises:
+        ForceTorqueError: If one has no name or no label, or a name comes twice.
+    """
     combinations: dict[str, list[str]] = {}
     for text in texts:
         name, _, words = text.partition("=")

@@ -121,7 +121,7 @@ def _lambda_force_figure(sensor: SensorStudy, offset: Offset) -> Figure:
 
 
 def _judged_models(sensor: SensorStudy, session: str) -> dict[str, tuple[WrenchModel, Offset]]:
-    """The candidates of figures 5.6 and 5.7 in a session, with the offset that each is judged with."""
+    """The candidates of figures 5.6 and 5.7 in a session, with the offset that each is evaluated with."""
     models = {}
     if sensor.study.workbench is not None:
         models[WORKBENCH] = (sensor.study.workbench, Offset.FIRST_SECOND)

@@ -190,7 +190,7 @@ class Study:
     generative: tuple[GenerativeCandidate, ...]
     """Generative fits of the combinations that allow one."""
     workbench: WrenchModel | None
-    """The prior matrix, judged with an offset from the judged interval in both modes; None for a new sensor."""
+    """The prior matrix, evaluated with an offset from the validation interval in both modes; None for a new sensor."""
     errors: Mapping[Offset, BlockErrors]
     """Errors by offset mode, of the candidates in their order, then of the workbench matrix."""
     choices: Mapping[Offset, Choice]
@@ -292,7 +292,7 @@ def run_study(
     models = [candidate.model for candidate in candidates]
     workbench = None
     if prior is not None:
-        # its offset is taken from every judged interval, so the zeros here are never used
+        # its offset is taken from every validation interval, so the zeros here are never used
         workbench = WrenchModel(matrix=prior, offset=np.zeros(6))
         models.append(workbench)
     session_offsets = {k: c.offsets for k, c in enumerate(candidates) if isinstance(c, GenerativeCandidate)}

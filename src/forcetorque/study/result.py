@@ -108,7 +108,7 @@ class ModeChoice(Row):
     """What is best in one offset mode."""
 
     offset: Offset
-    """Offset from the first second of the judged interval, or that of the fitted data."""
+    """Offset from the first second of the validation interval, or that of the fitted data."""
     best: ChosenCandidate
     """Smallest mean contact force."""
     by_axis: tuple[AxisChoice, ...]

@@ -30,10 +30,10 @@ def evaluate_models(
 
     Args:
         models: The models; each has no variable, or all those of the sets.
-        sources: Which offset each of them is judged with.
+        sources: Which offset each of them is evaluated with.
         sets: Validation sets, at least one.
         session_offsets: Offsets by session of those models that have several, by their index; a set of another session
-            is judged with that of the model.
+            is evaluated with that of the model.
         evaluator: Who computes; by the amount of work of every set if None.
         progress: Called with the label of every set when its turn comes.
 

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from forcetorque.workbench.recording import read_bench
 
 CAPABILITY = Capability(
+    page="workbench.md",
     needs=(
         "simulation",
         "calibration",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from forcetorque.base.errors import ForceTorqueError
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,
@@ -29,19 +30,24 @@ _BINS = 30
 
 
 @in_figure_style
-def bench_figure(picture: BenchPicture) -> Figure:
+def bench_figure(picture: BenchPicture | None) -> Figure:
     """Draw positions of a workbench, grouped by load [1].
 
     Args:
-        picture: Forces over the weight of the load, and errors, of one sensor or of many.
+        picture: Forces over the weight of the load, and errors, of one sensor or of many; None where there are none.
 
     Returns:
         The figure: forces seen along each axis, against the circle on which they should lie, and below a histogram of
         the errors of each component of the force.
 
+    Raises:
+        ForceTorqueError: If there is nothing to draw.
+
     References:
         [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figures 6.3 and 6.4.
     """
+    if picture is None:
+        raise ForceTorqueError("figure: expected measurements that determine a matrix, there are none to draw")
     figure = new_figure(2.6 * ROW_INCHES[1])
     above, below = figure.subplots(2, 3)
     for panel, (first, second) in zip(above, _PLANES, strict=True):

@@ -306,6 +306,11 @@ class Workbench(Result):
     picture: BenchPicture | None = Field(default=None, exclude=True, repr=False)
     """Content of the figure; None where nothing was measured."""
 
+    @property
+    def passed(self) -> bool:
+        """Whether all limits are kept."""
+        return all(criterion.passed for criterion in self.criteria)
+
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.
 
@@ -351,7 +356,7 @@ class Workbench(Result):
             OutputError: As of `Calibration.save`.
         """
         if len(self.sensors) > 1:
-            raise ExperimentError(f"{path}: expected one sensor, got {len(self.sensors)}; write one file per sensor")
+            raise ExperimentError(f"{path}: expected one sensor, got {len(self.sensors)}: a file holds one calibration")
         if not self.calibrations:
             reason = self.sensors[0].reason if self.sensors else "nothing was measured yet"
             raise FitError(f"{path}: expected a matrix to write, there is none: {reason}")

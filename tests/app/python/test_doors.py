@@ -12,10 +12,10 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
+from forcetorque.app import motion, simulate, study, workbench
 from forcetorque.app.command_line import whole_program
 from forcetorque.app.python.arrays import experiment_of_arrays
 from forcetorque.app.python.experiment import Experiment, calibrate_jointly, load_experiment
-from forcetorque.app.python.functions import calibrate_skin, motion, simulate, study, workbench
 from forcetorque.app.python.run import Run
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, OutputError
 from forcetorque.calibration.calibrate import calibrate_for_file
@@ -31,6 +31,7 @@ from forcetorque.planning.planning import plan
 from forcetorque.report.report import report
 from forcetorque.sensor.bandwidth.bandwidth import response
 from forcetorque.sensor.temperature.command import thermal
+from forcetorque.skin.commands import calibrate_skin
 from forcetorque.skin.taxels.calibrate import calibrate_skin as calibrate_skin_of_recordings
 from forcetorque.workbench.calibrate import workbench as workbench_of_recordings
 from tests.app.python.arrays import arrays_of

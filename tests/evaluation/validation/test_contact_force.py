@@ -372,7 +372,7 @@ ZEROS = np.zeros((7, 6))
 
 REFUSED: dict[str, tuple[Callable[[Free], object], type[ForceTorqueError], str]] = {
     "unknown_sensor": (_ask(sensor="l_leg"), RobotError, 'no force-torque sensor.*did you mean "l_leg_ft"'),
-    "sensor_not_cut": (_ask(cut_at=("l_foot_ft",)), EstimationError, "judged sensor 'l_leg_ft' among the cuts"),
+    "sensor_not_cut": (_ask(cut_at=("l_foot_ft",)), EstimationError, "evaluated sensor 'l_leg_ft' among the cuts"),
     "unknown_sub_model": (_ask(sub_model="leg"), EstimationError, "'root_link' or 'l_leg_ft', got 'leg'"),
     "sub_model_elsewhere": (_ask(sub_model="l_foot_ft"), EstimationError, "sensor 'l_leg_ft' bounds.*got 'l_foot_ft'"),
     "unknown_link": (_ask(contact=Contact(link="l_lower_lag")), RobotError, 'did you mean "l_lower_leg"'),

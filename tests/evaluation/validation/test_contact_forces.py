@@ -199,7 +199,7 @@ def test_an_interval_that_ends_within_its_first_second_is_named(arm: Path) -> No
     short = '\n[[interval]]\nlabel = "blink"\nstart_s = 21.0\nend_s = 21.9\nuse = "validation"\nsupport = "base"\n'
     both = load_experiment(add(arm / PARQUET, short))
     found = contact_forces(SensorRun(both, both.sensors[0]), {})
-    assert found.left_out == ("interval 'blink': it ends within its first 1 s, after which it would be judged",)
+    assert found.left_out == ("interval 'blink': it ends within its first 1 s, after which it would be evaluated",)
     assert joint_torques(SensorRun(both, both.sensors[0]), {}).left_out == found.left_out
     assert len(found.verdicts) == 2
     for one, other in zip(found.verdicts, expected.verdicts, strict=True):
@@ -229,5 +229,5 @@ def test_an_interval_whose_first_second_is_a_gap_is_named(arm: Path) -> None:
     assert {v.samples for v in torques.verdicts if v.offset is Offset.FITTED} == {count[Offset.FITTED]}
     blind = replace(experiment, recording=holed(experiment.recording, "arm_ft", 17.1, 23.6))
     assert contact_forces(SensorRun(blind, blind.sensors[0]), {}).left_out == (
-        "contact force by prior over 'rest': every judged sample has a gap",
+        "contact force by prior over 'rest': every evaluated sample has a gap",
     )

@@ -117,7 +117,7 @@ def test_what_is_left_out_is_warned_of_and_every_row_counts_its_own_samples(arm:
     edit(arm / PARQUET, 'path = "recording"', 'path = "holed"')
     done = run("validate", PARQUET, "-c", "fitted.json", "--format", "json")
     left_out = done.result()["left_out"]
-    assert "arm_ft: interval 'blink': it ends within its first 1 s, after which it would be judged" in left_out
+    assert "arm_ft: interval 'blink': it ends within its first 1 s, after which it would be evaluated" in left_out
     for name in ("prior", "fitted.json"):
         words = f"arm_ft: contact force by {name} over 'rest', offset first-second: every sample of its first second"
         assert [line for line in left_out if line.startswith(words)]

@@ -17,7 +17,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.results.figures import COLOURS, png_bytes
 from forcetorque.sensor.figures import gain_figure
 from forcetorque.sensor.gains.amplifier_gains import GainChange
-from forcetorque.sensor.gains.gains import SensorGains, sensor_gains
+from forcetorque.sensor.gains.gains import SensorGains, select_gains
 from tests.report.drawing import count_of, pixels, size_of
 from tests.scenes.experiments import PARQUET, write_experiments
 
@@ -34,7 +34,8 @@ def experiment(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def gains(experiment: Path) -> SensorGains:
     """Gains of its sensor."""
     loaded = load_experiment(experiment)
-    return sensor_gains(SensorRun(loaded, loaded.sensors[0]))
+    (drawn,) = select_gains(SensorRun(loaded, loaded.sensors[0])).drawn
+    return drawn
 
 
 @pytest.mark.parametrize("rows", [1, 2])
@@ -85,10 +86,10 @@ def test_drawing_leaves_the_program_as_it_is(experiment: Path) -> None:
     code = f"""
 import sys
 from forcetorque.experiment import SensorRun, load_experiment
-from forcetorque.sensor import sensor_gains
+from forcetorque.sensor import select_gains
 from forcetorque.sensor.figures import gain_figure
 experiment = load_experiment({str(experiment)!r})
-gains = sensor_gains(SensorRun(experiment, experiment.sensors[0]))
+(gains,) = select_gains(SensorRun(experiment, experiment.sensors[0])).drawn
 assert "matplotlib" not in sys.modules
 gain_figure([gains])
 import matplotlib

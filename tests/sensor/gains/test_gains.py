@@ -19,7 +19,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import read_matrix_file
 from forcetorque.recording.recording import Use
 from forcetorque.sensor.gains.amplifier_gains import MARGIN, GainChange
-from forcetorque.sensor.gains.gains import Gains, SensorGains, select_gains, sensor_gains
+from forcetorque.sensor.gains.gains import Gains, SensorGains, select_gains
 from forcetorque.sensor.gains.result import SensorRow
 from tests.results.showing import require_shown
 from tests.scenes.experiments import JOINTS, PARQUET, TWO, YARP, add, edit
@@ -40,7 +40,8 @@ def _selected(
 
 
 def _drawn(experiment: Experiment) -> SensorGains:
-    return sensor_gains(_run(experiment))
+    (drawn,) = select_gains(_run(experiment)).drawn
+    return drawn
 
 
 def _with_counts(experiment: Experiment, change: dict[tuple[int, int], float]) -> Experiment:

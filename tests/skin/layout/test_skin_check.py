@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError
-from forcetorque.skin.layout.check import SkinCheck, check_patch, check_skin
+from forcetorque.skin.commands import check_skin
+from forcetorque.skin.layout.check import SkinCheck, check_patch
 from forcetorque.skin.layout.finding import Defect
 from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.registry import describe_patch, read_layout

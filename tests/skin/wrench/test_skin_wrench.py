@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.app.python.functions import skin_wrench
 from forcetorque.base.errors import SkinError
+from forcetorque.skin.commands import skin_wrench
 from forcetorque.skin.simulation.contact import ContactTruth
 from forcetorque.skin.simulation.recordings import Loading
 from forcetorque.skin.wrench.wrench import SkinWrench

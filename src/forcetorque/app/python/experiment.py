@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Experiments as scripts and notebooks hold them: `experiment["r_leg_ft_sensor"]` is one sensor with its questions."""
+"""Experiments as scripts and notebooks hold them: `experiment["r_leg_ft_sensor"]` is one sensor with its analyses."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class Experiment(ExperimentContent):
             sensor: Its name, or another one that the robot model has for it.
 
         Returns:
-            The sensor, with every question as a method.
+            The sensor, with every analysis as a method.
 
         Raises:
             ExperimentError: If the experiment has none of that name.

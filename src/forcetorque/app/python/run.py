@@ -22,6 +22,7 @@ from forcetorque.recording.alignment import seconds_since
 from forcetorque.results.result import NOTEBOOK_WIDTH, created_now
 from forcetorque.results.table import Table, short_names
 from forcetorque.results.table_rendering import html_table, table_text
+from forcetorque.sensor.gains import command as _gains
 from forcetorque.sensor.temperature import command as _temperature
 
 if TYPE_CHECKING:
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
     from forcetorque.report.assessment import Demands
     from forcetorque.report.report import Report
     from forcetorque.sensor.bandwidth import bandwidth as _bandwidth
-    from forcetorque.sensor.gains import gains as _gains
 
 
 class Verdicts(tuple[UseVerdict, ...]):
@@ -80,16 +80,15 @@ class Run(SensorRun):
     evaluate = _evaluation.evaluate
     validate = _evaluation.validate
     accept = _evaluation.accept
+    gains = _gains.gains
     thermal = _temperature.thermal
     if TYPE_CHECKING:
-        gains = _gains.select_gains
         payload = _payload.weigh_load
         plan = _planning.plan
         response = _bandwidth.response
         sphere = _sphere.spheres
         tare = _tare.tare
     else:
-        gains = LazyMethod("forcetorque.sensor.gains.gains:select_gains")
         payload = LazyMethod("forcetorque.payload.identify:weigh_load")
         plan = LazyMethod("forcetorque.planning.planning:plan")
         response = LazyMethod("forcetorque.sensor.bandwidth.bandwidth:response")

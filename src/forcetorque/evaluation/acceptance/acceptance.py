@@ -138,7 +138,7 @@ def accept(
         runs: The sensor in one recording, or in several: their errors are pooled; of what is measured in each by itself
             (recording, offset, matrix, population) the worst counts.
         spec: Content of the acceptance file.
-        calibration: Name and calibration; the prior is judged if left out.
+        calibration: Name and calibration; the prior is evaluated if left out.
         others: Calibrations of the other sensors by name, for `[validate]` with other sensors as measured.
         population: Matrices of other sensors by serial number.
 
@@ -159,7 +159,7 @@ def accept(
         )
     judges_errors = spec.evaluate is not None or spec.improvement is not None or spec.validate_ is not None
     judged = campaign.runs_with(Use.VALIDATION) if calibration and judges_errors else ()
-    # what cannot be judged says first which limit asks for it
+    # what cannot be evaluated says first which limit asks for it
     criteria = tuple(criteria_of(subjects, spec))
     validity = readings_outside(campaign, dict([calibration])) if calibration and judged else ()
     return Acceptance(

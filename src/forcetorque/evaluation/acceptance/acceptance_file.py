@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The acceptance file: what a sensor must reach to be used. Every number is a limit; what is left out is not judged."""
+"""The acceptance file: what a sensor must reach. Every number is a limit; what is left out is not evaluated."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ class Evaluate(_Limits):
 
     settings: ClassVar[frozenset[str]] = frozenset({"offset"})
     offset: _ErrorOffset = "fitted"
-    """Offset of the fitted data, or the mean of the judged samples."""
+    """Offset of the fitted data, or the mean of the evaluated samples."""
     force_error_mean_N: _NotNegative | None = None
     """Mean norm of the force error."""
     force_error_largest_N: _NotNegative | None = None
@@ -118,7 +118,7 @@ class Improvement(_Limits):
 
     settings: ClassVar[frozenset[str]] = frozenset({"offset"})
     offset: _ErrorOffset = "fitted"
-    """Offset of the fitted data, or the mean of the judged samples."""
+    """Offset of the fitted data, or the mean of the evaluated samples."""
     force_error_ratio: _NotNegative | None = None
     """Ratio of the mean norms of the force error."""
     moment_error_ratio: _NotNegative | None = None
@@ -130,7 +130,7 @@ class Validate(_Limits):
 
     settings: ClassVar[frozenset[str]] = frozenset({"offset", "other_sensors"})
     offset: _ContactOffset = "first-second"
-    """Offset from the first second of every judged interval, or that of the candidate."""
+    """Offset from the first second of every validation interval, or that of the candidate."""
     other_sensors: Literal["model", "measured"] = OtherSensors.MODEL.value
     """What the other sensors of the part read: what the model expects, or what they measured."""
     force_mean_N: _NotNegative | None = None

@@ -86,7 +86,7 @@ class Judged:
     """A calibration, or a prior, with what was measured of it."""
 
     calibration: tuple[str, Calibration] | None
-    """Name and calibration; None to judge the prior."""
+    """Name and calibration; None to evaluate the prior."""
     checks: StaticChecks
     """What was measured of it without limits."""
 
@@ -177,7 +177,7 @@ class Judged:
             Its name and it.
 
         Raises:
-            ExperimentError: If the prior is judged.
+            ExperimentError: If the prior is evaluated.
         """
         if self.calibration is None:
             raise ExperimentError(
@@ -187,7 +187,7 @@ class Judged:
         return self.calibration
 
     def measured(self, check: str, value: _Checked | None) -> _Checked:
-        """Refuse to judge what was not measured.
+        """Refuse to evaluate what was not measured.
 
         Args:
             check: What it is called where the reason is given.
@@ -206,10 +206,10 @@ class Judged:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Subject(Judged):
-    """What is judged, as one recording shows it."""
+    """What is evaluated, as one recording shows it."""
 
     campaign: Campaign
-    """The sensor in all recordings, whose errors are judged together."""
+    """The sensor in all recordings, whose errors are evaluated together."""
     run: SensorRun
     """The sensor in one of them."""
     others: Mapping[str, Calibration]
@@ -217,12 +217,12 @@ class Subject(Judged):
 
 
 def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Iterator[Criterion]:
-    """Hold what is judged to every limit of an acceptance file.
+    """Hold what is evaluated to every limit of an acceptance file.
 
     Errors of all recordings are pooled; of what is measured in every recording by itself the worst counts.
 
     Args:
-        subjects: What is judged, in every recording.
+        subjects: What is evaluated, in every recording.
         spec: Content of the acceptance file.
 
     Yields:
@@ -304,13 +304,13 @@ def _ratio(new: float, prior: float) -> float:
 
 
 def _contact_errors(subject: Subject, stated: limits.Validate) -> ContactForceErrors:
-    """Contact wrench of what is judged, with the offset that is asked for, where nothing touches."""
+    """Contact wrench of what is evaluated, with the offset that is asked for, where nothing touches."""
     candidates = {} if subject.calibration is None else dict([subject.calibration])
     forces = contact_forces(
         subject.campaign, candidates, others=subject.others, other_sensors=OtherSensors(stated.other_sensors)
     )
     name = next(iter(candidates), PRIOR)
-    # a prior that no data gave an offset is judged with what it has, none, where its own is asked for
+    # a prior that no data gave an offset is evaluated with what it has, none, where its own is asked for
     from_start = Offset(stated.offset) is Offset.FIRST_SECOND
     for row in forces.verdicts[::-1]:  # the calibration comes last, and may be called `prior` too
         if row.candidate == name and (row.offset is Offset.FIRST_SECOND) is from_start:

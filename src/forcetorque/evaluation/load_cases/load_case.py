@@ -77,7 +77,7 @@ class LoadCase(ArrayRecord):
 
     @property
     def requirement(self) -> tuple[float, float]:
-        """Error that is allowed: of the force in N, of the moment in N m; infinite for what is not judged.
+        """Error that is allowed: of the force in N, of the moment in N m; infinite for what is not evaluated.
 
         By default both are `ALLOWED_SHARE` of the loads; where one is stated the other is free.
         """

@@ -16,7 +16,7 @@ from forcetorque.base.noise.means import joined_times, mean_error, means_over
 from forcetorque.base.noise.paired_comparison import ErrorRatio, Judgement, PairedErrors, compare_errors
 from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibrations_under_test import JudgedWrenches
+from forcetorque.experiment.calibrations_under_test import EvaluatedWrenches
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
@@ -149,7 +149,7 @@ def evidence_by_calibration(campaign: Campaign, calibrations: Mapping[str, Calib
     return {name: evidence(parts) for name, parts in stretches.items() if parts}
 
 
-def _sessions(campaign: Campaign, run: SensorRun, judged: JudgedWrenches) -> dict[str, IntArray]:
+def _sessions(campaign: Campaign, run: SensorRun, judged: EvaluatedWrenches) -> dict[str, IntArray]:
     """Samples by session, in the order of time."""
     indices: dict[str, list[IntArray]] = {}
     for label, samples in judged.intervals:
@@ -273,7 +273,7 @@ class ErrorComparison(Row):
     ratio_high: Annotated[float | None, Shown("at most", digits=2)]
     """Upper end."""
     stretches: Annotated[int, Shown("stretches")]
-    """Independent stretches of time that the interval comes from."""
+    """Independent segments of time that the interval comes from."""
     judgement: Annotated[Judgement, Shown("judgement")]
     """Conclusion of the interval about the calibration."""
 
@@ -354,7 +354,7 @@ def prior_comparison_text(name: str, rows: Sequence[PriorComparison]) -> str:
     return f"{name} with {offset}, {samples} samples that were not fitted: {words}{constant}"
 
 
-def independence(judged: JudgedWrenches) -> tuple[Independence, ...]:
+def independence(judged: EvaluatedWrenches) -> tuple[Independence, ...]:
     """Count how many independent samples the errors of every candidate are worth.
 
     Args:
@@ -391,7 +391,7 @@ def compare_with_prior(runs: Runs, calibrations: Mapping[str, Calibration]) -> t
     return prior_comparisons(campaign.sensor.name, recordings)
 
 
-def prior_comparisons(sensor: str, recordings: Sequence[JudgedWrenches]) -> tuple[PriorComparison, ...]:
+def prior_comparisons(sensor: str, recordings: Sequence[EvaluatedWrenches]) -> tuple[PriorComparison, ...]:
     """Compare every calibration with its own prior by what they measure.
 
     Args:

@@ -80,7 +80,7 @@ class LoadCaseError(Row):
     after_at_most: Annotated[float, Shown("at most", digits=3)]
     """Upper end; those of force and moment are both held with 95 %."""
     allowed: Annotated[float | None, Shown("allowed", digits=3)]
-    """What the use allows; None where this quantity is not judged."""
+    """What the use allows; None where this quantity is not evaluated."""
     measured: Annotated[float | None, Shown("measured", digits=3)] = None
     """Root mean square on data that were not fitted, at their loads; without its constant part where the use is tared.
     None without such data."""
@@ -186,7 +186,7 @@ def error_reduction_advice(after: PredictedError, allowed: tuple[float, float]) 
 
     Args:
         after: The predicted error.
-        allowed: Allowed force and moment error; N, N m; infinite where it is not judged.
+        allowed: Allowed force and moment error; N, N m; infinite where it is not evaluated.
 
     Returns:
         A sentence.
@@ -261,7 +261,7 @@ class LoadCaseAssessment:
         yield from self._worse()
 
     def _worse(self) -> Iterator[Reason]:
-        """Where the judged data find a quantity that is judged worse than with the prior, by more than a trifle."""
+        """Where validation data find a quantity with a limit worse than with the prior, by more than a trifle."""
         limits = {quantity: limit for (quantity, _, _), limit in zip(_QUANTITIES, self.case.requirement, strict=True)}
         for row in self.worse:
             if row.mean <= ALIKE[1] * row.prior_mean or np.isinf(limits[row.quantity]):
@@ -382,7 +382,7 @@ class LoadCaseAssessment:
             yield Reason(against="use", text=text, remedy=TARE)
 
     def _expected_there(self) -> dict[str, float] | None:
-        """Error that is predicted, at most, at the loads of the judged data; noise that is slow included."""
+        """Error that is predicted, at most, at the loads of the validation data; noise that is slow included."""
         if self.posterior is None or self.measured is None or not self.measured.moved.any():
             return None
         there = LoadCase(

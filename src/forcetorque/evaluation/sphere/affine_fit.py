@@ -120,7 +120,7 @@ def image_of_sphere(
     error: FloatArray,
     tolerance: float,
 ) -> EllipsoidFit:
-    """Lay a map on the sphere of the weight and judge the ellipsoid.
+    """Lay a map on the sphere of the weight and evaluate the ellipsoid.
 
     Args:
         matrix: Map of reference forces to measured ones; shape (3, 3).

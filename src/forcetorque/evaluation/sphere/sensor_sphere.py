@@ -254,7 +254,7 @@ class SensorSphere:
     intervals: tuple[str, ...]
     """Labels of the intervals whose samples were taken together."""
     fitted_on: tuple[str, ...]
-    """Those of them that the calibration was fitted on: it is then judged too kindly."""
+    """Those of them that the calibration was fitted on: it is then evaluated too kindly."""
     no_reference: str | None
     """Why the model gives no reference; None where it does."""
     force: FloatArray

@@ -178,6 +178,11 @@ class Spheres(Result):
     analyses: tuple[SensorSphere, ...] = Field(default=(), exclude=True, repr=False)
     """The forces and fits behind every row, for figures."""
 
+    @property
+    def passed(self) -> bool:
+        """Whether no sensor failed."""
+        return not self.failures
+
     def blocks(self) -> Iterator[Table | str]:
         """Give masses, intervals and moments of every sensor.
 

@@ -122,7 +122,7 @@ def drift_between(first: EllipsoidFit, last: EllipsoidFit, *, gravity: float) ->
 
 
 def _wider_together() -> float:
-    """How much wider margins are that hold for all judged numbers at once with 95 %, by Bonferroni: 1.5."""
+    """How much wider margins are that hold for all evaluated numbers at once with 95 %, by Bonferroni: 1.5."""
     from scipy.special import stdtrit  # here because importing it takes longer than most commands
 
     return float(stdtrit(BLOCKS - 1, 1.0 - (1.0 - _UPPER) / _JUDGED) / stdtrit(BLOCKS - 1, _UPPER))

@@ -184,7 +184,7 @@ class ContactForceErrors(Row):
     candidate: Annotated[str, Shown("candidate", file=True)]
     """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
     offset: Annotated[Offset, Shown("offset")]
-    """Offset from the first second of every judged interval, or that of the candidate."""
+    """Offset from the first second of every validation interval, or that of the candidate."""
     offset_source: str
     """Where that offset comes from, in words."""
     prior: str | None
@@ -219,7 +219,7 @@ class ContactForces(Result):
     best: tuple[BestCandidate, ...]
     """One per offset."""
     left_out: tuple[str, ...]
-    """What could not be judged of the intervals, in words."""
+    """What could not be evaluated of the intervals, in words."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor, and who is best.

@@ -15,7 +15,7 @@ from forcetorque.base.noise.means import joined_times
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import WRENCH_COMPONENTS, transform_wrench
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibrations_under_test import JudgedCandidate
+from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest
 from forcetorque.experiment.free_sub_model import ContactForceValidation, FreeSubModel
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.validation_offset import Offset, gap_words, nothing_left
@@ -35,10 +35,10 @@ class EstimatedContactWrenches(ArrayRecord):
     candidates: tuple[str, ...] = field(metadata=names("k"))
     """Names of the candidates."""
     at_sensor: FloatArray = field(metadata=array("k", "n", 6))
-    """Contact wrenches in the frame of the judged sensor and in its direction (4.1); shape (k, n, 6); N, N m; NaN in
+    """Contact wrenches in the frame of the evaluated sensor and in its direction (4.1); shape (k, n, 6); N, N m; NaN in
     a sample with a gap."""
     free_reading: FloatArray = field(metadata=array("n", 6))
-    """Reading of the judged sensor with which there would be no contact; shape (n, 6); N, N m."""
+    """Reading of the evaluated sensor with which there would be no contact; shape (n, 6); N, N m."""
     sensor_H_contact: FloatArray = field(metadata=array(None, 4, 4))
     """Pose of the contact frame in the frame of the reading; shape (n, 4, 4) or (1, 4, 4); m."""
 
@@ -49,7 +49,7 @@ class EstimatedContactWrenches(ArrayRecord):
             candidate: Its name.
 
         Returns:
-            Wrenches in the frame and direction of the judged sensor; shape (n, 6); N, N m.
+            Wrenches in the frame and direction of the evaluated sensor; shape (n, 6); N, N m.
 
         Raises:
             EstimationError: If there is no such candidate.
@@ -87,7 +87,7 @@ def estimate_contact_wrenches(
         validation: What is validated.
         joints: Motion of at least its required joints; n samples.
         root: Motion of the root link's frame; one sample or n.
-        readings: What the judged sensor reads with each candidate, in its frame and direction; shape (n, 6) by name,
+        readings: What the evaluated sensor reads with each candidate, in its frame and direction; shape (n, 6) by name,
             or (k, n, 6), and the candidates are then named by their index; N, N m.
         measured: Readings of at least the other sensors of the sub-model; looked at only in the mode `measured`.
 
@@ -148,7 +148,7 @@ def _refuse_infinite(candidate: str, reading: FloatArray) -> None:
 def _contact_if_it_read_zero(
     validation: ContactForceValidation, joints: JointMotion, root: RootMotion, measured: Wrenches | None
 ) -> FloatArray:
-    """What the estimator finds at the contact if the judged sensor reads zero; shape (n, 6)."""
+    """What the estimator finds at the contact if the evaluated sensor reads zero; shape (n, 6)."""
     readings = {validation.sensor: np.zeros((len(joints), 6)), **_others(validation, joints, root, measured)}
     estimates = estimate(validation.contact_question, joints, root, measured=Wrenches.of(readings))
     return estimates.contact(validation.point.name)
@@ -173,11 +173,11 @@ def _others(
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ContactWrenches:
-    """Wrenches at the sensor over all judged intervals, in the order of time."""
+    """Wrenches at the sensor over all validation intervals, in the order of time."""
 
     sub_model: str
     """Sub-model that nothing touches, by the sensor at its base or the root link."""
-    candidates: tuple[JudgedCandidate, ...]
+    candidates: tuple[CalibrationUnderTest, ...]
     """The candidates."""
     wrenches: Mapping[tuple[int, Offset], FloatArray]
     """Wrenches by the place of the candidate, because a calibration may be called `prior` too, and by the offset that
@@ -185,9 +185,9 @@ class ContactWrenches:
     time_s: Mapping[tuple[int, Offset], FloatArray]
     """Instants of these, since the start of the recording; shape (n,) each; s."""
     expected: FloatArray
-    """Readings with which there would be no contact, at the judged instants; shape (n, 6); N, N m; NaN in gaps."""
+    """Readings with which there would be no contact, at the evaluated instants; shape (n, 6); N, N m; NaN in gaps."""
     left_out: tuple[str, ...]
-    """What could not be judged of the intervals, in words."""
+    """What could not be evaluated of the intervals, in words."""
 
 
 def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]) -> ContactWrenches:
@@ -201,7 +201,7 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
         The wrenches with the candidate's own offset and with that of each interval's first second.
 
     Raises:
-        ExperimentError: If there is no interval to judge, or one has no support.
+        ExperimentError: If there is no interval to evaluate, or one has no support.
     """
     run = free.run
     candidates = run.candidates(calibrations)
@@ -272,7 +272,7 @@ def _over(
     free: FreeSubModel,
     interval: Interval,
     sub_model: ContactForceValidation,
-    candidates: tuple[JudgedCandidate, ...],
+    candidates: tuple[CalibrationUnderTest, ...],
 ) -> tuple[list[FloatArray], FloatArray]:
     """Contact wrench at the sensor by every candidate and its own offset, and the reading without any; not filtered."""
     joints, root = free.run.motion(interval, sub_model.required_joints)

@@ -14,7 +14,7 @@ from forcetorque.base.errors import RobotError, ShapeError, known_names
 from forcetorque.base.noise.means import joined_times, mean_error
 from forcetorque.base.pose import invert_pose
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibrations_under_test import JudgedCandidate
+from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest
 from forcetorque.experiment.free_sub_model import FreeSubModel, OtherSensors
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
@@ -199,7 +199,7 @@ class TorqueScheme:
     contact: str | None
     """Link of the free sub-model that takes up its contact wrench; None for that at its base."""
     joints: tuple[str, ...]
-    """Joints that depend on the judged sensor and can be judged."""
+    """Joints that depend on the evaluated sensor and can be evaluated."""
     sensors: tuple[str, ...]
     """Sensors whose error is in their torques; the judged one first."""
     logged: tuple[str, ...]
@@ -213,10 +213,10 @@ class TorqueScheme:
 
 
 def torque_scheme(free: FreeSubModel, interval: Interval) -> TorqueScheme:
-    """Decide which torques are judged in an interval.
+    """Decide which torques are evaluated in an interval.
 
     Args:
-        free: The free sub-model of the judged sensor.
+        free: The free sub-model of the evaluated sensor.
         interval: The interval.
 
     Returns:
@@ -266,7 +266,7 @@ def _missing(question: Question, available: set[str]) -> list[str]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TorqueKey:
-    """Whose torque is judged, and with which offset."""
+    """Whose torque is evaluated, and with which offset."""
 
     candidate: int
     """Place of the candidate: a calibration may be called `prior` too."""
@@ -292,14 +292,14 @@ class TorqueSamples:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class TorqueErrorSamples:
-    """Errors of the torques that depend on one sensor, over all judged intervals, in the order of time."""
+    """Errors of the torques that depend on one sensor, over all validation intervals, in the order of time."""
 
-    candidates: tuple[JudgedCandidate, ...]
+    candidates: tuple[CalibrationUnderTest, ...]
     """The candidates."""
     samples: Mapping[TorqueKey, TorqueSamples]
     """The errors."""
     left_out: tuple[str, ...]
-    """Torques that the log does not allow to estimate, or to judge in an interval, in words."""
+    """Torques that the log does not allow to estimate, or to evaluate in an interval, in words."""
 
 
 def torque_error_samples(free: FreeSubModel, calibrations: Mapping[str, Calibration]) -> TorqueErrorSamples:
@@ -373,7 +373,7 @@ def _joined(
 
 
 def _over(
-    free: FreeSubModel, interval: Interval, scheme: TorqueScheme, candidates: Sequence[JudgedCandidate]
+    free: FreeSubModel, interval: Interval, scheme: TorqueScheme, candidates: Sequence[CalibrationUnderTest]
 ) -> Iterator[tuple[TorqueKey, TorqueSamples]]:
     """Errors of every candidate, offset and joint over one interval, after its first second."""
     run, instants, sensor = free.run, free.run.instants(interval), free.run.sensor.name
@@ -403,7 +403,7 @@ def _over(
 
 
 def _gaps(
-    interval: Interval, candidates: Sequence[JudgedCandidate], over: Mapping[TorqueKey, TorqueSamples]
+    interval: Interval, candidates: Sequence[CalibrationUnderTest], over: Mapping[TorqueKey, TorqueSamples]
 ) -> Iterator[str]:
     """Torques that gaps leave out in one interval, in words."""
     by_offset: dict[tuple[str, int], dict[Offset, FloatArray]] = {}
@@ -436,7 +436,7 @@ def _logged(run: SensorRun, interval: Interval, joints: Sequence[str]) -> dict[s
 
 
 def _borne(scheme: TorqueScheme, map_of: TorqueMap, error: FloatArray) -> FloatArray:
-    """Torques of the judged joints by the error of one sensor; shape (n, joints)."""
+    """Torques of the evaluated joints by the error of one sensor; shape (n, joints)."""
     torques = dict(zip(map_of.joints, map_of.torques(error).T, strict=True))
     none = np.zeros(len(error))
     return np.stack([torques.get(joint, none) for joint in scheme.joints], axis=1)

@@ -17,7 +17,7 @@ from forcetorque.evaluation.validation.joint_torque_errors import (
 )
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibrations_under_test import JudgedRow
+from forcetorque.experiment.calibrations_under_test import EvaluatedRow
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
 from forcetorque.results.result import Result
@@ -25,7 +25,7 @@ from forcetorque.results.table import Shown, Table, table_of
 from forcetorque.robot.model import JointType
 
 
-class EstimatedJointRow(JudgedRow):
+class EstimatedJointRow(EvaluatedRow):
     """The joint of an estimated torque, and the calibration that reads the sensor."""
 
     joint: Annotated[str, Shown("joint")]
@@ -60,7 +60,7 @@ class JointTorques(Result):
     verdicts: tuple[JointTorqueErrors, ...]
     """One per candidate, offset and joint, joints from the support outwards."""
     left_out: tuple[str, ...]
-    """Torques that the log does not allow to estimate, or to judge in an interval, in words."""
+    """Torques that the log does not allow to estimate, or to evaluate in an interval, in words."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor.

@@ -175,7 +175,7 @@ def _validity(
 def _uses(
     campaign: Campaign, calibrations: Mapping[str, Calibration]
 ) -> tuple[tuple[UseVerdict, ...], tuple[str, ...]]:
-    """Whether calibrations may be used; else why that cannot be told, such as that one has seen the judged data."""
+    """Whether calibrations may be used; else why that cannot be told, such as that one has seen the validation data."""
     try:
         return use_verdicts(campaign, calibrations), ()
     except ForceTorqueError as error:

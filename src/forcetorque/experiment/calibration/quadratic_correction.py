@@ -160,7 +160,7 @@ legs and feet with cross-talk all keep that of the force; on two or three record
 
 Half = Literal["force", "moment"]
 HALVES: Final[tuple[Half, Half]] = ("force", "moment")
-"""Force and moment are judged apart: nothing makes a newton and a newton metre one unit."""
+"""Force and moment are evaluated apart: nothing makes a newton and a newton metre one unit."""
 
 UNITS: Final = ("N", "N m")
 """Their units."""

@@ -17,10 +17,20 @@ from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin
 import typer
 
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.results.capability import named
-from forcetorque.results.command import Command, Option, command_of
-from forcetorque.results.terminal.options import ExperimentArgument, ExperimentsArgument, FormatOption
-from forcetorque.results.terminal.output import Format, refuse_figure, show, start_logging
+from forcetorque.results.command import Command, Option, Saved, command_of
+from forcetorque.results.terminal.options import ExperimentArgument, ExperimentsArgument, ForceOption, FormatOption
+from forcetorque.results.terminal.output import (
+    Format,
+    refuse_figure,
+    refuse_output_folder,
+    refuse_standard_output,
+    refuse_two_on_standard_output,
+    show,
+    show_warnings,
+    start_logging,
+)
 
 if TYPE_CHECKING:
     from logging import Logger
@@ -89,13 +99,19 @@ class _Analysis:
                 yield _typed("experiments", ExperimentsArgument)
             elif option is not None and kind in (_CALIBRATIONS, _ONE_CALIBRATION):
                 yield _option("calibration", list[Path], option, ("--calibration", "-c"), required=option.required)
-            elif option is not None and kind not in (_OTHERS, _PROGRESS):
+            elif option is not None and kind not in (_OTHERS, _PROGRESS) and not option.python_only:
                 yield _plain(name, parameter, option)
             if kind in (_RUN, _RUNS) and option is not None and option.flags:
-                words = "Sensor of the experiment. Default: those of the calibrations, else all."
-                yield _option("sensor", list[str], Option(words), option.flags)
+                default = "all" if option.all_sensors else "those of the calibrations, else all"
+                yield _option(
+                    "sensor", list[str], Option(f"Sensor of the experiment. Default: {default}."), option.flags
+                )
+        for saved in self.offered.saved:
+            yield _option(_name(saved), Path, Option(saved.help), saved.flags, required=saved.required)
         if self.offered.drawing is not None:
             yield _option("figure", Path, Option(f"PNG of {self.offered.drawing.help}."), ("--figure",))
+        if self.offered.saved:
+            yield _typed("force", ForceOption, False)
 
     def run(self, given: Mapping[str, Any]) -> None:
         """Compute, draw and show the result.
@@ -107,13 +123,32 @@ class _Analysis:
             typer.Exit: With code 1 if the result is not as it should be.
         """
         log, figure = start_logging(), given.get("figure")
-        refuse_figure(figure)
+        self.refuse_outputs(given)
         result = self.result(given, log)
+        for saved in self.offered.saved:
+            if given[_name(saved)] is not None:
+                result = _written(result, saved, given[_name(saved)])
         if figure is not None:
             result = self.drawn(result, figure)
-        show(result, given["output_format"])
+        if any(given[_name(saved)] == STANDARD_OUTPUT for saved in self.offered.saved):  # the file itself went there
+            show_warnings(result)
+        else:
+            show(result, given["output_format"])
         if not result.passed:
             raise typer.Exit(1)
+
+    def refuse_outputs(self, given: Mapping[str, Any]) -> None:
+        """Refuse folders, files and a figure that cannot be written, before anything is computed."""
+        for name, option in self.offered.options.items():
+            if option.folder and given[name] is not None:
+                refuse_output_folder(given[name], option.flags[0])
+        for saved in self.offered.saved:
+            if saved.standard_output:
+                refuse_two_on_standard_output(given[_name(saved)], given["output_format"])
+            else:
+                refuse_standard_output(saved.flags[0], given[_name(saved)])
+        refuse_figure(given.get("figure"), force=given.get("force"))
+        declare_outputs(*(given[_name(saved)] for saved in self.offered.saved), force=given.get("force"))
 
     def result(self, given: Mapping[str, Any], log: Logger) -> Result:
         """Read what is named, and compute."""
@@ -128,9 +163,10 @@ class _Analysis:
         if _RUN in self.named_by_kind or _RUNS in self.named_by_kind:
             results = list(self.by_sensor(given, options, log))
             return type(results[0]).together(results)
-        first = next(iter(files or options.values()), None)
-        if isinstance(first, Path):
-            log.info("reading %s", first)
+        first = next(iter(self.parameters))
+        file = options.get(first)
+        if isinstance(file, Path) and not self.offered.options[first].flags and _PROGRESS not in self.named_by_kind:
+            log.info("reading %s", file)
         return self.function(*files, **options)
 
     def read(self, given: Mapping[str, Any], log: Logger) -> tuple[Sequence[Any], dict[str, Any]]:
@@ -143,7 +179,10 @@ class _Analysis:
             value, option = given.get(name), self.offered.options.get(name)
             if value is None or option is None or _kind(parameter) in _FILLED:
                 continue
-            value = named(option.reads)(value) if option.reads else value
+            if option.reads is not None:
+                value = (named(option.reads) if isinstance(option.reads, str) else option.reads)(value)
+            elif option.choices:
+                value = value.value
             if parameter.kind is Parameter.VAR_POSITIONAL:
                 files += value
             else:
@@ -172,7 +211,10 @@ class _Analysis:
         groups = by_sensor(content, calibrations)
         if _ONE_CALIBRATION in self.named_by_kind:
             one_per_sensor(content, calibrations)
-        sensors = sensors_named(content, given.get("sensor") or groups)
+        option = next(
+            self.offered.options[self.named_by_kind[kind]] for kind in (_RUN, _RUNS) if kind in self.named_by_kind
+        )
+        sensors = sensors_named(content, given.get("sensor") or (() if option.all_sensors else groups))
         if _OTHERS not in self.named_by_kind:
             refuse_left_out(content, sensors, calibrations)
         for sensor in sensors:
@@ -200,10 +242,19 @@ class _Analysis:
 
         drawing = self.offered.drawing
         assert drawing is not None  # noqa: S101 - else there is no --figure
-        shown = result if drawing.of is None else getattr(result, drawing.of)
-        write_bytes_atomically(figure, png_bytes(named(drawing.function)(shown)))
+        shown = [getattr(result, field) for field in drawing.of] or [result]
+        write_bytes_atomically(figure, png_bytes(named(drawing.function)(*shown)))
         named_in_result = "figure" in type(result).model_fields
         return result.model_copy(update={"figure": str(figure)}) if named_in_result else result
+
+
+def _written(result: Any, saved: Saved, path: Path) -> Result:
+    """The result, with the name of the file that it is saved in."""
+    if saved.function is not None:
+        named(saved.function)(result, path)
+        return result
+    result.save(path)
+    return result.model_copy(update={"file": str(path)})
 
 
 @contextmanager
@@ -232,8 +283,15 @@ def _plain(name: str, parameter: Parameter, option: Option) -> Parameter:
     if not flags and parameter.kind is not Parameter.KEYWORD_ONLY:
         argument = typer.Argument(help=option.help)
         return _typed(name, Annotated[kind if required else kind | None, argument], *(() if required else (None,)))
-    default = None if parameter.default == () else parameter.default
-    return _option(name, kind, option, flags or (f"--{name.replace('_', '-')}",), required=required, default=default)
+    default = None if parameter.default == () or option.reads else parameter.default
+    return _option(
+        name,
+        kind,
+        option,
+        flags or (f"--{name.replace('_', '-')}",),
+        required=required or option.required,
+        default=default,
+    )
 
 
 def _typed_kind(parameter: Parameter) -> Any:
@@ -252,11 +310,16 @@ def _option(
     several = " Repeat for more." if get_origin(kind) is list else ""
     if option.choices:
         choice: Any = StrEnum("choice", list(option.choices))  # type: ignore[misc]  # mypy wants the words written here
-        kind, default = choice, choice(default)
+        kind, default = choice, None if default is None else choice(default)
     declared = typer.Option(*flags, help=option.help + several)
     if required:
         return _typed(name, Annotated[kind, declared])
     return _typed(name, Annotated[kind | None if default is None else kind, declared], default)
+
+
+def _name(saved: Saved) -> str:
+    """The name by which the path of a file is given."""
+    return saved.flags[0].removeprefix("--").replace("-", "_")
 
 
 def _typed(name: str, kind: Any, default: Any = Parameter.empty) -> Parameter:

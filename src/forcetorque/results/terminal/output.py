@@ -145,17 +145,18 @@ def refuse_standard_output(option: str, path: Path | None) -> None:
         raise ForceTorqueError(f"{option} -: expected a name, standard output takes the result only; see --format")
 
 
-def refuse_output_folder(output: Path) -> None:
+def refuse_output_folder(output: Path, option: str = "--output") -> None:
     """Refuse a folder of results that cannot be made anew, before any work is done.
 
     Args:
         output: Folder to make.
+        option: Option that names it.
 
     Raises:
         ForceTorqueError: If it is there already, or is `-`.
     """
-    refuse_standard_output("--output", output)
-    refuse_existing(output, where="--output ")
+    refuse_standard_output(option, output)
+    refuse_existing(output, where=f"{option} ")
 
 
 def refuse_two_on_standard_output(output: Path | None, output_format: Format) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, names, require_shape
+from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.noise.means import means_over
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.additions import with_recording_notes
@@ -116,6 +117,31 @@ def _is_still(run: SensorRun) -> bool:
     return bool(np.linalg.norm(change[:3]) <= _STILL * force and np.linalg.norm(change[3:]) <= _STILL * lever)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SensorGains(ArrayRecord):
+    """The channels of a sensor against their limits, as a figure draws them."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    margin: float
+    """Share of the limit to keep free."""
+    limit_counts: float
+    """Largest magnitude of a reading; counts."""
+    time_s: FloatArray = field(metadata=array("n"))
+    """Instants from the earliest stamp over all streams; shape (n,); s."""
+    counts: FloatArray = field(metadata=array("n", "c"))
+    """Raw readings over all intervals that are not ignored; shape (n, c); counts."""
+    channels: tuple[ChannelGain, ...] = field(metadata=names("c"))
+    """Range and recommended gain of each channel."""
+
+    @property
+    def factors(self) -> FloatArray:
+        """Factor on the counts of each channel; shape (c,)."""
+        return np.array([channel.factor for channel in self.channels])
+
+
 class Gains(Result):
     """How far the channels of sensors are from saturation, and which amplifier gains would suit them."""
 
@@ -129,6 +155,8 @@ class Gains(Result):
     """File of the figure."""
     sensors: tuple[SensorRow, ...]
     """Sensors in the order of the file."""
+    drawn: tuple[SensorGains, ...] = Field(default=(), exclude=True, repr=False)
+    """Samples and channels of each, for figures."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the tables of every sensor.
@@ -153,31 +181,6 @@ class Gains(Result):
             for row in self.sensors
             for channel in row.channels
         ]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SensorGains(ArrayRecord):
-    """The channels of a sensor against their limits, as a figure draws them."""
-
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
-    margin: float
-    """Share of the limit to keep free."""
-    limit_counts: float
-    """Largest magnitude of a reading; counts."""
-    time_s: FloatArray = field(metadata=array("n"))
-    """Instants from the earliest stamp over all streams; shape (n,); s."""
-    counts: FloatArray = field(metadata=array("n", "c"))
-    """Raw readings over all intervals that are not ignored; shape (n, c); counts."""
-    channels: tuple[ChannelGain, ...] = field(metadata=names("c"))
-    """Range and recommended gain of each channel."""
-
-    @property
-    def factors(self) -> FloatArray:
-        """Factor on the counts of each channel; shape (c,)."""
-        return np.array([channel.factor for channel in self.channels])
 
 
 @with_recording_notes
@@ -220,30 +223,56 @@ def select_gains(run: SensorRun, calibration: OneCalibration | None = None, *, m
         experiment=run.experiment.name,
         margin=margin,
         sensors=(row,),
+        drawn=(
+            SensorGains(
+                sensor=run.sensor.name,
+                serial=run.sensor.serial,
+                margin=margin,
+                limit_counts=run.sensor.limit_counts,
+                time_s=seconds_since(counts.stream.stamp_ns, run.experiment.recording.start_ns),
+                counts=counts.values,
+                channels=channels,
+            ),
+        ),
         warnings=tuple(_warnings(row, run.sensor.prior_source)),
     )
 
 
-def sensor_gains(run: SensorRun, *, margin: float = MARGIN) -> SensorGains:
-    """Give the samples that `select_gains` looks at, with its advice, for a figure.
+def with_gains(
+    run: SensorRun, amplifier_gain: Sequence[float] | None, allowed_gains: Sequence[float] | None
+) -> SensorRun:
+    """Replace the gains that the experiment file specifies.
 
     Args:
-        run: The sensor, with its present and allowed gains if they are known.
-        margin: Share of the limit to keep free.
+        run: The sensor.
+        amplifier_gain: Present gain of all channels, or of each; those of the file if None.
+        allowed_gains: Gains that can be set; those of the file if None.
 
     Returns:
-        Samples and advice.
+        The sensor with these gains.
+
+    Raises:
+        ForceTorqueError: If there is neither one gain nor one per channel, or gains are allowed and the present ones
+            are not known.
     """
-    counts = raw_counts(run)
-    return SensorGains(
-        sensor=run.sensor.name,
-        serial=run.sensor.serial,
-        margin=margin,
-        limit_counts=run.sensor.limit_counts,
-        time_s=seconds_since(counts.stream.stamp_ns, run.experiment.recording.start_ns),
-        counts=counts.values,
-        channels=_channel_gains(run, counts, margin),
-    )
+    sensor = run.sensor
+    if amplifier_gain is not None:
+        channels = len(run.stream.signal(sensor.quantity).columns)
+        if len(amplifier_gain) not in (1, channels):
+            raise ForceTorqueError(
+                f"amplifier gain: expected one number, or one for each of the {channels} channels of {sensor.name!r}, "
+                f"got {len(amplifier_gain)}"
+            )
+        present = tuple(amplifier_gain)
+        sensor = replace(sensor, amplifier_gain=present * channels if len(present) == 1 else present)
+    if allowed_gains is not None:
+        sensor = replace(sensor, allowed_gains=tuple(allowed_gains))
+    if sensor.allowed_gains is not None and sensor.amplifier_gain is None:
+        raise ForceTorqueError(
+            f"sensor {sensor.name!r}: expected the gains that it was recorded with beside the allowed ones; "
+            "give --amplifier-gain, or amplifier_gain in the experiment file"
+        )
+    return SensorRun(run.experiment, sensor)
 
 
 def _channel_gains(run: SensorRun, counts: RawCounts, margin: float) -> tuple[ChannelGain, ...]:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 @command(
     Drawing(
         function="forcetorque.sensor.figures:thermal_figure",
-        of="sensors",
+        of=("sensors",),
         help="the drift over temperature, heating and cooling apart",
     )
 )

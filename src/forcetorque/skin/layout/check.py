@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -22,7 +21,6 @@ from forcetorque.skin.layout.defects import (
     representatives,
 )
 from forcetorque.skin.layout.finding import LayoutFindingRow, PatchShape, counted, shape_of
-from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import PatchDescription
 
 _CHECKS: tuple[Callable[[PatchShape], Iterator[LayoutFindingRow]], ...] = (
@@ -92,6 +90,11 @@ class SkinCheck(Result):
     normals: dict[str, Annotated[FloatArray, ArrayField((None, 3))]] = Field(exclude=True)
     """Normals `as written` and `rebuilt`, as far as there are any; shape (n, 3) each. For the figure."""
 
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is wrong."""
+        return not self.findings
+
     def blocks(self) -> Iterator[Table | str]:
         """Give a table of findings, and a sentence for each.
 
@@ -123,18 +126,6 @@ class SkinCheck(Result):
             The keys of a finding, also where there is none.
         """
         return list(LayoutFindingRow.model_fields)
-
-
-def check_skin(path: Path | str) -> SkinCheck:
-    """Check the layout in a file of any known form.
-
-    Args:
-        path: File.
-
-    Returns:
-        What is wrong with it.
-    """
-    return check_patch(describe_patch(path))
 
 
 def check_patch(patch: PatchDescription) -> SkinCheck:

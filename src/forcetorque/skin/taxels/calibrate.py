@@ -10,7 +10,7 @@ from typing import Literal
 from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, FitError, known_names
-from forcetorque.experiment.additions import added_to, with_recording_notes
+from forcetorque.experiment.additions import ADDED, added_to, with_recording_notes
 from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import Result
@@ -18,7 +18,12 @@ from forcetorque.results.table import Table, table_of
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
 from forcetorque.skin.taxels.fit import FittedSamples, calibrated_taxel, compare_curves, fitted_samples
-from forcetorque.skin.taxels.patch_calibration import CalibratedTaxel, PatchCalibration, PatchProvenance
+from forcetorque.skin.taxels.patch_calibration import (
+    CalibratedTaxel,
+    PatchCalibration,
+    PatchProvenance,
+    write_pressure_table,
+)
 from forcetorque.skin.taxels.recording import PatchRecording, of_use, patch_recordings, same_patch
 from forcetorque.skin.taxels.result import (
     CandidateRow,
@@ -99,6 +104,14 @@ class SkinCalibration(Result):
             if file is not None:
                 yield f"{name} {file}"
 
+    def save(self, path: Path | str) -> None:
+        """Write the curves.
+
+        Args:
+            path: File to write or to replace.
+        """
+        self.calibration.save(path)
+
 
 @with_recording_notes
 def calibrate_skin(
@@ -143,8 +156,14 @@ def calibrate_skin(
     curves = {kind: samples.fit(kind) for kind in CurveKind}
     kept = CurveKind(curve)
     artefact = _artefact(contents, patches[0], logs, samples, curves[kept], kept, code_version, created)
-    added = dict.fromkeys(sentence for content in contents for sentence in added_to(content.recording))
-    result = _result(artefact, logs, samples, curves, warnings=tuple(added))
+    warnings = dict.fromkeys(
+        f"{content.file}: {finding.stream}: {finding.message}"
+        for content in contents
+        for finding in content.recording.findings
+        if finding.kind not in ADDED
+    )
+    warnings |= dict.fromkeys(sentence for content in contents for sentence in added_to(content.recording))
+    result = _result(artefact, logs, samples, curves, warnings=tuple(warnings))
     return result if warm_up is None else _with_warm_up(result, warm_up, patches[0])
 
 
@@ -163,6 +182,16 @@ def _with_warm_up(
             "warnings": (*result.warnings, *warnings),
         }
     )
+
+
+def save_pressure_table(result: SkinCalibration, path: Path) -> None:
+    """Write the pressure of every taxel by its counts as CSV.
+
+    Args:
+        result: The result.
+        path: File to write or to replace.
+    """
+    write_pressure_table(path, result.calibration.table())
 
 
 def read_patches(experiments: Sequence[Path | str | PatchExperiment]) -> list[PatchExperiment]:

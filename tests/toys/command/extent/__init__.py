@@ -3,4 +3,4 @@
 
 from forcetorque.results.capability import Capability
 
-CAPABILITY = Capability(commands=("forcetorque.extent.command:extent",))
+CAPABILITY = Capability(page="recording.md", commands=("forcetorque.extent.command:extent",))

@@ -3,4 +3,4 @@
 
 from forcetorque.results.capability import Capability
 
-CAPABILITY = Capability(commands=("forcetorque.toy.commands:toy",))
+CAPABILITY = Capability(page="skin/layout.md", commands=("forcetorque.toy.commands:toy",))

@@ -3,4 +3,4 @@
 
 from forcetorque.results.capability import Capability
 
-CAPABILITY = Capability(sections=("forcetorque.weather.section:WEATHER",))
+CAPABILITY = Capability(page="recording.md", sections=("forcetorque.weather.section:WEATHER",))
