@@ -18,10 +18,9 @@ from forcetorque.payload.identification.parameter_vector import (
     Kind,
     inertia_of,
     places,
-    rotation_by,
     six_of,
 )
-from forcetorque.robot.mounting import nearest_rotation
+from forcetorque.robot.mounting import nearest_rotation, rotation_by
 
 _SMALL = 1e-5
 """rad: step of the differences that give derivatives by rotations; what is left is of the order of its square."""
