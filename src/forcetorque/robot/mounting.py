@@ -100,7 +100,8 @@ _SPREAD = 0.1
 """Standard deviation of the coefficients of a matrix, relative to its row: mounted sensors are off by half as much."""
 _LEVER_M = 0.03
 """Full scale of moments over that of forces, where nobody states them; m."""
-_STEPS = 30
+_FIRST_STEPS, _REFINED, _STEPS = 4, 3, 30
+"""Steps from every start, how many of the best go on, and their steps."""
 _SETTLED = 1e-9
 """Step at which a mount does not move any more; rad, m."""
 _ROTATION_RAD, _SHIFT_M = np.deg2rad(8.0), 0.05
@@ -189,7 +190,8 @@ def estimate_mount(
     problem = _MountProblem.of(reading, wrench, full_scale)
     response = reading[:, FORCE].T @ wrench[:, FORCE]
     starts = [nearest_rotation(response), *quarter_turns()]
-    fits = [problem.fitted(start) for start in starts]
+    coarse = sorted((problem.fitted(start, steps=_FIRST_STEPS) for start in starts), key=lambda fit: fit[0])
+    fits = [problem.fitted(rotation) for _, rotation, _, _ in coarse[:_REFINED]]
     _, rotation, shift, covariance = min(fits, key=lambda fit: fit[0])
     after = reading - wrench @ wrench_map(rotation, shift).T
     return MountEstimate(
@@ -250,21 +252,20 @@ class _MountProblem:
             target=follows, root=root, noise=noise / np.sqrt(count), spread=_SPREAD * sizes[:, None] / sizes[None, :]
         )
 
-    def fitted(self, start: FloatArray) -> tuple[float, FloatArray, FloatArray, FloatArray]:
+    def fitted(self, start: FloatArray, *, steps: int = _STEPS) -> tuple[float, FloatArray, FloatArray, FloatArray]:
         """Cost, rotation, shift and the covariance of both, from a first rotation (Gauss-Newton)."""
         rotation, shift, error = start, np.zeros(3), np.zeros((6, 6))
-        for _ in range(_STEPS):
+        free = np.diag([1.0] * 6 + [0.0] * 36)  # what no load tells has no end: a radian or a metre stands for it
+        for _ in range(steps):
             design, residual = self._linear(rotation, shift, error)
-            step = np.linalg.lstsq(design, residual, rcond=1e-10)[0]
+            step = np.asarray(np.linalg.lstsq(design, residual, rcond=1e-10)[0], dtype=np.float64)
             turn = float(np.linalg.norm(step[:3]))
             rotation = rotation_by(step[:3] * min(1.0, 1.0 / max(turn, 1e-12))) @ rotation
-            shift, error = shift + step[3:6], error + step[6:].reshape(6, 6)
+            shift, error = np.asarray(shift + step[3:6]), error + step[6:].reshape(6, 6)
             if np.abs(step[:6]).max() < _SETTLED:
                 break
         design, residual = self._linear(rotation, shift, error)
-        information = design.T @ design
-        # what no load tells has no end: a radian or a metre stands for it
-        covariance = np.linalg.inv(information + np.diag([1.0] * 6 + [0.0] * 36))[:6, :6]
+        covariance = np.asarray(np.linalg.inv(design.T @ design + free)[:6, :6], dtype=np.float64)
         return float(residual @ residual), rotation, shift, covariance
 
     def _linear(self, rotation: FloatArray, shift: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]:
