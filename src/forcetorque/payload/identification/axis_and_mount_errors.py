@@ -200,5 +200,5 @@ def _mount_words(
     if not (np.abs(vector) > _SURE * half).any():
         return None
     before, after = (float(np.sqrt(values[FORCE].sum())) for values in squares)
-    turn = f"{rotation_words(vector)} (±{np.rad2deg(half.max()):.1f} deg)"
+    turn = f"{rotation_words(-vector)} (±{np.rad2deg(half.max()):.1f} deg)"
     return f'{cause.words.format(turn=turn)}: residual {before:.2g} -> {after:.2g} N; set mount = "unknown"'
