@@ -100,6 +100,8 @@ _SPREAD = 0.1
 """Standard deviation of the coefficients of a matrix, relative to its row: mounted sensors are off by half as much."""
 _LEVER_M = 0.03
 """Full scale of moments over that of forces, where nobody states them; m."""
+_HELD = 1e-12
+"""Share of the information of an unknown that holds it where no load tells it."""
 _FIRST_STEPS, _REFINED, _STEPS = 4, 3, 30
 """Steps from every start, how many of the best go on, and their steps."""
 _SETTLED = 1e-9
@@ -220,6 +222,9 @@ def wrench_map(rotation: FloatArray, shift: FloatArray) -> FloatArray:
     return turned
 
 
+_Fitted = tuple[float, FloatArray, FloatArray, FloatArray]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _MountProblem:
     """Sufficient statistics: `response @ root` against that of the model, over the noise."""
@@ -252,36 +257,41 @@ class _MountProblem:
             target=follows, root=root, noise=noise / np.sqrt(count), spread=_SPREAD * sizes[:, None] / sizes[None, :]
         )
 
-    def fitted(self, start: FloatArray, *, steps: int = _STEPS) -> tuple[float, FloatArray, FloatArray, FloatArray]:
+    def fitted(self, start: FloatArray, *, steps: int = _STEPS) -> _Fitted:
         """Cost, rotation, shift and the covariance of both, from a first rotation (Gauss-Newton)."""
         rotation, shift, error = start, np.zeros(3), np.zeros((6, 6))
-        free = np.diag([1.0] * 6 + [0.0] * 36)  # what no load tells has no end: a radian or a metre stands for it
+        # what no load tells has no end: a radian or a metre stands for it
+        free = np.diag([1.0] * 6 + [0.0] * 36)
         for _ in range(steps):
-            design, residual = self._linear(rotation, shift, error)
-            step = np.asarray(np.linalg.lstsq(design, residual, rcond=1e-10)[0], dtype=np.float64)
+            information, sides, _ = self._linear(rotation, shift, error)
+            held = np.diag(_HELD * np.diag(information)) + _HELD * free
+            step = np.asarray(np.linalg.solve(information + held, sides), dtype=np.float64)
             turn = float(np.linalg.norm(step[:3]))
             rotation = rotation_by(step[:3] * min(1.0, 1.0 / max(turn, 1e-12))) @ rotation
             shift, error = np.asarray(shift + step[3:6]), error + step[6:].reshape(6, 6)
             if np.abs(step[:6]).max() < _SETTLED:
                 break
-        design, residual = self._linear(rotation, shift, error)
-        covariance = np.asarray(np.linalg.inv(design.T @ design + free)[:6, :6], dtype=np.float64)
-        return float(residual @ residual), rotation, shift, covariance
+        information, _, cost = self._linear(rotation, shift, error)
+        covariance = np.asarray(np.linalg.inv(information + free)[:6, :6], dtype=np.float64)
+        return cost, rotation, shift, covariance
 
-    def _linear(self, rotation: FloatArray, shift: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Change of the model with rotation (3), shift (3) and E (36), over the noise, and what is left."""
+    def _linear(
+        self, rotation: FloatArray, shift: FloatArray, error: FloatArray
+    ) -> tuple[FloatArray, FloatArray, float]:
+        """Normal equations of rotation (3), shift (3) and E (36): matrix, right side, and the cost so far."""
         placed, matrix = wrench_map(rotation, shift), np.eye(6) + error
-        columns = []
-        for axis in np.eye(3):
-            turn = np.zeros((6, 6))
-            turn[:3, :3] = turn[3:, 3:] = skew(axis)
-            columns.append(matrix @ turn @ placed)
-        for axis in np.eye(3):
-            moved = np.zeros((6, 6))
-            moved[3:, :3] = -rotation @ skew(axis)
-            columns.append(matrix @ moved)
-        columns += [np.outer(row, column @ placed) for row in np.eye(6) for column in np.eye(6)]
-        changes = np.array([(column @ self.root / self.noise[:, None]).ravel() for column in columns]).T
-        prior = np.hstack([np.zeros((36, 6)), np.diag(1.0 / self.spread.ravel())])
-        left = (self.target - matrix @ placed @ self.root) / self.noise[:, None]
-        return np.vstack([changes, prior]), np.concatenate([left.ravel(), -(error / self.spread).ravel()])
+        turns = np.zeros((6, 6, 6))
+        turns[:3, :3, :3] = turns[:3, 3:, 3:] = skew(np.eye(3))
+        turns[:3] = turns[:3] @ placed
+        turns[3:, 3:, :3] = -rotation @ skew(np.eye(3))
+        weight = 1.0 / self.noise[:, None]
+        of_mount = (matrix @ turns @ self.root * weight).reshape(6, -1)
+        load = placed @ self.root
+        of_error = np.einsum("ik,jr->ijkr", np.diag(weight[:, 0]), load).reshape(36, -1)
+        design = np.vstack([of_mount, of_error])
+        left = ((self.target - matrix @ load) * weight).ravel()
+        precision = self.spread.ravel() ** -2.0
+        information, sides = design @ design.T, design @ left
+        information[6:, 6:] += np.diag(precision)
+        sides[6:] -= precision * error.ravel()
+        return information, sides, float(left @ left + precision @ error.ravel() ** 2)
