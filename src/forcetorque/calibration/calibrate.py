@@ -17,6 +17,7 @@ from forcetorque.calibration.generative.artefact import generative_calibration
 from forcetorque.calibration.joint.artefact import joint_posterior
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.moments import recording_moments
+from forcetorque.calibration.mount import with_estimated_mount
 from forcetorque.calibration.summary import (
     LearntDirection,
     calibration_blocks,
@@ -82,8 +83,9 @@ def calibrate_sensor(
     campaign = Campaign.of(runs)
     if kind is None and regularisation is None:
         _require_one_estimator(campaign)
+    campaign, mount = with_estimated_mount(campaign)
     try:
-        return _fitted(
+        calibration = _fitted(
             campaign,
             code_version=code_version,
             created=created,
@@ -92,6 +94,7 @@ def calibrate_sensor(
             kind=kind,
             nonlinear=nonlinear,
         )
+        return calibration if mount is None else calibration.model_copy(update={"mount": mount})
     except FitError as error:
         sentences = dict.fromkeys(sentence for run in campaign.runs if (sentence := possible_touch(run)) is not None)
         if not sentences:

@@ -12,6 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.contact_windows import agreeing_samples
 from forcetorque.calibration.model_error_derivatives import model_columns
+from forcetorque.calibration.mount import mount_doubts
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
@@ -82,6 +83,7 @@ def recording_moments(runs: Runs) -> list[RecordingMoments]:
     variables = [] if without_variables else [v.linear for v in sensor.variables]
     intervals = campaign.samples(Use.CALIBRATION, variables=[variable.name for variable in variables])
     doubts = examine([interval.data_set for interval in intervals], sensor.prior, sensor.full_scale)
+    turned = mount_doubts(campaign, intervals)
     results = []
     for run, recording in zip(campaign.runs, campaign.recordings, strict=True):
         own = [interval for interval in intervals if interval.recording == recording]
@@ -89,7 +91,7 @@ def recording_moments(runs: Runs) -> list[RecordingMoments]:
             continue
         stated_by = CampaignRecording.of(run)
         kept, left_out = agreeing_moments(run, own, variables=variables)
-        said = [*(doubt.message for doubt in doubts), *reference_doubts(run), *left_out]
+        said = [*(doubt.message for doubt in doubts), *turned, *reference_doubts(run), *left_out]
         moments = moments_of(stated_by, kept, variables=variables, doubts=said)
         results.append(moments.model_copy(update={"load_error": _load_error(run)}))
     return results

@@ -31,6 +31,8 @@ def calibration_blocks(calibration: Calibration) -> Iterator[Table | str]:
         f"{f' ({source.unusable})' if source.unusable else ''}; "
         f"{_estimator_text(calibration)}"
     )
+    if calibration.mount is not None:
+        yield calibration.mount.text
     yield _matrix_table(calibration)
     if calibration.variables:
         yield _variable_table(calibration)

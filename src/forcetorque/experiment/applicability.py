@@ -42,6 +42,7 @@ def require_fit(name: str, calibration: Calibration, experiment: Experiment, sen
     with stated_in(name):
         calibration.require_serial(sensor.serial)
     _refuse_other_reading(name, calibration, experiment, sensor)
+    _refuse_other_mount(name, calibration, experiment, sensor)
     _refuse_other_counts(name, calibration, sensor)
     for variable in calibration.variables:
         specified = sensor.variable(variable.name).linear
@@ -162,6 +163,19 @@ def _refuse_other_reading(
             f"calibration {name!r}: expected readings in the frame {tag.frame}, {tag.direction}, as the robot "
             f"{experiment.model.name!r} has them, got {', '.join(fitted)}; fit again with this robot"
         )
+
+
+def _refuse_other_mount(name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor) -> None:
+    """Refuse to compare wrenches of one mount with references of another."""
+    mount, fitted = experiment.mounts.get(sensor.name), calibration.mount
+    one, other = (mount, fitted) if fitted is None else (fitted, mount)
+    if one is None or one.is_like(other):
+        return
+    expected = "no mount" if fitted is None else fitted.table
+    raise ExperimentError(
+        f"calibration {name!r}: expected {expected} in [[sensor]] {sensor.name!r}, with which it was fitted, got "
+        f"{'no mount' if mount is None else mount.table}; state it so, or fit again"
+    )
 
 
 def _refuse_other_counts(name: str, calibration: Calibration, sensor: ExperimentSensor) -> None:

@@ -76,6 +76,19 @@ class PriorTable(Table):
     volts."""
 
 
+class MountTable(Table):
+    """Pose of a sensor in the frame that the robot model states for it."""
+
+    rotation_deg: Annotated[FloatArray, ArrayField((3,))]
+    """Rotation vector that turns the stated axes into those of the sensor; deg."""
+    shift_mm: Annotated[FloatArray, ArrayField((3,))]
+    """Origin of the sensor in the stated frame; mm."""
+
+
+def _mount_kind(value: Any) -> str:
+    return "word" if isinstance(value, str) else "table"
+
+
 class Sensor(Table):
     """A force-torque sensor to calibrate or evaluate."""
 
@@ -115,6 +128,15 @@ class Sensor(Table):
     """Who acts on whom, for a sensor without a tag."""
     frame: SensorFrame | None = None
     """`child` or `parent`, for a sensor without a tag; child if left out."""
+    mount: (
+        Annotated[
+            Annotated[MountTable, Tag("table")] | Annotated[Literal["unknown"], Tag("word")],
+            Discriminator(_mount_kind),
+        ]
+        | None
+    ) = None
+    """Where the sensor sits otherwise than the robot model states: its pose, or `unknown` to estimate it before the
+    fit."""
 
     @model_validator(mode="after")
     def _untagged_is_complete(self) -> Sensor:

@@ -16,6 +16,7 @@ from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.input_files import path_endings, recording_name
 from forcetorque.experiment.section import Section
+from forcetorque.experiment.sensor_mount import SensorMount, with_mount
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.frozen_and_saturated_samples import SampleQuality
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
@@ -118,6 +119,8 @@ class ExperimentSensor:
     """Gains that its amplifiers can be set to; None if they are not known."""
     variables: tuple[SensorVariable, ...] = ()
     """Linear variables that may be fitted with the matrix."""
+    mount_is_unknown: bool = False
+    """Whether its mount is to be estimated."""
 
     def variable(self, name: str) -> SensorVariable:
         """Find a linear variable of the sensor.
@@ -240,6 +243,8 @@ class Experiment:
     """Supports at rest that the file states, used or not."""
     sections: Mapping[str, Any] = field(default_factory=dict)
     """Contents of the sections that capabilities register, by key; `section` gives one."""
+    mounts: Mapping[str, SensorMount] = field(default_factory=dict)
+    """Mounts of sensors that sit otherwise than the robot model states, stated or estimated, by name."""
     qualities: dict[str, SampleQuality] = field(default_factory=dict, init=False)
     """What is wrong with the samples of every sensor that was read, by its name; filled by `sample_quality`."""
 
@@ -295,7 +300,20 @@ class Experiment:
         Raises:
             ExperimentError: If the recording does not determine a load that is to be estimated.
         """
-        return self.model if self.loads is None else self.loads.model_on(support, self)
+        return self.mounted(self.model if self.loads is None else self.loads.model_on(support, self))
+
+    def mounted(self, model: RobotModel) -> RobotModel:
+        """Put the sensors of a robot where they are mounted.
+
+        Args:
+            model: The robot, with loads or without.
+
+        Returns:
+            The robot; the same where the file states no mount and none was estimated.
+        """
+        for name, mount in self.mounts.items():
+            model = with_mount(model, name, mount)
+        return model
 
     def sensor(self, name: str) -> ExperimentSensor:
         """Find a sensor of the experiment.

@@ -21,7 +21,14 @@ from forcetorque.base.toml_file import Table, Text, read_toml, toml_content
 from forcetorque.experiment.calibration.model_error import EXACT
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.contacts import read_contacts
-from forcetorque.experiment.core_tables import CalibrationTable, ProcessingTable, Sensor, fit_options, processing_of
+from forcetorque.experiment.core_tables import (
+    CalibrationTable,
+    MountTable,
+    ProcessingTable,
+    Sensor,
+    fit_options,
+    processing_of,
+)
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor, Role, SensorVariable
 from forcetorque.experiment.file import ExperimentFile, Robot, parse_experiment, section_fields
 from forcetorque.experiment.file import Support as SupportTable
@@ -29,6 +36,7 @@ from forcetorque.experiment.input_files import Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
 from forcetorque.experiment.robot_model import read_robot
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
+from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.experiment.sensors import full_scale_of, read_prior, read_sensors
 from forcetorque.experiment.streams import read_streams
 from forcetorque.recording.column import ScalarSource
@@ -270,6 +278,11 @@ def _load(parsed: ExperimentFile, file: Path) -> Experiment:
         log_sha256=frozenset(hashes[name] for name in logs),
         supports=tuple(support for support in loading.supports.values() if isinstance(support, Support)),
         sections=contents,
+        mounts={
+            sensor.name: SensorMount(rotation_deg=entry.mount.rotation_deg, shift_mm=entry.mount.shift_mm)
+            for sensor, entry in zip(loading.sensors, parsed.sensor, strict=True)
+            if isinstance(entry.mount, MountTable)
+        },
     )
 
 

@@ -121,8 +121,16 @@ def samples_over(
 
     Returns:
         Reading and reference at the same instants.
+
+    Raises:
+        ExperimentError: If the mount of the sensor is unknown, and was not estimated.
     """
     processing, recording = experiment.processing, experiment.recording
+    if sensor.mount_is_unknown and sensor.name not in experiment.mounts:
+        raise ExperimentError(
+            f"sensor {sensor.name!r}: its mount is unknown, so nobody knows what it must read; state "
+            "mount = { rotation_deg = [...], shift_mm = [...] }, which `forcetorque calibrate` estimates and prints"
+        )
     # one interval is asked for after the other: together they may be worth the compiled evaluator
     evaluator = evaluator_of_samples(_samples_with_support(recording, sensor.stream))
     samples = sensor_samples(

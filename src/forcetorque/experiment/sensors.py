@@ -213,6 +213,7 @@ def _sensor(
         reading_deviation=None if entry.reading_deviation is None else np.array(entry.reading_deviation),
         amplifier_gain=entry.amplifier_gain,
         allowed_gains=entry.allowed_gains,
+        mount_is_unknown=entry.mount == "unknown",
         variables=tuple(
             _variable(f"{where}: variable[{k}]", variable, entry, recording)
             for k, variable in enumerate(entry.variable)

@@ -13,7 +13,7 @@ from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
-from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution
+from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution, three
 from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.measurement_model import instants, load_wrench
 from forcetorque.payload.load_on_wrist_sensor import WristLoads, wrist_loads
@@ -21,6 +21,7 @@ from forcetorque.payload.load_warnings import load_doubts, overweight_loads, pay
 from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import JudgedLoadRow, LoadRow, RecordingLoadRow, WeighedLoad, disagreements
 from forcetorque.recording.recording import Use
+from forcetorque.robot.mounting import rotation_vector
 
 
 def hanging_on(run: SensorRun) -> WristLoads | LinkLoads:
@@ -143,6 +144,7 @@ def weigh_load(runs: Runs) -> WeighedLoad:
     campaign = Campaign.of(runs)
     solution, first, links = weighed(campaign), campaign.runs[0], links_of(campaign)
     table = None if (wrist := wrist_loads(first.experiment)) is None else wrist.table
+    with_mount = first.sensor.mount_is_unknown or (table is not None and table.mount is not None)
     alone = [RecordingLoadRow.by(name, load, links.get(load.name)) for name, load in weighed_alone(campaign)]
     result = WeighedLoad(
         experiment=", ".join(campaign.experiments),
@@ -155,7 +157,8 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         variables=solution.variables,
         drift=solution.drift,
         bias_tests=solution.bias_tests,
-        mount_rad=None if table is None or table.mount is None else _vector(solution),
+        mount_rad=_vector(solution) if with_mount else None,
+        mount_half_width_rad=three(solution.mount_half_width) if with_mount else None,
         tilt_rad=None if table is None or table.tilt is None else (float(solution.tilt[0]), float(solution.tilt[1])),
         open=solution.open_directions,
         disagreeing=solution.disagreeing,
@@ -174,9 +177,7 @@ def weigh_load(runs: Runs) -> WeighedLoad:
 
 
 def _vector(solution: LoadSolution) -> tuple[float, float, float]:
-    from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
-
-    x, y, z = Rotation.from_matrix(solution.mount).as_rotvec()
+    x, y, z = rotation_vector(solution.mount)
     return float(x), float(y), float(z)
 
 

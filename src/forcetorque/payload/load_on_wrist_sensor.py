@@ -184,7 +184,7 @@ class WristLoads:
         number = load_number(support, tuple(self.supports.values()))
         if self.are_stated and len(self.loads) == 1:
             return experiment.model
-        if self.table.mount is not None or self.table.tilt is not None:
+        if self.table.mount is not None or self.table.tilt is not None or self.sensor.mount_is_unknown:
             raise ExperimentError(
                 "load: an unknown mount or tilt is for `forcetorque payload`; turn the motion streams by what it says, "
                 "then leave mount and tilt out"

@@ -175,6 +175,24 @@ def inertia_words(load: LoadRow) -> str | None:
     return f"{name}inertia about the centre of mass {numbers} kg m2"
 
 
+def mount_words(mount_rad: Sequence[float], half_width_rad: Three | None) -> str:
+    """Say how a sensor is turned.
+
+    Args:
+        mount_rad: Rotation vector of `sensor_R_motion`; rad.
+        half_width_rad: Half-widths of 95 % intervals about the sensor's axes; rad; None where they are open.
+
+    Returns:
+        The rotation vector that turns the axes of the motion into those of the sensor, with intervals.
+    """
+    halves = half_width_rad or (None, None, None)
+    parts = ", ".join(
+        f"{-np.rad2deg(value):.2f} {'(open)' if half is None else f'±{np.rad2deg(half):.2f}'}"
+        for value, half in zip(mount_rad, halves, strict=True)
+    )
+    return f"mount: the sensor is turned by ({parts}) deg (rotation vector) against the axes of the motion"
+
+
 def drift_words(drift: DriftRow) -> str:
     """Say whether a drift was taken, and why.
 
@@ -291,6 +309,8 @@ class WeighedLoad(Result):
     """Whether one bias would do."""
     mount_rad: tuple[float, float, float] | None
     """Rotation vector from the axes of the motion to those of the sensor; none where it was not asked for."""
+    mount_half_width_rad: Three | None
+    """Half-widths of 95 % intervals of small rotations about the sensor's axes; rad; None where `mount_rad` is."""
     tilt_rad: tuple[float, float] | None
     """Rotation vector of gravity about x and y of the world; none where it was not asked for."""
     open: tuple[str, ...]
@@ -324,6 +344,8 @@ class WeighedLoad(Result):
         yield table_of(self.sessions, "bias: reading without load")
         if self.variables:
             yield table_of(self.variables, "what variables add to the reading, per unit")
+        if self.mount_rad is not None:
+            yield mount_words(self.mount_rad, self.mount_half_width_rad)
         yield drift_words(self.drift)
         yield from (bias_words(test, self.loads) for test in self.bias_tests)
         yield from self.open

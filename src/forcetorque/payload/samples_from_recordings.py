@@ -165,7 +165,7 @@ def load_problem(
         blocks=tuple(interval.label for interval in intervals),
         direction=table.measure_direction,
         drift=table.drift,
-        mount=table.mount is not None,
+        mount=table.mount is not None or sensor.mount_is_unknown,
         tilt=table.tilt is not None,
         variables=variables,
     )
@@ -329,6 +329,7 @@ def link_load_problem(
         blocks=tuple(loaded.interval.label for loaded in intervals),
         direction=experiment.model.sensor(sensor.name).direction,
         drift=experiment.fit_options.drift,
+        mount=sensor.mount_is_unknown,
         variables=tuple(f"{one.linear.name} ({one.linear.unit})" for one in sensor.variables),
     )
     return problem, sum(block.left_out for block in blocks)
@@ -351,7 +352,7 @@ def _expected(
     experiment: Experiment, sensor: ExperimentSensor, loaded: LoadedInterval, at_ns: IntArray
 ) -> tuple[FloatArray, FloatArray]:
     """Derivative of the load's wrench by each parameter, (n, 6, 10), and the expected wrench by the URDF, (n, 6)."""
-    bare = experiment.model
+    bare = experiment.mounted(experiment.model)
     weightless = replace(bare, links=dict.fromkeys(bare.links, Inertia.zero()))
     parameters = [] if loaded.link is None else [_with(weightless, loaded.link, k) for k in range(_PARAMETERS)]
     sign = reading_sign(bare.sensor(sensor.name).direction, child_is_outboard=True)

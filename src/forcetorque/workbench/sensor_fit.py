@@ -12,6 +12,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.calibration.generative.agreement import unmoved_directions
+from forcetorque.calibration.plausibility.compared_wrenches import Doubt
 from forcetorque.calibration.thesis.calibrate import validity_of
 from forcetorque.experiment.calibration.artefact import GENERATIVE, Calibration, Prior, SessionOffset
 from forcetorque.experiment.calibration.excitation import excitation_of
@@ -188,8 +189,9 @@ def fit_sensor(recording: BenchRecording, rng: np.random.Generator, *, with_seri
     fitted, reason = None, ""
     warnings: tuple[str, ...] = ()
     try:
-        warnings = _plausibility_warnings(bench) if len(unmoved) < len(WRENCH_COMPONENTS) else ()
-        fitted = fit_bench(bench)
+        doubts = _plausibility_doubts(bench) if len(unmoved) < len(WRENCH_COMPONENTS) else ()
+        fitted, contradiction = _fitted(bench, doubts)
+        warnings = (*(doubt.message for doubt in doubts), *contradiction)
     except FitError as error:
         reason = str(error)
     held_out = None if fitted is None else one_by_one(fitted)
@@ -244,8 +246,72 @@ def _series_rows(fitted: BenchFit, held_out: FloatArray) -> tuple[SeriesRow, ...
     )
 
 
-def _plausibility_warnings(bench: Bench) -> tuple[str, ...]:
-    """Warnings of the plausibility checks, which raise an error where measurements are implausible."""
+_CONTRADICTED = 2.0
+"""Error of positions that were left out, over that of least squares without the prior, beyond which that is wrong."""
+
+
+def _fitted(bench: Bench, doubts: Sequence[Doubt]) -> tuple[BenchFit, tuple[str, ...]]:
+    """Fit with the prior, and without it where it does not predict positions that were left out.
+
+    Args:
+        bench: Positions whose load and raw sample are known.
+        doubts: Doubts of the plausibility checks.
+
+    Returns:
+        The fit, and a warning where the prior was left out.
+
+    Raises:
+        FitError: If components of the prior have gains that differ, and the loads do not determine a matrix without it.
+    """
+    fitted = fit_bench(bench)
+    if bench.prior is None:
+        return fitted, ()
+    alone = least_squares_errors(bench)
+    if alone is None:
+        for doubt in doubts:
+            if doubt.kind == "axis":
+                raise FitError(f"{doubt.message}; these loads alone do not determine a matrix")
+        return fitted, ()
+    errors = one_by_one(fitted)
+    worst = int((errors / alone).argmax())
+    if not errors[worst] > _CONTRADICTED * alone[worst]:
+        return fitted, ()
+    unit = "N" if worst < 3 else "N m"
+    warning = (
+        f"the prior matrix contradicts the loads: with it {WRENCH_COMPONENTS[worst]} of a position that is left out is "
+        f"off by {errors[worst]:.2g} {unit}, without it by {alone[worst]:.2g} {unit}; it is not used: check prior of "
+        "[sensor]"
+    )
+    return fit_bench(replace(bench, prior=None)), (warning,)
+
+
+def least_squares_errors(bench: Bench) -> FloatArray | None:
+    """Compute the error of every position with a regression of raw samples on the loads of all others.
+
+    Args:
+        bench: Positions whose load and raw sample are known.
+
+    Returns:
+        Root mean square errors; shape (6,); N, N m; None where the loads of all others do not determine a matrix.
+    """
+    wrench = bench.loads.wrench
+    scale = np.linalg.norm(wrench, axis=0)
+    design = np.hstack([wrench / np.where(scale > 0.0, scale, 1.0), np.ones((len(wrench), 1))])
+    left, sizes, right = np.linalg.svd(design, full_matrices=False)
+    leverage = (left**2).sum(axis=1)
+    if len(sizes) < design.shape[1] or sizes[-1] < _DETERMINED * sizes[0] or leverage.max() > 1.0 - _DETERMINED:
+        return None
+    solution = right.T @ ((left.T @ bench.raw) / sizes[:, None])
+    matrix = np.linalg.pinv(solution[:6].T / scale)
+    return rms((bench.raw - design @ solution) / (1.0 - leverage)[:, None] @ matrix.T)
+
+
+_DETERMINED = 1e-6
+"""Least share of the strongest direction of loads, and least part of a position that the others predict."""
+
+
+def _plausibility_doubts(bench: Bench) -> tuple[Doubt, ...]:
+    """Doubts of the plausibility checks, which raise an error where measurements are implausible."""
     from forcetorque.calibration.plausibility.checks import examine
     from forcetorque.calibration.plausibility.compared_wrenches import WORKBENCH
 
@@ -254,7 +320,7 @@ def _plausibility_warnings(bench: Bench) -> tuple[str, ...]:
         raw=np.repeat(bench.raw, _SAMPLES, axis=0),
         reference=np.repeat(bench.loads.wrench, _SAMPLES, axis=0),
     )
-    return tuple(doubt.message for doubt in examine([blocks], bench.prior, setup=WORKBENCH))
+    return examine([blocks], bench.prior, setup=WORKBENCH)
 
 
 def _require_force_first(bench: Bench, file: str) -> None:

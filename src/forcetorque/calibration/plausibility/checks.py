@@ -11,6 +11,7 @@ from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
 from forcetorque.calibration.plausibility.reversed_sense_and_gain import (
+    axis_doubts,
     require_moment_unit,
     require_moving_load,
     require_same_sign,
@@ -74,7 +75,7 @@ def examine(
     if prior is not None:
         require_same_sign(movement, prior, setup)
         require_moment_unit(movement, setup)
-        doubts += scale_doubts(movement, prior, setup)
+        doubts += [*scale_doubts(movement, prior, setup), *axis_doubts(movement, prior, setup)]
     return (*doubts, *delay_doubts(usable, prior))
 
 

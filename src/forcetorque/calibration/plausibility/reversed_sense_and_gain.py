@@ -136,6 +136,39 @@ def scale_doubts(movement: Movement, prior: FloatArray, setup: Setup = ROBOT) ->
         )
 
 
+_TOLD = 0.1
+"""Standard deviation of a gain up to which it is compared with others; loads of an axis give .04 to .08 at best."""
+
+
+def axis_doubts(movement: Movement, prior: FloatArray, setup: Setup) -> Iterator[Doubt]:
+    """Compare the gains of the components with each other: the gain of a type of sensor is shared by all of them.
+
+    Args:
+        movement: How the prior's reading and the reference move.
+        prior: The prior; shape (6, c); N/count, N m/count.
+        setup: Where the data come from.
+
+    Yields:
+        A doubt that names the components whose gain no sensor of the type has.
+    """
+    if setup.doubtful_axis is None:
+        return
+    gains = gains_of(movement, prior)
+    told = gains.deviations < _TOLD
+    if not told.any():
+        return
+    median = float(np.median(gains.components[told]))
+    ratio = gains.components / median
+    off = told & ((ratio > setup.doubtful_axis) | (ratio < 1.0 / setup.doubtful_axis))
+    if off.any():
+        named = ", ".join(f"{WRENCH_COMPONENTS[k]} moves {gains.components[k]:.2f}" for k in np.flatnonzero(off))
+        yield Doubt(
+            kind="axis",
+            message=f"the prior's reading of {named} times the reference, while the median of all components is "
+            f"{median:.2f}; {setup.check_gain}",
+        )
+
+
 def _cause(movement: Movement, gain: float, setup: Setup) -> str:
     second = np.diag(movement.second)
     size = float(np.linalg.norm(movement.size[:3]))

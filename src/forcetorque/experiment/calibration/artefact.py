@@ -26,6 +26,7 @@ from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.provenance import Lambda, Provenance, Selection, SensorIdentity, Validity
 from forcetorque.experiment.calibration.quadratic_correction import NonlinearTrial, QuadraticCorrection
 from forcetorque.experiment.calibration.sensor_model import WrenchModel, secondary_matrix
+from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.results.table import Table
 from forcetorque.results.table_rendering import html_table, html_warnings
 
@@ -148,6 +149,8 @@ class Calibration(StoredTable):
     """What makes the data doubtful that were fitted."""
     model_errors: tuple[ModelError, ...] = ()
     """What the fit found of the robot model, which it took as uncertain; none where it was taken as exact."""
+    mount: SensorMount | None = None
+    """Pose of the sensor against the robot model, stated or estimated before the fit; None for that of the model."""
     provenance: Provenance
     """What the fit was made from."""
 

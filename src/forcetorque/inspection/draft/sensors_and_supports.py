@@ -148,7 +148,8 @@ def _place_lines(sensor: DraftedSensor) -> list[str]:
     directions = {fit.direction for fit in sensor.evidence.values()} - {None}
     if len(directions) == 1:
         words += f"; the accelerations in the log say {directions.pop()}"
-    return [joint, question("measure_direction", words)]
+    mount = '# mount = "unknown"  # if it may be turned against that link: calibrate then estimates the mount first'
+    return [joint, question("measure_direction", words), mount]
 
 
 def _left(fit: GravityFit) -> str:

@@ -15,18 +15,19 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, MeasureDirection
+from forcetorque.payload.identification.axis_and_mount_errors import axis_errors
 from forcetorque.payload.identification.bias_drift_and_jumps import strongest_jump
 from forcetorque.payload.identification.estimation_problem import LoadProblem, LoadRows
 from forcetorque.payload.identification.load_estimates import HypothesisRow
 from forcetorque.payload.identification.measurement_model import (
     first_mount,
     masses,
-    quarter_turns,
     turn_words,
     turned_by,
 )
 from forcetorque.payload.identification.parameter_vector import Kind
 from forcetorque.payload.identification.robust_fit import Fit, plain_fit, scales
+from forcetorque.robot.mounting import quarter_turns
 
 _BETTER = 0.5
 """A hypothesis is named if it leaves less than this part of what the problem as stated leaves."""
@@ -82,6 +83,7 @@ def hypotheses(fitted: Fit, *, drift: bool) -> tuple[HypothesisRow, ...]:
             if share < limit:
                 named.append(HypothesisRow(name=name, words=words, residual_share=share, severity="contradiction"))
     named += scales(problem, guess, other_sizes=not named)
+    named += axis_errors(fitted, permuted=stated > _EXPLAINED, drift=drift) if not named else ()
     named += _lag(problem, residual, drift=drift)
     named += _of_nothing(fitted) if not named else ()
     named += _jump(fitted, residual, drift=drift)

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import permutations, product
 
 import numpy as np
 
@@ -19,9 +18,9 @@ from forcetorque.payload.identification.parameter_vector import (
     Kind,
     inertia_of,
     places,
-    rotation_by,
     six_of,
 )
+from forcetorque.robot.mounting import nearest_rotation, rotation_by
 
 _SMALL = 1e-5
 """rad: step of the differences that give derivatives by rotations; what is left is of the order of its square."""
@@ -259,21 +258,6 @@ def instants(rows: LoadRows) -> FloatArray:
     return np.arange(float(len(rows))) if rows.time_s is None else rows.time_s
 
 
-def quarter_turns() -> list[FloatArray]:
-    """List the 24 rotations that bring axes to axes.
-
-    Returns:
-        Rotations, none first; shape (3, 3) each.
-    """
-    turns = []
-    for order in permutations(range(3)):
-        for signs in product((1.0, -1.0), repeat=3):
-            turn = np.eye(3)[list(order)] * np.array(signs)[:, None]
-            if np.linalg.det(turn) > 0.0:
-                turns.append(turn)
-    return sorted(turns, key=lambda turn: -float(np.trace(turn)))
-
-
 def turn_words(turn: FloatArray) -> str:
     """Name a rotation that brings axes to axes.
 
@@ -303,9 +287,7 @@ def first_mount(problem: LoadProblem) -> FloatArray:
     """
     sign = reading_sign(problem.direction, child_is_outboard=True)
     moment = force_response(problem)
-    left, _, right = np.linalg.svd(sign * moment)
-    flip = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(left @ right))) or 1.0])
-    return left @ flip @ right
+    return nearest_rotation(sign * moment)
 
 
 def force_response(problem: LoadProblem) -> FloatArray:

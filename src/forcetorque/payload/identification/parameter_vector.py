@@ -11,9 +11,9 @@ from functools import cached_property
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.pose import skew
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
+from forcetorque.robot.mounting import rotation_by
 
 AXES = ("x", "y", "z")
 SECOND_MOMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
@@ -214,19 +214,3 @@ class Guess:
         kept = values.copy()
         kept[places(self.parameters, Kind.MOUNT)] = 0.0
         return replace(self, values=kept, mount=mount)
-
-
-def rotation_by(vector: FloatArray) -> FloatArray:
-    """Rotate by a rotation vector (Rodrigues).
-
-    Args:
-        vector: Axis times angle; shape (3,); rad.
-
-    Returns:
-        The rotation; shape (3, 3).
-    """
-    angle = float(np.linalg.norm(vector))
-    hat = skew(vector)
-    if angle < 1e-12:
-        return np.eye(3) + hat
-    return np.eye(3) + np.sin(angle) / angle * hat + (1.0 - np.cos(angle)) / angle**2 * hat @ hat

@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.slow_noise import SHAPES
-from forcetorque.base.units import SI_FACTORS
+from forcetorque.base.units import MAD_TO_DEVIATION, SI_FACTORS
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.payload.identification.estimation_problem import LoadProblem
 from forcetorque.payload.identification.load_estimates import HypothesisRow
@@ -34,6 +34,9 @@ _MEDIAN = 5.348
 _LEAST_LEFT = 1e-6
 """Rows of which the fit leaves less than this part to be told by the others say nothing of themselves."""
 _LEAST_WEIGHT = 1e-4
+_AXES = 6
+_LEAST_NOISE = 0.1
+"""Noise of an axis, over that of the noisiest of its three, that medians of few rows are not trusted below."""
 _EXACT = 1e-12
 """Distances below this are of rows without noise, which leave rounding only."""
 
@@ -320,7 +323,7 @@ def fit(problem: LoadProblem, *, drift: bool) -> Fit:
     Returns:
         The fit.
     """
-    weight = np.ones(len(problem.rows))
+    weight = _first_weights(problem, drift=drift)
     for _ in range(_ROUNDS):
         fitted = _weighed_fit(problem, drift=drift, weight=weight)
         if (np.abs(fitted.residual) <= _ROUNDING * noise_sizes(problem.rows.wrench)).all():
@@ -330,6 +333,36 @@ def fit(problem: LoadProblem, *, drift: bool) -> Fit:
             break
         weight = lighter
     return fitted
+
+
+_GROSS = 8.0
+"""Deviations of the middle rows by which a row is off in one axis before the noise of that axis is estimated."""
+_FIRST_ROUNDS = 6
+"""Rounds in which rows that are grossly off come to light, one behind the other."""
+
+
+def _first_weights(problem: LoadProblem, *, drift: bool) -> FloatArray:
+    """What every row counts at first, less where it is grossly off in one axis; shape (n,)."""
+    # such a row makes the noise of its axis as large as itself, which medians do not; `fit` weighs all rows anew
+    rows = problem.rows
+    weight = np.ones(len(rows))
+    for _ in range(_FIRST_ROUNDS):
+        guess, residual = plain_fit(problem, drift=drift, weight=weight)
+        spare = len(rows) - len(guess.parameters) / _AXES
+        if spare < 1.0:
+            break
+        size = np.abs(residual) * np.sqrt(rows.share)[:, None]
+        middle = MAD_TO_DEVIATION * np.median(size, axis=0) * np.sqrt(len(rows) / spare)
+        # an axis that most rows fit exactly is no measure of the others
+        floor = np.maximum(
+            _LEAST_NOISE * np.repeat(middle.reshape(2, 3).max(axis=1), 3), _ROUNDING * noise_sizes(rows.wrench)
+        )
+        distance = (size / np.maximum(middle, floor)).max(axis=1)
+        lighter = np.clip((_GROSS / np.maximum(distance, _GROSS)) ** 4, _LEAST_WEIGHT, 1.0)
+        if np.allclose(lighter, weight, rtol=0.1, atol=1e-3):
+            break
+        weight = lighter
+    return weight
 
 
 def _weighed_fit(problem: LoadProblem, *, drift: bool, weight: FloatArray) -> Fit:
