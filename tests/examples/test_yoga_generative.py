@@ -80,7 +80,7 @@ def test_the_moving_leg_is_read_twice_as_well_where_it_was_not_fitted(data_dir: 
 
 
 @cache
-def _foot(data_dir: Path, tmp_path: Path) -> tuple[DataSet, FloatArray, FloatArray]:
+def foot(data_dir: Path, tmp_path: Path) -> tuple[DataSet, FloatArray, FloatArray]:
     """The right foot: samples while it is free, mean reading while the robot stands on it, and its prior."""
     text = (EXAMPLES / "08_icub_yoga_contacts.toml").read_text(encoding="utf-8")
     head = text[: text.index("[[support]]")]
@@ -105,7 +105,7 @@ def _stance(foot: str, end_s: float) -> str:
 
 def _stood_upon(accuracy: float, data_dir: Path, tmp_path: Path) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Force errors when the robot stands on it: with the fit, predicted for that, with the prior; shape (3,); N."""
-    free, standing, prior = _foot(data_dir, tmp_path)
+    free, standing, prior = foot(data_dir, tmp_path)
     fit = fit_generative([WindowMeans.of(free)], prior, _assumed(prior, accuracy))
     added = standing - free.raw.mean(axis=0)
     change, by_prior = fit.model.matrix @ added, prior @ added
