@@ -139,7 +139,7 @@ def test_an_output_that_is_an_input_is_refused(arm: Path, run: Run, command: str
     words = _asked(command, option, name)
     forced = command in FORCED
     # a calibration is a result, which needs no force; the sensors name the files of `calibrate`, so it reads first
-    read_first = (command, option) in {("export", "--output"), ("calibrate", "--output")}
+    read_first = (command, option) in {("export", "--output"), ("calibrate", "--output"), ("calibrate", "--write-urdf")}
     assert (IS_INPUT if read_first else IS_FOREIGN) in run(*words).error()
     if forced:
         assert IS_INPUT in run(*words, "--force").error()

@@ -119,11 +119,11 @@ def calibrate(
     contents = read_experiments([path for path in experiments if path.suffix != ".json"], log)
     names = _sensors(contents, stored, sensor)
     files = _files(output, names)
-    if write_urdf is not None:
-        _require_one_fit(write_urdf, names, contents)
     declare_outputs(
         *filter(Path.exists, [*files, *_given(write_urdf)]), force=force
     )  # folders of the others are made when they are written
+    if write_urdf is not None:
+        _require_one_fit(write_urdf, names, contents)
     fit = partial(
         calibrate_for_file,
         code_version=version("forcetorque"),
