@@ -32,7 +32,7 @@ def test_a_name_is_imported_without_the_others() -> None:
     code = f"from forcetorque.payload import weigh_load; {listed}; from forcetorque.device import *; "
     one, more = (set(line.split()) for line in _run(f"{code}from forcetorque.skin import *; {listed}").splitlines())
     assert "forcetorque.payload.identify" in one
-    others = {"forcetorque.device.design", "forcetorque.skin.wrench.wrench"}
+    others = {"forcetorque.device.design", "forcetorque.skin.taxels.calibrate"}
     assert not others & one
     assert others < more
 

@@ -27,7 +27,7 @@ smoothing = { window_s = 0.5, order = 2 }
 [calibration]
 lambda_counts2 = 1000
 """
-NOT_NEEDED = {"prior", "end_s", "support", "derivatives", "smoothing", "lambda_counts2"}
+NOT_NEEDED = {"tolerance", "prior", "end_s", "support", "derivatives", "smoothing", "lambda_counts2"}
 """Keys of the complete texts that have a default, or may be absent."""
 DOCUMENT = Path(__file__).parents[2] / "docs" / "recording.md"
 
@@ -242,7 +242,7 @@ TABLES = {
     'kind = "state_ext"': (r"recording.stream\[1\]", "joints, kind, name, port"),
     "[[sensor]]": (
         r"sensor\[0\]",
-        "allowed_gains, amplifier_gain, frame, full_scale, joint, limit_counts, measure_direction, name, prior, "
+        "allowed_gains, amplifier_gain, frame, full_scale, joint, limit_counts, measure_direction, mount, name, prior, "
         "reading_deviation, reading_noise, serial, stream, variable",
     ),
     "[[support]]": (r"support\[0\]", "frame, gravity_direction, imu"),

@@ -80,8 +80,8 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert fitted.code == 0, fitted.err
     judged = run(*evaluate).out
     for words in (
-        "force error 0.08 N against 2.65 N with the prior",
-        "it errs by some 0.53 N",
+        "force error 0.14 N against 2.65 N with the prior",
+        "it errs by some 0.7 N",
         "the prior by some 2.4 N",
     ):
         assert _said(words).search(judged), words
