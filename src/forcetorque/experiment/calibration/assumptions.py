@@ -47,8 +47,8 @@ GAIN: Final = Scale(expected=0.02, weight=4.0)
 """Gain of every channel, relative."""
 ROTATION: Final = Scale(expected=float(np.radians(0.7)), weight=1.0)
 """Rotation of the sensor about each of its axes; rad."""
-SHIFT: Final = Scale(expected=0.002, weight=1.0)
-"""Shift of its origin along each of them; m."""
+SHIFT: Final = Scale(expected=0.002, weight=6.0)
+"""Shift of its origin along each of them; m. Centres of mass that are off look like one, so it is held."""
 MODEL: Final = Scale(expected=1.0, weight=4.0, least=1.0)
 """Errors of the robot model of one kind, over their tolerance: evidence may find them larger, never smaller."""
 QUADRATIC: Final = Scale(expected=0.05, weight=6.0)
