@@ -80,7 +80,7 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert fitted.code == 0, fitted.err
     judged = run(*evaluate).out
     for words in (
-        "force error 0.14 N against 2.65 N with the prior",
+        "force error 0.13 N against 2.65 N with the prior",
         "it errs by some 0.7 N",
         "the prior by some 2.4 N",
     ):
