@@ -36,6 +36,8 @@ def calibration_blocks(calibration: Calibration) -> Iterator[Table | str]:
     yield _matrix_table(calibration)
     if calibration.variables:
         yield _variable_table(calibration)
+    if calibration.linearity is not None:
+        yield calibration.linearity.message
     if calibration.nonlinear is not None:
         yield from calibration.nonlinear.successes()
     if len(calibration.sessions) > 1:

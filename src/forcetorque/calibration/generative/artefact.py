@@ -27,8 +27,9 @@ from forcetorque.experiment.calibration.artefact import (
     Prior,
     SessionOffset,
 )
-from forcetorque.experiment.calibration.assumptions import FLATTENED, Assumptions
+from forcetorque.experiment.calibration.assumptions import FLATTENED, LOADS, Assumptions
 from forcetorque.experiment.calibration.excitation import excitation_of
+from forcetorque.experiment.calibration.linearity import LinearityTest
 from forcetorque.experiment.calibration.moments import WindowMeans, pooled
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.provenance import Provenance, Selection
@@ -81,6 +82,56 @@ def corrected_fit(fit: GenerativeFit, stretches: Sequence[WindowMeans], halves: 
     error = correction.corrected(reading) - loads
     residual = np.sqrt(np.average(error**2, axis=0, weights=weight))
     return replace(fit, model=model, offsets=offsets, residual=residual)
+
+
+def linear_if_evident(
+    fit: GenerativeFit,
+    stretches: Sequence[WindowMeans],
+    prior: FloatArray | None,
+    assumptions: Assumptions,
+    *,
+    variables: Sequence[LinearVariable] = (),
+    drift: bool = False,
+) -> tuple[GenerativeFit, LinearityTest | None]:
+    """Fit without quadratic terms where the data clearly show none, for a sensor without a prior or with more channels.
+
+    Nothing keeps such a matrix from following the 21 quadratic terms: where there are none, least squares reads better.
+    Errors on held-out parts of the recordings do not decide: noise hides the difference, and what passes for gain
+    reads other parts of the same recordings well.
+
+    Args:
+        fit: The default fit.
+        stretches: As of `fit_generative`.
+        prior: As of `fit_generative`.
+        assumptions: As of `fit_generative`.
+        variables: As of `fit_generative`.
+        drift: As of `fit_generative`.
+
+    Returns:
+        The fit that is kept, and the evidence; None where one of these fits is refused. A linear fit has the noise that
+        the data show, and a floor only where an accuracy is stated.
+    """
+    try:
+        with_terms, without = (
+            fit_generative(
+                stretches,
+                prior,
+                assumptions,
+                variables=variables,
+                drift=drift,
+                quadratic=quadratic,
+                noise_floor=assumptions.states_accuracy,
+            )
+            for quadratic in (True, False)
+        )
+    except FitError:
+        return fit, None
+    test = LinearityTest(
+        channels=fit.model.matrix.shape[1],
+        quadratic_deviance=with_terms.deviance,
+        linear_deviance=without.deviance,
+    )
+    return (without if test.is_linear else fit), test
 
 
 def try_correction(
@@ -194,7 +245,7 @@ def generative_calibration(
     first = recordings[0]
     intervals = [interval for recording in recordings for interval in recording.intervals]
     stretches, variables = [interval.means for interval in intervals], [v.linear for v in first.variables]
-    fit, trial = _fit(recordings, stretches, variables)
+    fit, trial, linearity = _fit(recordings, stretches, variables)
     moments = pooled(interval.moments for interval in intervals)
     sessions = _sessions(fit, intervals, first.prior)
     errors = fit.posterior.coefficient_error(fit.model.coefficients)
@@ -206,6 +257,7 @@ def generative_calibration(
         variables=tuple(_variable(fit, recordings, k, variable, errors[:, k]) for k, variable in enumerate(variables)),
         quadratic=fit.model.quadratic,
         nonlinear=trial,
+        linearity=linearity,
         estimation_type=GENERATIVE,
         posterior=fit.posterior,
         matrix_standard_error=fit.posterior.matrix_error(fit.model.matrix),
@@ -232,18 +284,22 @@ def generative_calibration(
 
 def _fit(
     recordings: Sequence[RecordingMoments], stretches: Sequence[WindowMeans], variables: Sequence[LinearVariable]
-) -> tuple[GenerativeFit, NonlinearTrial | None]:
-    """The fit, widened by what known loads may err, and whether quadratic terms won; None where nobody asked."""
+) -> tuple[GenerativeFit, NonlinearTrial | None, LinearityTest | None]:
+    """The fit, widened by what known loads may err; whether quadratic terms won; and whether the sensor is linear."""
     first = recordings[0]
     fit = fit_generative(stretches, first.prior, first.assumptions, variables=variables, drift=first.drift)
-    trial = None
+    trial = linearity = None
+    if not first.nonlinear and (first.prior is None or fit.model.matrix.shape[1] != LOADS):
+        fit, linearity = linear_if_evident(
+            fit, stretches, first.prior, first.assumptions, variables=variables, drift=first.drift
+        )
     if first.nonlinear:
         trial = try_correction(stretches, first.prior, first.assumptions, variables=variables, drift=first.drift)
         fit = corrected_fit(fit, stretches, trial.kept) if trial.kept else fit
     load_error = LoadError.largest(recording.load_error for recording in recordings)
     if load_error is not None and first.prior is not None:
         fit = replace(fit, posterior=load_error.widened(fit.posterior, first.prior))
-    return fit, trial
+    return fit, trial, linearity
 
 
 def _prior(recording: RecordingMoments, last: SessionOffset) -> Prior | None:

@@ -339,6 +339,8 @@ class GenerativeFit:
     """Shares of full scale that loads make, of which the quadratic terms are, about their mean; shape (6, 6)."""
     means: int
     """Number of means that were fitted."""
+    deviance: float
+    """Minus twice the logarithm of the evidence, less a constant that depends on the data alone."""
     model_errors: tuple[ModelError, ...] = ()
     """What was found of the robot model."""
 
@@ -352,6 +354,7 @@ def fit_generative(
     drift: bool = False,
     quadratic: bool = True,
     shapes: Sequence[SlowNoise] = CANDIDATES,
+    noise_floor: bool = True,
 ) -> GenerativeFit:
     """Fit a sensor: readings are regressed on loads, and where no load speaks the prior stays.
 
@@ -363,6 +366,8 @@ def fit_generative(
         drift: Whether the offset of a session may move evenly in time.
         quadratic: Whether there are quadratic terms; without them what is quadratic passes for gain.
         shapes: Shapes of the noise to choose from; white noise alone where nothing goes on from mean to mean.
+        noise_floor: Whether the noise has at least the slow error of the expected wrench that is assumed; otherwise it
+            is what the data show.
 
     Returns:
         The fit.
@@ -408,12 +413,12 @@ def fit_generative(
         _basis(rows, matrix, k, layout, variables=_variable_sizes(variables, values, rows, k))
         for k in range(len(rows.unit))
     ]
-    unknowns = infer(
+    unknowns, deviance = infer(
         whiten(design, shapes),
         basis,
         layout.sizes(rows.group, terms, with_prior=prior is not None),
         sensor=np.arange(LOADS),
-        accuracy=rows.accuracy,
+        accuracy=rows.accuracy if noise_floor else np.zeros_like(rows.accuracy),
         freedom=max(len(raw) - design.free.shape[1], 1),
     )
     solved = SolvedRows(
@@ -428,7 +433,7 @@ def fit_generative(
         with_prior=prior is not None,
         assumptions=assumptions,
     )
-    return _fit(solved, raw, wrench, values - centre, variables=variables, centre=centre)
+    return _fit(solved, raw, wrench, values - centre, variables=variables, centre=centre, deviance=deviance)
 
 
 def _fit(
@@ -439,6 +444,7 @@ def _fit(
     *,
     variables: Sequence[LinearVariable],
     centre: FloatArray,
+    deviance: float,
 ) -> GenerativeFit:
     """Read the means by what the rows come to; `moved` are the values of the variables about their centre."""
     matrix, posterior = solved.solution(variables, wrench)
@@ -463,6 +469,7 @@ def _fit(
         quadratic=solved.quadratic(),
         load_to_full_scale=solved.rows.load_to_full_scale,
         means=len(raw),
+        deviance=deviance,
         model_errors=solved.model_errors(),
     )
 

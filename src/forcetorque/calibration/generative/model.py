@@ -358,7 +358,7 @@ def infer(
     sensor: IntArray,
     accuracy: FloatArray,
     freedom: int,
-) -> list[Unknowns]:
+) -> tuple[list[Unknowns], float]:
     """Find sizes, noise and unknowns.
 
     Args:
@@ -370,18 +370,19 @@ def infer(
         freedom: Number of means less that of free unknowns.
 
     Returns:
-        The unknowns of every row.
+        The unknowns of every row, and the deviance: minus twice the logarithm of the evidence, less a constant.
     """
     rows = [_Row(own, basis, float(accuracy[k])) for k, (own, basis) in enumerate(zip(data, bases, strict=True))]
     for row in rows:
         row.take_all_as_noise(freedom)
     first = _ascend(rows, sizes, sizes.expected, freedom)
     if freedom <= LOADS or not _have_rank(data[0][0].columns[:LOADS, :LOADS]):
-        return first.unknowns
+        return first.unknowns, first.deviance
     solutions = np.concatenate([row.take_least_squares(freedom, sensor) for row in rows])
     start = sizes.estimated(solutions**2, np.ones_like(solutions), sizes.places[:, sensor].ravel())
     second = _ascend(rows, sizes, start, freedom)
-    return (second if second.deviance < first.deviance - _HIGHER else first).unknowns
+    best = second if second.deviance < first.deviance - _HIGHER else first
+    return best.unknowns, best.deviance
 
 
 def _have_rank(products: FloatArray) -> bool:

@@ -21,6 +21,7 @@ from forcetorque.base.errors import FormatError, RecordingError, SerialNumberErr
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.stored_model import StoredTable, read_json, validated_table
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.experiment.calibration.linearity import LinearityTest
 from forcetorque.experiment.calibration.model_error import ModelError
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.provenance import Lambda, Provenance, Selection, SensorIdentity, Validity
@@ -121,6 +122,8 @@ class Calibration(StoredTable):
     """Quadratic terms that correct readings; None for a linear calibration."""
     nonlinear: NonlinearTrial | None = None
     """Whether such a correction won on recordings that were not fitted; None where it was not asked for."""
+    linearity: LinearityTest | None = None
+    """Whether the data show quadratic terms; None with a prior and six channels, or where a correction is asked for."""
     estimation_type: str = "OnTdTO"
     """`generative`, `joint`, or a type of thesis 5.1.4; `by axis` where every row has its own, see `selection`."""
     joint: str | None = None
