@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -11,6 +12,7 @@ from pydantic import ConfigDict, ValidationError
 
 from forcetorque.base.arrays import ArrayModel
 from forcetorque.base.errors import FormatError, MissingFileError, ShapeError
+from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.run_files import declare_input
 
 
@@ -18,6 +20,31 @@ class StoredTable(ArrayModel):
     """A frozen table of a file; unknown keys are errors."""
 
     model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True)
+
+
+def write_stored_table(
+    path: Path | str,
+    table: StoredTable,
+    *,
+    inputs_sha256: Collection[str] = (),
+    force: bool = False,
+    indent: int | None = None,
+) -> None:
+    """Write a table as JSON; on any error the file keeps what it held before.
+
+    Args:
+        path: File to write or to replace, in an existing folder.
+        table: The table.
+        inputs_sha256: Hashes of its inputs, none of which the file may be.
+        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+        indent: Spaces by which every level is indented; None for one line.
+
+    Raises:
+        OutputError: If the file is an input of it, or a file that `force` is needed for.
+    """
+    refuse_output(path, inputs_sha256=inputs_sha256, force=force)
+    text = json.dumps(table.model_dump(mode="json", by_alias=True), indent=indent, allow_nan=False)
+    write_bytes_atomically(Path(path), (text + "\n").encode())
 
 
 _Kind = TypeVar("_Kind", bound=StoredTable)

@@ -3,16 +3,14 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Final, Literal
 
 import numpy as np
 from pydantic import ConfigDict, Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.output_file import refuse_output, write_bytes_atomically
-from forcetorque.base.stored_model import StoredTable, read_stored_table
+from forcetorque.base.stored_model import StoredTable, read_stored_table, write_stored_table
 from forcetorque.experiment.calibration.artefact import JOINT_SCHEMA
 from forcetorque.experiment.calibration.model_error import ModelError
 
@@ -97,9 +95,7 @@ class JointPosterior(StoredTable):
         Raises:
             OutputError: If the file is an input of it, or a file that `force` is needed for.
         """
-        refuse_output(path, force=force)
-        content: dict[str, Any] = self.model_dump(mode="json", by_alias=True)
-        write_bytes_atomically(Path(path), (json.dumps(content, allow_nan=False) + "\n").encode())
+        write_stored_table(path, self, force=force)
 
 
 def read_joint_posterior(path: Path | str) -> JointPosterior:

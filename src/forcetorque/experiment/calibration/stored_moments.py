@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
@@ -13,8 +12,7 @@ from pydantic import ConfigDict, Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray, IntArray
 from forcetorque.base.errors import FitError
-from forcetorque.base.output_file import refuse_output, write_bytes_atomically
-from forcetorque.base.stored_model import StoredTable, read_stored_table
+from forcetorque.base.stored_model import StoredTable, read_stored_table, write_stored_table
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.model_error import ErrorTerm
 from forcetorque.experiment.calibration.moments import DataSet, Moments, WindowMeans
@@ -288,9 +286,7 @@ class RecordingMoments(StoredTable):
         Raises:
             OutputError: If the file is an input of it, or a file that `force` is needed for.
         """
-        refuse_output(path, inputs_sha256=self.inputs_sha256.values(), force=force)
-        text = json.dumps(self.model_dump(mode="json", by_alias=True), allow_nan=False)
-        write_bytes_atomically(Path(path), (text + "\n").encode())
+        write_stored_table(path, self, inputs_sha256=self.inputs_sha256.values(), force=force)
 
 
 def read_moments(path: Path | str) -> RecordingMoments:

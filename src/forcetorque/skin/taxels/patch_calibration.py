@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import io
-import json
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
@@ -24,8 +23,8 @@ from forcetorque.base.arrays import (
     require_last_axis,
 )
 from forcetorque.base.errors import FormatError, ShapeError, SkinError
-from forcetorque.base.output_file import refuse_output, write_bytes_atomically
-from forcetorque.base.stored_model import StoredTable, read_json, validated_table
+from forcetorque.base.output_file import write_bytes_atomically
+from forcetorque.base.stored_model import StoredTable, read_json, validated_table, write_stored_table
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
 from forcetorque.skin.taxels.faults import require_counts
 from forcetorque.skin.temperature.taxel_temperature_drift import WarmUp
@@ -319,9 +318,7 @@ class PatchCalibration(StoredTable):
         Raises:
             OutputError: If the file is an input of it, or a file that `force` is needed for.
         """
-        refuse_output(path, inputs_sha256=self.provenance.inputs_sha256.values(), force=force)
-        text = json.dumps(self.model_dump(mode="json", by_alias=True), indent=2, allow_nan=False)
-        write_bytes_atomically(Path(path), (text + "\n").encode())
+        write_stored_table(path, self, inputs_sha256=self.provenance.inputs_sha256.values(), force=force, indent=2)
 
 
 def read_patch_calibration(path: Path | str) -> PatchCalibration:
