@@ -101,3 +101,15 @@ def test_a_urdf_needs_one_fit(arm: Path, run: Run) -> None:
     run("calibrate", PARQUET, "-o", "exact.json")
     with pytest.raises(FormatError, match="expected errors of a robot model, got none"):
         read_model_errors("exact.json")
+
+
+def test_the_urdf_does_not_replace_the_calibration(arm: Path, run: Run) -> None:
+    """One name for both is refused, and the calibration stays; so is the URDF of the experiment."""
+    file = _experiment(arm, 'urdf = "arm.urdf"\n').file
+    before = (arm / "arm.urdf").read_bytes()
+    for words in (("-o", "found.json", "--write-urdf", "found.json"), ("-o", "other.json", "--write-urdf", "arm.urdf")):
+        outcome = run("calibrate", str(file), *words, "--force")
+        assert outcome.code == 2
+        assert "expected a file to write that is not read" in outcome.err
+    assert read_model_errors("found.json")
+    assert (arm / "arm.urdf").read_bytes() == before

@@ -119,9 +119,8 @@ def calibrate(
     contents = read_experiments([path for path in experiments if path.suffix != ".json"], log)
     names = _sensors(contents, stored, sensor)
     files = _files(output, names)
-    declare_outputs(
-        *filter(Path.exists, [*files, *_given(write_urdf)]), force=force
-    )  # folders of the others are made when they are written
+    # folders of the others are made when they are written
+    declare_outputs(*filter(Path.exists, filter(None, [*files, write_urdf])), force=force)
     if write_urdf is not None:
         _require_one_fit(write_urdf, names, contents)
     fit = partial(
@@ -166,10 +165,6 @@ def _require_one_fit(write_urdf: Path, sensors: Sequence[object], contents: Mapp
         raise ExperimentError(
             f'--write-urdf {write_urdf}: expected [robot] tolerance other than "exact", which leaves nothing to correct'
         )
-
-
-def _given(file: Path | None) -> list[Path]:
-    return [] if file is None else [file]
 
 
 def _warn_of_doubts(campaign: Campaign | None, log: logging.Logger) -> None:

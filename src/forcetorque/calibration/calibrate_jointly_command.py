@@ -67,9 +67,8 @@ def calibrate_together(
     contents = list(read_experiments(experiments, log).values())
     chosen = sensors_named(contents[0], sensors)
     files = [output / calibration_file(sensor.name, sensor.serial) for sensor in chosen]
-    declare_outputs(
-        *filter(Path.exists, [*files, output / JOINT_FILE, *([] if write_urdf is None else [write_urdf])]), force=force
-    )  # as of one sensor alone
+    outputs = filter(None, [*files, output / JOINT_FILE, write_urdf])
+    declare_outputs(*filter(Path.exists, outputs), force=force)  # as of one sensor alone
     result = calibrate_jointly(
         contents,
         output,

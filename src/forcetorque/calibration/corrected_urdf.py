@@ -37,12 +37,12 @@ def write_corrected_urdf(
     table = parse_experiment(experiment.file).robot
     if table is None:
         raise ExperimentError(f"{experiment.file}: expected [robot] with a URDF to correct, got none")
-    refuse_output(file, force=force)
     urdf = experiment.file.parent / table.urdf
     found = [read_model_errors(calibration)]
     if table.tolerance != "exact" and table.tolerance.found_by is not None:
         found.insert(0, read_model_errors(experiment.file.parent / table.tolerance.found_by))
     model = read_urdf(urdf)
+    refuse_output(file, force=force)  # when all inputs are read, the calibration among them
     for errors in found:
         model = robot_errors(experiment.model, errors).applied_to(model)
     write_bytes_atomically(Path(file), corrected_urdf_text(urdf, model).encode())
