@@ -211,6 +211,7 @@ def test_the_workbench_matrix_errs_by_what_the_file_says(scenario: Path, run: Ru
     """`evaluate` finds the force error that was set: its mean norm lies between what the means of the axes allow."""
     scenario.write_text(SMALL.replace("[[recording]]", ERROR, 1), encoding="utf-8")
     assert run("simulate", scenario, "-o", "out").code == 0
+    edit(Path("out/fit.toml"), "[robot]", '[robot]\ntolerance = "exact"')  # as the simulated robot is
     assert run("calibrate", "out/fit.toml", "-o", "new.json").code == 0
     verdicts = run("evaluate", "out/judge.toml", "-c", "new.json", "--format", "json").result()["verdicts"]
     errors = {(row["candidate"], row["offset"]): row["force_error_mean_N"] for row in verdicts}
