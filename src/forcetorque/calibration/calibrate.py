@@ -20,6 +20,7 @@ from forcetorque.calibration.moments import recording_moments
 from forcetorque.calibration.mount import with_estimated_mount
 from forcetorque.calibration.summary import (
     LearntDirection,
+    calibration_answer,
     calibration_blocks,
     component_records,
     learnt_directions,
@@ -38,6 +39,7 @@ from forcetorque.inspection.findings import unreliable_intervals
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import contradicted_statements, load_doubts
 from forcetorque.recording.recording import Use
+from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Table, table_of
 
@@ -293,6 +295,22 @@ class SensorCalibrations(Result):
                 self.joint.file, force=force
             )
         return self.model_copy(update={"saved": True})
+
+    def answers(self) -> Iterator[Answer]:
+        """Say of every sensor what the recordings taught, and how to evaluate it.
+
+        Yields:
+            One per sensor.
+        """
+        for entry in self.calibrations:
+            words = f"{entry.calibration.sensor.name}: "
+            yield calibration_answer(
+                entry.calibration,
+                entry.learnt,
+                entry.file,
+                saved=self.saved,
+                doubtful=any(len(self.calibrations) == 1 or one.startswith(words) for one in self.warnings),
+            )
 
     def blocks(self) -> Iterator[Table | str]:
         """Give matrix, variables and excitation of every sensor.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, known_names
-from forcetorque.results.terminal.options import ForceOption, FormatOption, SensorOption
+from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption, SensorOption
 from forcetorque.results.terminal.output import Format, refuse_standard_output, report_error, show, start_logging
 
 if TYPE_CHECKING:
@@ -85,6 +85,7 @@ def calibrate(
         ),
     ] = None,
     force: ForceOption = False,
+    details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Fit matrix and offset of each sensor to any number of recordings.
@@ -113,7 +114,9 @@ def calibrate(
     if jointly:
         alone = {"--lambda": regularisation, "--type": kind, "--nonlinear": nonlinear, "--moments": moments}
         refuse_beside_jointly(alone)
-        calibrate_together(experiments, output, sensor, figure, write_urdf, log, output_format, force=force)
+        calibrate_together(
+            experiments, output, sensor, figure, write_urdf, log, output_format, details=details, force=force
+        )
         return
     stored = stored_moments(experiments)
     contents = read_experiments([path for path in experiments if path.suffix != ".json"], log)
@@ -145,7 +148,13 @@ def calibrate(
             refusals.append(error)
             _warn_of_doubts(campaign, log)
     if results:
-        refusals += _show(SensorCalibrations.together(results).save(force=force), figure, output_format)
+        refusals += _show(
+            SensorCalibrations.together(results).save(force=force),
+            figure,
+            output_format,
+            details=details,
+            experiments=experiments,
+        )
         if write_urdf is not None:
             write_corrected_urdf(next(iter(contents.values())), files[0], write_urdf, force=force)
             log.info("corrected robot model written to %s", write_urdf)
@@ -176,7 +185,14 @@ def _warn_of_doubts(campaign: Campaign | None, log: logging.Logger) -> None:
             log.warning("%s", sentence)
 
 
-def _show(calibrations: SensorCalibrations, figure: Path | None, output_format: Format) -> list[ForceTorqueError]:
+def _show(
+    calibrations: SensorCalibrations,
+    figure: Path | None,
+    output_format: Format,
+    *,
+    details: bool,
+    experiments: Sequence[Path],
+) -> list[ForceTorqueError]:
     """Draw and show what was fitted; what cannot be drawn is shown all the same, and the refusal comes back."""
     refusals = []
     if figure is not None:
@@ -184,7 +200,7 @@ def _show(calibrations: SensorCalibrations, figure: Path | None, output_format: 
             calibrations = _drawn(calibrations, figure)
         except ForceTorqueError as error:
             refusals.append(error)
-    show(calibrations, output_format)
+    show(calibrations, output_format, details=details, experiments=experiments)
     return refusals
 
 

@@ -43,6 +43,7 @@ def calibrate_together(
     log: logging.Logger,
     output_format: Format,
     *,
+    details: bool,
     force: bool,
 ) -> None:
     """Calibrate all sensors at once, write and show what comes out.
@@ -55,6 +56,7 @@ def calibrate_together(
         write_urdf: File for the corrected URDF of the first experiment; None for none.
         log: Where messages go.
         output_format: Form of the result.
+        details: As of `show`.
         force: As of `declare_outputs`.
 
     Raises:
@@ -81,7 +83,8 @@ def calibrate_together(
     if write_urdf is not None:
         write_corrected_urdf(contents[0], output / JOINT_FILE, write_urdf, force=force)
         log.info("corrected robot model written to %s", write_urdf)
-    show(_drawn(written, figure) if figure is not None else written, output_format)
+    shown = _drawn(written, figure) if figure is not None else written
+    show(shown, output_format, details=details, experiments=experiments)
 
 
 def _drawn(result: SensorCalibrations, figure: Path) -> SensorCalibrations:

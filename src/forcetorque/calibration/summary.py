@@ -11,8 +11,43 @@ import numpy as np
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.calibration.artefact import JOINT, Calibration, SessionOffset
+from forcetorque.results.answer import EXPERIMENT, Answer, Concern
 from forcetorque.results.number_text import number, with_error
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table
+
+
+def calibration_answer(
+    calibration: Calibration,
+    learnt: Sequence[LearntDirection] | None,
+    file: str,
+    *,
+    saved: bool,
+    doubtful: bool,
+) -> Answer:
+    """Say in a few lines what was fitted, and how to evaluate it.
+
+    Args:
+        calibration: The calibration.
+        learnt: What the recordings taught; None where it is not known.
+        file: Its file.
+        saved: Whether the file is written.
+        doubtful: Whether there are warnings about it.
+
+    Returns:
+        The answer.
+    """
+    sensor, source = calibration.sensor, calibration.provenance
+    intervals = ", ".join(interval.label for interval in source.intervals)
+    force, moment = (float(np.linalg.norm(calibration.residual_rms[part])) for part in FORCE_AND_MOMENT)
+    fitted = f"{source.samples} samples of {intervals}: residual {force:.2f} N, {moment:.3f} N m (RMS of the norm)"
+    return Answer(
+        subject=f"{sensor.name} ({sensor.serial}), {file}",
+        verdict=("FITTED, WITH WARNINGS" if doubtful else "FITTED") if saved else "FITTED, NOT WRITTEN YET",
+        why=(fitted, *((learnt_words(learnt),) if learnt else ())),
+        step="evaluate it on data that were not fitted",
+        command=f"evaluate {EXPERIMENT} -c {file}",
+        concern=Concern.UNCERTAIN if doubtful else Concern.NONE,
+    )
 
 
 def calibration_blocks(calibration: Calibration) -> Iterator[Table | str]:

@@ -13,6 +13,7 @@ import typer
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.results.terminal.options import (
     CalibrationsOption,
+    DetailsOption,
     ExperimentsArgument,
     ForceOption,
     FormatOption,
@@ -67,6 +68,7 @@ def estimate(
         ),
     ] = None,
     force: ForceOption = False,
+    details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Estimate contact wrenches, joint torques and expected readings.
@@ -112,7 +114,11 @@ def estimate(
                 figure=figures.get(path),
             )
     several = len(summaries) > 1
-    show(estimates_of_recordings(summaries) if several else summaries[str(experiments[0])], output_format)
+    show(
+        estimates_of_recordings(summaries) if several else summaries[str(experiments[0])],
+        output_format,
+        details=details,
+    )
 
 
 def _estimated(

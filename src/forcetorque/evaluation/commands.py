@@ -11,6 +11,7 @@ import typer
 from forcetorque.results.command import Drawing, Option, command
 from forcetorque.results.terminal.options import (
     ComparedCalibrationsOption,
+    DetailsOption,
     FormatOption,
     SensorOption,
     SphereIntervalOption,
@@ -184,6 +185,7 @@ def compare(
     figure: Annotated[
         Path | None, typer.Option("--figure", help="PNG of the indices of trials, their mean and the pooled fit.")
     ] = None,
+    details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Compare the spheres of many sensors, mountings and trials.
@@ -208,7 +210,7 @@ def compare(
     )
     if figure is not None and result.analyses:
         result = _drawn(result, figure)
-    show(result, output_format)
+    show(result, output_format, details=details)
     stop_at_failures(result.failures)
 
 

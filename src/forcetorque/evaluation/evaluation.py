@@ -11,6 +11,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import joined_times
+from forcetorque.evaluation.answers import evaluation_answers
 from forcetorque.evaluation.load_cases.validation_evidence import (
     PriorComparison,
     fewest_independent,
@@ -38,6 +39,7 @@ from forcetorque.experiment.validity import (
 )
 from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
+from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import (
@@ -187,6 +189,14 @@ class Evaluation(Result):
     """One per calibration: how far the validation samples lie outside what it was fitted on."""
     uses: tuple[UseVerdict, ...] = ()
     """One per calibration and load case: whether it may be used."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say whether each calibration may be used, and at what error.
+
+        Yields:
+            One per calibration; of a sensor without one, of its prior.
+        """
+        yield from evaluation_answers(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor, one of its recordings where there are several, and what calibrations are worth.

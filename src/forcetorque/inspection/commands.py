@@ -8,7 +8,7 @@ import typer
 
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.results.command import Option, command
-from forcetorque.results.terminal.options import ForceOption, FormatOption
+from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption
 from forcetorque.results.terminal.output import Format, refuse_two_on_standard_output, show, start_logging
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ def init(
         typer.Option(help="Format of the log, such as ros or hdf5, as in [recording]. Default: by what is there."),
     ] = None,
     force: ForceOption = False,
+    details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Begin an experiment file of a log: what it does not say is a question.
@@ -43,7 +44,7 @@ def init(
     declare_outputs(output, force=force)
     draft = draft_experiment(log, output, urdf=urdf, log_format=log_format, force=force)
     if output != STANDARD_OUTPUT:  # else the file itself went there
-        show(draft, output_format)
+        show(draft, output_format, details=details)
 
 
 @command()

@@ -9,7 +9,7 @@ import typer
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.results.command import Drawing, Option, command
-from forcetorque.results.terminal.options import CalibrationsOption, ForceOption, FormatOption
+from forcetorque.results.terminal.options import CalibrationsOption, DetailsOption, ForceOption, FormatOption
 from forcetorque.results.terminal.output import Format, show, start_logging
 
 if TYPE_CHECKING:
@@ -63,6 +63,7 @@ def balance(
         typer.Option("--figure", help="PNG of phases, loads and points of the first interval that it stands in."),
     ] = None,
     force: ForceOption = False,
+    details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Say which feet bear the robot, and where.
@@ -98,7 +99,7 @@ def balance(
 
         standing = next(one for one in result.intervals if one.phases.down.any())
         write_bytes_atomically(figure, png_bytes(balance_figure(standing)))
-    show(result, output_format)
+    show(result, output_format, details=details)
 
 
 def _answer(

@@ -13,6 +13,7 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.results.terminal.options import (
+    DetailsOption,
     ExperimentArgument,
     ExperimentsArgument,
     ForceOption,
@@ -108,6 +109,7 @@ def payload(
     world_frame: WorldFrameOption = None,
     sensor_pose: SensorPoseOption = None,
     force: ForceOption = False,
+    details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Estimate mass, centre of mass and bias of a wrist sensor's load.
@@ -142,7 +144,7 @@ def payload(
     if output == STANDARD_OUTPUT:  # the file itself went there
         show_warnings(load)
     else:
-        show(load, output_format)
+        show(load, output_format, details=details)
 
 
 def tare(
@@ -158,6 +160,7 @@ def tare(
     world_frame: WorldFrameOption = None,
     sensor_pose: SensorPoseOption = None,
     force: ForceOption = False,
+    details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Find the offset that keeps the weight of a load, from a stretch at rest.
@@ -192,7 +195,7 @@ def tare(
     if output == STANDARD_OUTPUT:
         show_warnings(result)
     else:
-        show(result, output_format)
+        show(result, output_format, details=details)
 
 
 def _one_for_each(content: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, str]:

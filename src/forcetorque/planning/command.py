@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from forcetorque.results.terminal.options import FormatOption
+from forcetorque.results.terminal.options import DetailsOption, FormatOption
 from forcetorque.results.terminal.output import Format, refuse_standard_output, say, show, start_logging
 
 
@@ -50,6 +50,7 @@ def plan(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder to make, for trajectories (CSV, ROS, YARP) and JSON.")
     ] = None,
+    details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Say what to record next to lower the error at the loads of use.
@@ -71,7 +72,7 @@ def plan(
         alone = {"-c": calibration, "--load-case": load_case, "--sensor": sensor, "--clearance-deg": clearance_deg}
         refuse_beside_jointly(alone | {"--seconds": seconds, "--output": output})
         contents = list(read_experiments(experiments, log).values())
-        show(plan_jointly(contents, recordings=recordings, progress=log.info), output_format)
+        show(plan_jointly(contents, recordings=recordings, progress=log.info), output_format, details=details)
         return
     refuse_standard_output("--output", output)
     if output is not None:
@@ -90,6 +91,6 @@ def plan(
     )
     if output is not None:
         result = write_plan(result, output)
-    show(result, output_format)
+    show(result, output_format, details=details)
     if output is not None:
         say(f"written: {output}", output_format)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.results.terminal.options import ForceOption, FormatOption, PopulationOption
+from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption, PopulationOption
 from forcetorque.results.terminal.output import Format, say, show, start_logging
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ def report(
         bool, typer.Option("--viewer", help="Put the viewer of each experiment into the HTML; some 1 MB and more.")
     ] = False,
     force: ForceOption = False,
+    details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Write everything about sensors into one document, verdict first.
@@ -79,5 +80,5 @@ def report(
     )
     log.info("drawing")
     written.save(*files)
-    show(written, output_format)
+    show(written, output_format, details=details)
     say(f"written: {', '.join(map(str, files))}", output_format)

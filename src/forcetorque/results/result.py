@@ -15,8 +15,9 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import Field
 
 from forcetorque.base.errors import ShapeError
+from forcetorque.results.answer import Answer, answer_text
 from forcetorque.results.table import Row, Shown, Table, table_of
-from forcetorque.results.table_rendering import html_table, html_text, html_warnings, table_text, wrapped
+from forcetorque.results.table_rendering import html_lines, html_table, html_text, html_warnings, table_text, wrapped
 
 
 class UnusableSamples(Row):
@@ -66,8 +67,16 @@ class Result(Row):
         """Whether it is as it should be; a command whose result is not ends with exit code 1."""
         return True
 
+    def answers(self) -> Iterator[Answer]:
+        """Give the answer in a few lines.
+
+        Yields:
+            One per sensor or thing; nothing where the tables are the answer.
+        """
+        yield from ()
+
     def blocks(self) -> Iterator[Table | str]:
-        """Give what people read, in its order; every class has its own.
+        """Give the details that people read, in their order; every class has its own.
 
         Yields:
             Tables and sentences.
@@ -98,10 +107,22 @@ class Result(Row):
         return list(dict.fromkeys(name for record in self.records() for name in record))
 
     def text(self, width: int = NOTEBOOK_WIDTH) -> str:
-        """Write the result as text for people.
+        """Write the result as text for people: the answer, and the details.
 
         Args:
             width: Characters of a line; narrow ones get tables on their side, never a folded number.
+
+        Returns:
+            Lines, each with its end.
+        """
+        answers = tuple(self.answers())
+        return (f"{answer_text(answers, width)}\n" if answers else "") + self.details(width)
+
+    def details(self, width: int = NOTEBOOK_WIDTH) -> str:
+        """Write tables and sentences without the answer.
+
+        Args:
+            width: As of `text`.
 
         Returns:
             Lines, each with its end.
@@ -138,8 +159,13 @@ class Result(Row):
         return f"{doubtful}\n{self.text()}" if doubtful else self.text()
 
     def _repr_html_(self) -> str:
-        return html_warnings(self.cautions()) + "".join(
-            f"<p>{html_text(block)}</p>" if isinstance(block, str) else html_table(block) for block in self._shown()
+        answers = tuple(self.answers())
+        return (
+            html_lines(answer_text(answers, NOTEBOOK_WIDTH) if answers else "")
+            + html_warnings(self.cautions())
+            + "".join(
+                f"<p>{html_text(block)}</p>" if isinstance(block, str) else html_table(block) for block in self._shown()
+            )
         )
 
     def _shown(self) -> Iterator[Table | str]:

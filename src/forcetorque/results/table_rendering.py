@@ -32,6 +32,20 @@ def wrapped(sentence: str, width: int) -> str:
     return lines.replace(NO_BREAK, " ")  # a terminal is searched and copied from
 
 
+def shortened(sentence: str, width: int) -> str:
+    """Cut a sentence off at the end of a line.
+
+    Args:
+        sentence: The sentence.
+        width: Characters of the line.
+
+    Returns:
+        As many of its words as the line holds, with an ellipsis where some are left out.
+    """
+    words = " ".join(sentence.split())
+    return words if len(words) <= width else f"{words[: width - 2].rpartition(' ')[0]} …"
+
+
 def table_text(table: Table, width: int) -> str:
     """Write a table.
 
@@ -137,6 +151,18 @@ def html_text(text: str) -> str:
         HTML in which no line ends between a number and its unit.
     """
     return html.escape(with_joined_units(text))
+
+
+def html_lines(text: str) -> str:
+    """Write lines for a page as they are.
+
+    Args:
+        text: The lines; none if empty.
+
+    Returns:
+        HTML.
+    """
+    return f"<pre>{html.escape(text)}</pre>" if text else ""
 
 
 def html_table(table: Table) -> str:

@@ -11,7 +11,13 @@ import typer
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
-from forcetorque.results.terminal.options import CalibrationsOption, ForceOption, FormatOption, SensorOption
+from forcetorque.results.terminal.options import (
+    CalibrationsOption,
+    DetailsOption,
+    ForceOption,
+    FormatOption,
+    SensorOption,
+)
 from forcetorque.results.terminal.output import (
     Format,
     refuse_standard_output,
@@ -59,6 +65,7 @@ def view(
         Path | None, typer.Option("--browser", help="Program that draws the video. Default: chromium or chrome.")
     ] = None,
     force: ForceOption = False,
+    details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Show robot pose and force space, linked in time, in the browser.
@@ -97,9 +104,9 @@ def view(
         write_video(video, film, built, browser=program)
         shown = shown.model_copy(update={"video": str(video), "video_frames": frames})
     if output is None and video is None:
-        _serve(path, built, port or 0, not no_browser, output_format)
+        _serve(path, built, port or 0, not no_browser, output_format, details=details)
     elif output != STANDARD_OUTPUT:  # else the page itself went there
-        show(shown, output_format)
+        show(shown, output_format, details=details)
 
 
 def _refuse_contradictions(output: Path | None, port: int | None, video: Path | None, *, force: bool) -> None:
@@ -109,7 +116,9 @@ def _refuse_contradictions(output: Path | None, port: int | None, video: Path | 
     declare_outputs(output, video, force=force)
 
 
-def _serve(path: Path, built: BuiltScene, port: int, open_browser: bool, output_format: Format) -> None:
+def _serve(
+    path: Path, built: BuiltScene, port: int, open_browser: bool, output_format: Format, *, details: bool
+) -> None:
     from forcetorque.viewer.page import ANNOTATIONS_URL, DATA_URL, Session, ViewerServer, page_of
     from forcetorque.viewer.scene_builder import View
 
@@ -118,7 +127,7 @@ def _serve(path: Path, built: BuiltScene, port: int, open_browser: bool, output_
     session = Session(path, built, log.info)
     try:  # around all of it: who reads the address may interrupt before the command waits
         with ViewerServer(page, built.block, session.save, port=port) as server:
-            show(View.of(built).model_copy(update={"url": server.url}), output_format)
+            show(View.of(built).model_copy(update={"url": server.url}), output_format, details=details)
             sys.stdout.flush()
             if open_browser and not _opened(server.url):
                 log.warning("no browser could be opened; open the address yourself")

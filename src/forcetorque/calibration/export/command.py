@@ -12,7 +12,7 @@ import typer
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.calibration.export.formats import ExportFormat
-from forcetorque.results.terminal.options import ForceOption, FormatOption
+from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption
 from forcetorque.results.terminal.output import (
     Format,
     refuse_two_on_standard_output,
@@ -53,6 +53,7 @@ def export(
         ),
     ] = None,
     force: ForceOption = False,
+    details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Write calibrations as files that a robot or another program reads.
@@ -95,7 +96,7 @@ def export(
     if output == STANDARD_OUTPUT:  # the file itself went there
         show_warnings(written)
     else:
-        show(written, output_format)
+        show(written, output_format, details=details)
 
 
 def _require_consistent(

@@ -20,7 +20,13 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.results.capability import named
 from forcetorque.results.command import Command, Option, Saved, command_of
-from forcetorque.results.terminal.options import ExperimentArgument, ExperimentsArgument, ForceOption, FormatOption
+from forcetorque.results.terminal.options import (
+    DetailsOption,
+    ExperimentArgument,
+    ExperimentsArgument,
+    ForceOption,
+    FormatOption,
+)
 from forcetorque.results.terminal.output import (
     Format,
     refuse_figure,
@@ -75,13 +81,22 @@ class _Analysis:
         """Names of the parameters that are filled from files, by their type."""
         return {_kind(parameter): name for name, parameter in self.parameters.items()}
 
+    @property
+    def reads_experiments(self) -> bool:
+        """Whether experiment files are typed."""
+        return not {_RUN, _RUNS, _EXPERIMENT}.isdisjoint(self.named_by_kind)
+
     def command(self) -> Callable[..., None]:
         """The command, which typer parses by its signature."""
 
         def run(**given: Any) -> None:
             self.run(given)
 
-        typed = [*self.typed(), _typed("output_format", FormatOption, Format.TABLE)]
+        typed = [
+            *self.typed(),
+            _typed("details", DetailsOption, False),
+            _typed("output_format", FormatOption, Format.TABLE),
+        ]
         typed.sort(key=lambda parameter: parameter.default is not Parameter.empty)
         run.__signature__ = Signature(typed)  # type: ignore[attr-defined]
         run.__annotations__ = {parameter.name: parameter.annotation for parameter in typed}
@@ -133,7 +148,8 @@ class _Analysis:
         if any(given[_name(saved)] == STANDARD_OUTPUT for saved in self.offered.saved):  # the file itself went there
             show_warnings(result)
         else:
-            show(result, given["output_format"])
+            files = given.get("experiments") or [given["experiment"]] if self.reads_experiments else []
+            show(result, given["output_format"], details=given["details"], experiments=files)
         if not result.passed:
             raise typer.Exit(1)
 

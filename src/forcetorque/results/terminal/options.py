@@ -15,6 +15,7 @@ ExperimentsArgument = Annotated[
     list[Path], typer.Argument(help="Experiment files (TOML) with the same sensors; see docs/recording.md.")
 ]
 FormatOption = Annotated[Format, typer.Option("--format", help="Form of the result on standard output.")]
+DetailsOption = Annotated[bool, typer.Option("--details", help="Show tables and all warnings below the answer.")]
 ForceOption = Annotated[
     bool,
     typer.Option(

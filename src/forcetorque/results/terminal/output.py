@@ -18,6 +18,7 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs, refuse_existing
 
 if TYPE_CHECKING:
+    from forcetorque.results.answer import Answer
     from forcetorque.results.result import Result
 
 
@@ -64,13 +65,19 @@ def report_error(error: Exception) -> None:
     sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
 
 
-def show(result: Result, output_format: Format) -> None:
+def show(result: Result, output_format: Format, *, details: bool = False, experiments: Sequence[Path] = ()) -> None:
     """Print a result in the form that was asked for, and its warnings, each once, to standard error.
 
     Args:
         result: The result.
         output_format: Form.
+        details: Whether people read the tables below the answer, and all warnings.
+        experiments: Experiment files that were typed, for the next command.
     """
+    answers = tuple(result.answers()) if output_format is Format.TABLE else ()
+    if answers:
+        _show_answers(result, answers, details=details, experiments=experiments)
+        return
     show_warnings(result)
     if output_format is Format.JSON:
         sys.stdout.write(result.json_text() + "\n")
@@ -81,6 +88,21 @@ def show(result: Result, output_format: Format) -> None:
         writer.writerows(result.records())
     else:
         sys.stdout.write(result.text(width()))
+
+
+def _show_answers(result: Result, answers: Sequence[Answer], *, details: bool, experiments: Sequence[Path]) -> None:
+    from forcetorque.results.answer import answer_text, warnings_text
+
+    columns = width()
+    sys.stdout.write(answer_text(answers, columns, *([" ".join(map(str, experiments))] if experiments else ())))
+    if details:
+        sys.stdout.write("\n" + result.details(columns))
+        show_warnings(result)
+        return
+    sys.stdout.flush()
+    sys.stderr.write(warnings_text(tuple(result.cautions()), columns))
+    sys.stderr.flush()
+    sys.stdout.write("details: --details\n")
 
 
 def show_warnings(result: Result) -> None:
@@ -176,7 +198,7 @@ def refuse_two_on_standard_output(output: Path | None, output_format: Format) ->
         )
 
 
-_SPELLED = {"±": "+-", "─": "-", "²": "2", "°": "deg", "≤": "<=", "≥": ">=", "·": "*", "✓": "ok", "✗": "x"}
+_SPELLED = {"±": "+-", "…": "...", "─": "-", "²": "2", "°": "deg", "≤": "<=", "≥": ">=", "·": "*", "✓": "ok", "✗": "x"}
 _HANDLER = "forcetorque.spelled"
 
 

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from forcetorque.results.terminal.options import ExperimentsArgument, FormatOption
+from forcetorque.results.terminal.options import DetailsOption, ExperimentsArgument, FormatOption
 from forcetorque.results.terminal.output import Format, show, start_logging
 
 
@@ -39,6 +39,7 @@ def response(
         Path | None, typer.Option("--calibration", "-c", help="Calibration that reads the sensor.")
     ] = None,
     figure: Annotated[Path | None, typer.Option("--figure", help="PNG of the response and of the decays.")] = None,
+    details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Tell bandwidth and resonance of a sensor, and a filter that undoes them.
@@ -78,4 +79,4 @@ def response(
 
         write_bytes_atomically(figure, png_bytes(response_figure(result)))
         result = result.model_copy(update={"figure": str(figure)})
-    show(result, output_format)
+    show(result, output_format, details=details)

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The answer of `evaluate` in a few lines: may a calibration be used, at what error, and what to do next."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Final
+
+from forcetorque.evaluation.load_cases.validation_evidence import PriorComparison
+from forcetorque.evaluation.load_cases.verdict import (
+    ADD_VALIDATION,
+    CORRECT_DATA,
+    KEEP_PRIOR,
+    LOOK_FOR_CAUSE,
+    Decision,
+    LoadCaseError,
+    UseVerdict,
+    amount,
+)
+from forcetorque.experiment.validation_offset import Offset
+from forcetorque.results.answer import EXPERIMENT, Answer, Concern
+from forcetorque.results.table import short_names
+
+if TYPE_CHECKING:
+    from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation
+
+_CONCERN: Final[Mapping[Decision, Concern]] = {
+    "use": Concern.NONE,
+    "not enough data": Concern.UNCERTAIN,
+    "do not use": Concern.BAD,
+}
+
+
+def evaluation_answers(evaluation: Evaluation) -> Iterator[Answer]:
+    """Give the answer for every calibration; for the prior where there is no calibration.
+
+    Args:
+        evaluation: What was evaluated.
+
+    Yields:
+        One answer each.
+    """
+    names = short_names([row.candidate for row in evaluation.verdicts])
+    for row in evaluation.verdicts:
+        if row.offset is not Offset.JUDGED_MEAN:  # every candidate once
+            continue
+        uses = [use for use in evaluation.uses if (use.sensor, use.candidate) == (row.sensor, row.candidate)]
+        subject = f"{row.sensor} ({row.serial}), {names[row.candidate]}"
+        if uses:
+            compared = [
+                one for one in evaluation.comparisons if (one.sensor, one.candidate) == (row.sensor, row.candidate)
+            ]
+            yield _of_uses(subject, row, uses, compared)
+        elif not any(use.sensor == row.sensor for use in evaluation.uses):
+            yield _of_errors(subject, row)
+
+
+def _of_errors(subject: str, row: CandidateErrors) -> Answer:
+    """Of a candidate without a verdict: its error."""
+    return Answer(
+        subject=subject,
+        verdict=f"force error {_mean(row.force_error_mean_N, row.force_error_half_width_95_N, 'N')}",
+        why=(
+            f"moment error {_mean(row.moment_error_mean_Nm, row.moment_error_half_width_95_Nm, 'N m')}; {row.samples} "
+            "samples that were not fitted, with their mean error removed",
+        ),
+        step="calibrate the sensor",
+        command=f"calibrate {EXPERIMENT} --sensor {row.sensor} -o {row.sensor}.json",
+    )
+
+
+def _of_uses(
+    subject: str, row: CandidateErrors, uses: Sequence[UseVerdict], compared: Sequence[PriorComparison]
+) -> Answer:
+    """Of a calibration: the verdict on its load cases, the worst first."""
+    worst = max(uses, key=lambda use: _CONCERN[use.decision])
+    agree = len({use.decision for use in uses}) == 1
+    decision = worst.decision.upper()
+    reason = worst.reasons[0]
+    predicted = "; ".join(_predicted(error) for error in worst.errors)
+    # what was measured speaks in the second line; other reasons, such as warnings, are said here
+    first = f"{worst.loads}: {predicted or worst.sentence}"
+    step, command = _step(worst)
+    return Answer(
+        subject=subject,
+        verdict=decision if agree else f"{decision} for {worst.load_case}",
+        why=(first, *(() if _is_predicted(worst) else (reason.text,)), *_measured(row, compared)),
+        step=step,
+        command=command,
+        concern=_CONCERN[worst.decision],
+    )
+
+
+def _is_predicted(use: UseVerdict) -> bool:
+    """Whether the prediction is the reason, which the numbers state."""
+    return bool(use.errors) and use.reasons[0].text.startswith("it errs")
+
+
+def _predicted(error: LoadCaseError) -> str:
+    allowed = "" if error.allowed is None else f", allowed {amount(error.allowed, error.unit)}"
+    prior = "" if error.before is None else f", prior {amount(error.before, error.unit)}"
+    after, most = amount(error.after, error.unit), amount(error.after_at_most, error.unit)
+    return f"{error.quantity} error {after} (95 %: {most}{allowed}{prior})"
+
+
+def _measured(row: CandidateErrors, compared: Sequence[PriorComparison]) -> Iterator[str]:
+    """What data that were not fitted measured, with the calibration's own offset where it has one."""
+    own = [one for one in compared if one.offset is Offset.FITTED] or list(compared)
+    if not own:
+        yield f"{row.samples} samples not fitted: force error {amount(row.force_error_mean_N, 'N')}"
+        return
+    errors = ", ".join(
+        f"{one.quantity} error {amount(one.mean, one.unit)} (prior {amount(one.prior_mean, one.unit)}: {one.judgement})"
+        for one in own
+    )
+    yield f"{row.samples} samples not fitted: {errors}"
+
+
+def _step(use: UseVerdict) -> tuple[str, str]:
+    """What to do next, and the command for it."""
+    remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
+    calibration = f"-c {use.candidate}"
+    if remedy is None:
+        return "export the matrix to the robot", f"export {use.candidate} --to csv -o {use.sensor}.csv"
+    if remedy in (LOOK_FOR_CAUSE, KEEP_PRIOR, CORRECT_DATA):
+        return remedy, f"inspect {EXPERIMENT}"
+    if remedy == ADD_VALIDATION:
+        return remedy, ""
+    return remedy, f"plan {EXPERIMENT} {calibration}"
+
+
+def _mean(value: float, half_width: float | None, unit: str) -> str:
+    interval = "" if half_width is None else f" (95 %: {amount(value + half_width, unit)})"
+    return f"{amount(value, unit)}{interval}"
