@@ -21,6 +21,7 @@ from forcetorque.formats.log_format import SketchingFormat, not_read_message
 from forcetorque.formats.prior.prior_file import PriorFile
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.formats.registry import format_named, not_recognised, recognised_format
+from forcetorque.inspection.answers import inspection_answer
 from forcetorque.inspection.draft.log import likely_quantities
 from forcetorque.inspection.file_contents import (
     ClockRow,
@@ -36,6 +37,7 @@ from forcetorque.inspection.file_contents import (
 )
 from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
 from forcetorque.recording.recording import Finding, Recording
+from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Table, table_of
 from forcetorque.skin.experiment import PATCHES, PatchExperiment, load_patches
@@ -97,6 +99,15 @@ class Inspection(Result):
     """Rows of the smallest, largest and mean numbers, where these are not all rows, and the reason."""
     calibration: MakerCalibration | None = None
     """The calibration of the maker, where the file is one."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say what was found, grouped to events.
+
+        Yields:
+            One for a recording; none for columns that wait for a file, or the calibration of a maker.
+        """
+        if self.streams:
+            yield inspection_answer(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.

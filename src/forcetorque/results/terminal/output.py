@@ -198,7 +198,20 @@ def refuse_two_on_standard_output(output: Path | None, output_format: Format) ->
         )
 
 
-_SPELLED = {"±": "+-", "…": "...", "─": "-", "²": "2", "°": "deg", "≤": "<=", "≥": ">=", "·": "*", "✓": "ok", "✗": "x"}
+_SPELLED = {
+    "±": "+-",
+    "…": "...",
+    "█": "#",
+    "░": ".",
+    "─": "-",
+    "²": "2",
+    "°": "deg",
+    "≤": "<=",
+    "≥": ">=",
+    "·": "*",
+    "✓": "ok",
+    "✗": "x",
+}
 _HANDLER = "forcetorque.spelled"
 
 

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The answer of `inspect` in a few lines: findings grouped to events in time, and what of the time is usable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from forcetorque.results.answer import Answer, Concern
+
+if TYPE_CHECKING:
+    from forcetorque.inspection.inspect import FindingRow, Inspection
+
+_LEADING: Final = ("contact", "light_contact")
+"""Kinds that make an event by themselves; what else is found meanwhile belongs to it."""
+_APART_S: Final = 1.0
+"""Time between findings of two events."""
+_WHOLE: Final = 0.95
+"""Share of the duration above which a finding is about the log as a whole."""
+_MOST = 4
+"""Events that are listed; the others are counted."""
+_NEXT: Final = {True: "calibrate the sensors", False: "begin an experiment file for it"}
+"""What follows, by whether it is an experiment file."""
+_CELLS = 50
+"""Characters of the bar."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Event:
+    """Findings of one stream that belong together."""
+
+    start_s: float
+    """First instant; s from the earliest stamp of the recording."""
+    end_s: float
+    """Last instant; s."""
+    findings: tuple[FindingRow, ...]
+    """The findings; the leading one first."""
+
+    @property
+    def text(self) -> str:
+        """Time, stream, and kinds with their channels and largest sizes."""
+        kinds: dict[str, list[FindingRow]] = {}
+        for row in self.findings:
+            kinds.setdefault(row.kind, []).append(row)
+        words = "; ".join(_kind_text(kind, rows) for kind, rows in kinds.items())
+        return f"{self.start_s:.1f}-{self.end_s:.1f} s, {self.findings[0].stream}: {words}"
+
+
+def _kind_text(kind: str, rows: Sequence[FindingRow]) -> str:
+    """Such as `step in fx, fy up to 25 N`."""
+    channels = sorted({row.channel for row in rows if row.channel is not None})
+    where = f" in {', '.join(channels)}" if channels else ""
+    sizes: dict[str, float] = {}
+    for row in rows:
+        if row.size and row.unit is not None:
+            sizes[row.unit] = max(sizes.get(row.unit, 0.0), abs(row.size))
+    largest = " and ".join(
+        f"{value:.0f} {unit}" if value >= 100.0 else f"{value:.2g} {unit}" for unit, value in sizes.items()
+    )
+    size = f" up to {largest}" if largest else ""
+    return f"{kind.replace('_', ' ')}{where}{size}"
+
+
+def events(findings: Iterable[FindingRow], duration_s: float) -> tuple[Event, ...]:
+    """Group findings.
+
+    Args:
+        findings: Findings.
+        duration_s: Duration of the recording; s.
+
+    Returns:
+        Events in the order of time; findings about the whole log are in none.
+    """
+    found: list[Event] = []
+    timed = [row for row in findings if not is_about_all(row, duration_s)]
+    for row in sorted(timed, key=lambda row: (row.kind not in _LEADING, row.start_s)):
+        start, end = row.start_s or 0.0, row.end_s or 0.0
+        place = next((k for k, event in enumerate(found) if _belongs(row, event)), None)
+        if place is None or row.kind in _LEADING:
+            found.append(Event(start_s=start, end_s=end, findings=(row,)))
+        else:
+            event = found[place]
+            found[place] = Event(
+                start_s=min(event.start_s, start), end_s=max(event.end_s, end), findings=(*event.findings, row)
+            )
+    return tuple(sorted(found, key=lambda event: event.start_s))
+
+
+def is_about_all(row: FindingRow, duration_s: float) -> bool:
+    """Tell whether a finding is about the log as a whole.
+
+    Args:
+        row: The finding.
+        duration_s: Duration of the recording; s.
+
+    Returns:
+        Whether it has no time, or takes nearly all of it.
+    """
+    return row.start_s is None or row.end_s is None or row.end_s - row.start_s > _WHOLE * duration_s
+
+
+def _belongs(row: FindingRow, event: Event) -> bool:
+    if row.stream != event.findings[0].stream or row.start_s is None:
+        return False
+    lead = event.findings[0].kind in _LEADING
+    return event.start_s - (0.0 if lead else _APART_S) <= row.start_s <= event.end_s + (0.0 if lead else _APART_S)
+
+
+def inspection_answer(inspection: Inspection) -> Answer:
+    """Give the answer about a log.
+
+    Args:
+        inspection: What was found in it.
+
+    Returns:
+        Number of events, the longest of them, and a bar of the time that none of them takes.
+    """
+    grouped = events(inspection.findings, inspection.duration_s)
+    notes = [row.message for row in inspection.findings if is_about_all(row, inspection.duration_s)]
+    source, is_experiment = inspection.source, inspection.source.endswith(".toml")
+    subject = f"{source}: {inspection.duration_s:.1f} s, {len(inspection.streams)} stream(s)"
+    more = (f"{len(notes)} remark(s) on the whole log: {notes[0]}",) if notes else ()
+    if not grouped:
+        return Answer(
+            subject=subject,
+            verdict="REMARKS" if notes else "NOTHING FOUND",
+            why=more,
+            step=_NEXT[is_experiment],
+            command=(f"calibrate {source} -o calibrations" if is_experiment else f"init {source} -o experiment.toml"),
+            concern=Concern.UNCERTAIN if notes else Concern.NONE,
+        )
+    longest = sorted(grouped, key=lambda event: event.start_s - event.end_s)[:_MOST]
+    shown = [event.text for event in grouped if event in longest]
+    rest = len(grouped) - len(shown)
+    usable = _usable(grouped, inspection.duration_s)
+    bar = f"0 s |{''.join('█' if cell else '░' for cell in usable)}| {inspection.duration_s:.0f} s; █ no event"
+    return Answer(
+        subject=subject,
+        verdict=f"{len(grouped)} EVENT{'S' * (len(grouped) > 1)}",
+        why=(*shown, *((f"{rest} shorter one(s)",) if rest else ()), bar, *more),
+        step="leave these events out of every [[interval]]" if is_experiment else _NEXT[False],
+        command="" if is_experiment else f"init {source} -o experiment.toml",
+        concern=Concern.UNCERTAIN,
+    )
+
+
+def _usable(grouped: Sequence[Event], duration_s: float) -> Iterator[bool]:
+    """Which parts of the time no event takes."""
+    step = max(duration_s, 1e-9) / _CELLS
+    for k in range(_CELLS):
+        yield not any(event.start_s < (k + 1) * step and event.end_s > k * step for event in grouped)
