@@ -13,6 +13,7 @@ from forcetorque.base.lazy import lazy_names
 if TYPE_CHECKING:
     from forcetorque.app.python.arrays import experiment_of_arrays
     from forcetorque.app.python.experiment import Experiment, calibrate_jointly, load_experiment
+    from forcetorque.app.run.run import run
     from forcetorque.base.errors import ForceTorqueError
     from forcetorque.calibration.calibrate import calibrate_sensor
     from forcetorque.calibration.thesis.calibrate import calibrate
@@ -70,6 +71,7 @@ __all__ = [
     "read_calibration",
     "read_recording",
     "read_urdf",
+    "run",
     "skin_wrench",
     "wrench_errors",
     "write_calibration",
@@ -99,6 +101,7 @@ __getattr__, __dir__ = lazy_names(
         "read_calibration": "forcetorque.experiment.calibration.artefact",
         "read_recording": "forcetorque.recording.storage",
         "read_urdf": "forcetorque.robot.urdf",
+        "run": "forcetorque.app.run.run",
         "skin_wrench": "forcetorque.skin.commands",
         "wrench_errors": "forcetorque.experiment.calibrations_under_test",
         "write_calibration": "forcetorque.experiment.calibration.artefact",

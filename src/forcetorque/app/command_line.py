@@ -15,7 +15,12 @@ from forcetorque.results.terminal.command import command_function
 from forcetorque.results.terminal.output import report_error, spell_missing_letters
 
 _NAME = "forcetorque"
-_TOP = ("forcetorque.app.schema_command:schema", "forcetorque.report.command:report", "forcetorque.viewer.command:view")
+_TOP = (
+    "forcetorque.app.run.command:run",
+    "forcetorque.app.schema_command:schema",
+    "forcetorque.report.command:report",
+    "forcetorque.viewer.command:view",
+)
 """Commands that are of no capability."""
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import tomllib
 from dataclasses import dataclass
@@ -92,6 +93,27 @@ def unanswered_keys(text: str) -> tuple[UnansweredKey, ...]:
             words = line[match.end() :].partition("#")[2].strip()
             keys.append(UnansweredKey(line=number, key=match["key"].strip('"'), words=words))
     return tuple(keys)
+
+
+def with_answer(text: str, key: UnansweredKey, answer: str) -> str:
+    """Fill in a key.
+
+    Args:
+        text: Content of the file.
+        key: One of its keys that are still to be filled in.
+        answer: The value, as TOML or, where it is none, as plain text.
+
+    Returns:
+        The content with the answer.
+    """
+    try:
+        tomllib.loads(f"answer = {answer}")
+        value = answer
+    except tomllib.TOMLDecodeError:
+        value = json.dumps(answer, ensure_ascii=False)
+    lines = text.splitlines(keepends=True)
+    lines[key.line - 1] = re.sub(r"""["']\?["']""", lambda _: value, lines[key.line - 1], count=1)
+    return "".join(lines)
 
 
 def toml_content(file: Path) -> tuple[str, dict[str, Any]]:

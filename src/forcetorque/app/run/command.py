@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque run`: from logs to sensors that can be used, with one command."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption, SensorOption
+from forcetorque.results.terminal.output import Format, refuse_standard_output, show, start_logging
+
+if TYPE_CHECKING:
+    from forcetorque.app.run.result import WholeRun
+
+
+def run(
+    files: Annotated[
+        list[Path],
+        typer.Argument(help="Experiment files (TOML) of the same sensors, workbench files, or a log without a file."),
+    ],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder for calibrations, report and exported files.")
+    ] = Path("forcetorque_run"),
+    sensor: SensorOption = None,
+    urdf: Annotated[
+        Path | None, typer.Option("--urdf", help="The robot, for a log without an experiment file.")
+    ] = None,
+    override: Annotated[
+        str | None,
+        typer.Option(
+            "--override", help="Reason to go on where a stage would stop; written into calibrations and report."
+        ),
+    ] = None,
+    no_input: Annotated[
+        bool, typer.Option("--no-input", help="Ask nothing: list what is to be filled in, and stop with exit code 4.")
+    ] = False,
+    no_report: Annotated[bool, typer.Option("--no-report", help="Draw no report, which takes longest.")] = False,
+    force: ForceOption = False,
+    details: DetailsOption = False,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Go the whole way: inspect, check, calibrate, evaluate, report, export.
+
+    Exit codes: 0 usable, 1 not or not yet usable, 2 error, 3 stopped by a stage, 4 questions open.
+
+    Example: forcetorque run experiment.toml -o results
+
+    Python: `forcetorque.run("experiment.toml", "results")`
+    """
+    from forcetorque.app.run.run import run as go
+
+    log = start_logging()
+    refuse_standard_output("--output", output)
+    if any(path.suffix.lower() != ".toml" for path in files):
+        files = [_begun(files, output, urdf, force=force)]
+        if (unanswered := _unanswered(files[0], no_input=no_input)) is not None:
+            _end(unanswered, output_format, details=details, files=files)
+    result = go(
+        files,
+        output,
+        sensors=sensor,
+        override=override,
+        with_report=not no_report,
+        force=force,
+        progress=log.info,
+    )
+    _end(result, output_format, details=details, files=files)
+
+
+def _end(result: WholeRun, output_format: Format, *, details: bool, files: list[Path]) -> None:
+    show(result, output_format, details=details, experiments=files)
+    raise typer.Exit(int(result.exit_code))
+
+
+def _begun(logs: list[Path], output: Path, urdf: Path | None, *, force: bool) -> Path:
+    """The experiment file of logs, in the folder of results; one that is there already is taken up again."""
+    from forcetorque.inspection.draft.draft import draft_experiment
+
+    file = output / "experiment.toml"
+    if file.exists():
+        start_logging().info("going on with %s", file)
+        return file
+    output.mkdir(parents=True, exist_ok=True)
+    draft = draft_experiment(logs, file, urdf=urdf, force=force)
+    for sentence in draft.notes:
+        start_logging().info("%s", sentence)
+    return file
+
+
+def _unanswered(file: Path, *, no_input: bool) -> WholeRun | None:
+    """Ask what only a person can answer; what comes out if questions stay open, else None."""
+    from forcetorque.app.run.questions import answer_questions, open_questions
+    from forcetorque.app.run.result import Stage, WholeRun
+
+    if not no_input and sys.stdin.isatty() and answer_questions(file, _ask()):
+        return None
+    keys = open_questions(file)
+    if not keys:
+        return None
+    listed = tuple(f"line {key.line}, {key.key}: {key.words}" for key in keys)
+    stage = Stage(
+        name="init",
+        outcome="stopped",
+        seconds=0.0,
+        text=f"{len(keys)} question(s) are open, the first: {listed[0]}",
+        remedy=f'put the answers in place of "?" in {file}, and run it: forcetorque run {file}',
+    )
+    return WholeRun(experiment=str(file), stages=(stage,), questions=listed, files=(str(file),))
+
+
+def _ask() -> Callable[[str], str]:
+    def ask(question: str) -> str:
+        sys.stderr.write(f"{question}\n")
+        return str(typer.prompt("answer (empty to leave it open)", default="", show_default=False, err=True))
+
+    return ask

@@ -1,0 +1,382 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Inspect, check, calibrate or weigh, evaluate, report, export; a stage stops it where the rest would mislead."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib.metadata import version
+from pathlib import Path
+from time import monotonic
+
+from forcetorque.app.run.result import Stage, StageName, WholeRun
+from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError
+from forcetorque.base.output_file import refuse_output
+from forcetorque.base.toml_file import toml_content
+from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, calibrate_for_file
+from forcetorque.calibration.export.export import export_icub_matrix, export_table
+from forcetorque.calibration.joint.calibrate import calibration_file
+from forcetorque.evaluation.evaluation import Evaluation, validation_errors
+from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.campaign import Campaign
+from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.inspection.inspect import FindingRow, Inspection, inspected
+from forcetorque.payload.identify import weigh_load
+from forcetorque.payload.load_on_wrist_sensor import wrist_loads
+from forcetorque.payload.load_warnings import contradicted_statements
+from forcetorque.recording.recording import Use
+from forcetorque.report.report import report
+from forcetorque.results.answer import Answer
+from forcetorque.results.result import Result, created_now
+from forcetorque.workbench.calibrate import workbench
+from forcetorque.workbench.recording import read_bench
+
+_WORKBENCH = "forcetorque/bench/"
+"""What names of the schema of workbench files begin with."""
+TABLE = "calibrations.csv"
+"""Name of the file with the matrices of all sensors."""
+_OVERRIDE = 'correct it, or go on with --override "reason"'
+_CHANNELS = 6
+"""Channels of a sensor whose matrix the icub-matrix file holds."""
+
+
+class _StoppedError(Exception):
+    """A stage stopped the way; it is recorded already."""
+
+
+@dataclass(slots=True, kw_only=True)
+class _Way:
+    """What has been done so far."""
+
+    files: Sequence[Path]
+    output: Path
+    override: str | None
+    force: bool
+    progress: Callable[[str], None]
+    stages: list[Stage] = field(default_factory=list)
+    written: list[str] = field(default_factory=list)
+    doubts: list[str] = field(default_factory=list)
+    """What a person overruled, in words for the calibrations."""
+    results: list[Result] = field(default_factory=list)
+    answers: tuple[Answer, ...] = ()
+    uses: tuple[UseVerdict, ...] = ()
+    started: float = field(default_factory=monotonic)
+
+    def begin(self, name: StageName) -> None:
+        """Say what is done next."""
+        self.progress(name)
+        self.started = monotonic()
+
+    def end(self, name: StageName, text: str, *, skipped: bool = False) -> None:
+        """Record a stage that went well."""
+        seconds = monotonic() - self.started
+        self.stages.append(Stage(name=name, outcome="skipped" if skipped else "done", seconds=seconds, text=text))
+        self.progress(f"{name}: {text} ({seconds:.1f} s)")
+
+    def stop(self, name: StageName, text: str, remedy: str, *, for_good: bool = False) -> None:
+        """Record a stage after which the rest would mislead, and stop there unless a person gave a reason to go on."""
+        seconds = monotonic() - self.started
+        goes_on = self.override is not None and not for_good
+        self.stages.append(
+            Stage(
+                name=name,
+                outcome="overridden" if goes_on else "stopped",
+                seconds=seconds,
+                text=text,
+                remedy=remedy if for_good else f"{remedy}; {_OVERRIDE}",
+            )
+        )
+        if not goes_on:
+            raise _StoppedError
+        self.doubts.append(f"kept by override ({self.override}), although {name} said: {text}")
+
+    def result(self) -> WholeRun:
+        """What came out."""
+        return WholeRun(
+            experiment=", ".join(map(str, self.files)),
+            stages=tuple(self.stages),
+            uses=self.uses,
+            files=tuple(self.written),
+            override=self.override,
+            details_of=tuple(self.results),
+            final=self.answers,
+            warnings=tuple(sentence for result in self.results for sentence in result.warnings),
+        )
+
+
+def run(
+    files: Path | str | Sequence[Path | str],
+    output: Path | str,
+    *,
+    sensors: Sequence[str] | None = None,
+    override: str | None = None,
+    with_report: bool = True,
+    force: bool = False,
+    progress: Callable[[str], None] = lambda _: None,
+) -> WholeRun:
+    """Go the whole way with experiment files of the same sensors, or with workbench files.
+
+    What a file holds decides: a workbench file is calibrated by its known loads, an unknown load on a wrist sensor is
+    weighed, and sensors of a robot or with a known load are calibrated and evaluated.
+
+    Args:
+        files: Experiment files (TOML), or workbench files.
+        output: Folder for calibrations, report and exported files; made if it is not there.
+        sensors: Sensors; all of the first file if None.
+        override: Reason to go on where a stage would stop; it is written into the calibrations and the report.
+        with_report: Whether the report is drawn, which takes longest.
+        force: Whether files of an earlier run in the folder may be replaced.
+        progress: Called with a line for people as work goes on, such as `print`.
+
+    Returns:
+        Stages, verdicts and files; `exit_code` sums them up.
+
+    Raises:
+        ExperimentError: If there is no file, or a reason to go on is empty.
+        ForceTorqueError: If a file cannot be read; the message names it.
+    """
+    paths = [Path(files)] if isinstance(files, Path | str) else [Path(one) for one in files]
+    if not paths:
+        raise ExperimentError("run: expected experiment files, got none")
+    if override is not None and not override.strip():
+        raise ExperimentError("override: expected the reason to go on, in words; got an empty one")
+    refuse_a_file_twice(paths)
+    way = _Way(files=paths, output=Path(output), override=override, force=force, progress=progress)
+    try:
+        if all(_is_workbench(path) for path in paths):
+            _by_known_loads(way)
+        else:
+            _of_experiments(way, sensors, with_report=with_report)
+    except _StoppedError:
+        pass
+    return way.result()
+
+
+def _is_workbench(path: Path) -> bool:
+    return str(toml_content(path)[1].get("schema", "")).startswith(_WORKBENCH)
+
+
+def _by_known_loads(way: _Way) -> None:
+    """Calibrate by the known loads of a workbench."""
+    way.begin("workbench")
+    try:
+        result = workbench([read_bench(path) for path in way.files], code_version=_version(), created=created_now())
+    except FitError as error:
+        way.stop("workbench", str(error), "correct the loads or readings", for_good=True)
+        return
+    way.results.append(result)
+    way.answers = tuple(result.answers())
+    if result.faults:
+        faults = "; ".join(fault.sentence for fault in result.faults)
+        way.stop("workbench", f"{len(result.faults)} fault(s) of the bench: {faults}", "correct the bench")
+    if len(result.sensors) == 1:
+        way.output.mkdir(parents=True, exist_ok=True)
+        file = way.output / f"{way.files[0].stem}.json"
+        result.save(file, force=way.force)
+        way.written.append(str(file))
+    way.end("workbench", f"{len(result.sensors)} sensor(s)")
+
+
+def _of_experiments(way: _Way, sensors: Sequence[str] | None, *, with_report: bool) -> None:
+    refuse_output(way.output / TABLE, force=way.force)
+    experiments = {path: load_experiment(path) for path in way.files}
+    first = next(iter(experiments.values()))
+    names = [first.sensor(name).name for name in sensors] if sensors else [sensor.name for sensor in first.sensors]
+    if not names:
+        raise ExperimentError(f"{way.files[0]}: expected a [[sensor]] to calibrate, got none")
+    _inspect(way, experiments)
+    campaigns = {
+        name: Campaign([SensorRun(one, name) for one in experiments.values() if name in _names(one)]) for name in names
+    }
+    _check(way, campaigns)
+    if (loads := wrist_loads(first)) is not None and not loads.are_stated:
+        _weigh(way, campaigns[names[0]])
+        return
+    fitted = _calibrate(way, campaigns)
+    _evaluate(way, campaigns, fitted)
+    fitted = fitted.model_copy(
+        update={"calibrations": tuple(_with_doubts(one, way.doubts) for one in fitted.calibrations)}
+    )
+    saved = fitted.save(force=way.force)
+    way.written += [entry.file for entry in saved.calibrations]
+    if with_report:
+        _report(way, experiments, saved)
+    _export(way, saved)
+
+
+def _names(experiment: Experiment) -> list[str]:
+    return [sensor.name for sensor in experiment.sensors]
+
+
+def _inspect(way: _Way, experiments: Mapping[Path, Experiment]) -> None:
+    """Look for contacts in what is to be fitted."""
+    way.begin("inspect")
+    touched, found = [], 0
+    for path, experiment in experiments.items():
+        inspection = inspected(experiment)
+        way.results.append(inspection)
+        found += sum(answer.verdict != "NOTHING FOUND" for answer in inspection.answers())
+        touched += [f"{path}: {words}" for words in _contacts(experiment, inspection)]
+    if touched:
+        way.stop("inspect", "; ".join(touched), "leave the contact out of the [[interval]], or state it as [[contact]]")
+    else:
+        way.end("inspect", f"{len(experiments)} recording(s), {found} with events outside or inside the intervals")
+
+
+def _contacts(experiment: Experiment, inspection: Inspection) -> Iterator[str]:
+    """Firm contacts in calibration intervals."""
+    start_ns = experiment.recording.start_ns
+    streams = {sensor.stream for sensor in experiment.sensors}
+    for interval in experiment.intervals(Use.CALIBRATION):
+        start, end = ((stamp - start_ns) * 1e-9 for stamp in (interval.start_ns, interval.end_ns))
+        for row in inspection.findings:
+            if row.kind == "contact" and row.stream in streams and _overlaps(row, start, end):
+                yield f"{row.stream} is touched at {row.start_s:.1f}-{row.end_s:.1f} s, in interval {interval.label!r}"
+
+
+def _overlaps(row: FindingRow, start: float, end: float) -> bool:
+    return row.start_s is not None and row.end_s is not None and row.start_s < end and row.end_s >= start
+
+
+def _check(way: _Way, campaigns: Mapping[str, Campaign]) -> None:
+    """Compare frames, senses, clocks and units that the files state with what the readings say."""
+    way.begin("check")
+    contradicted, unchecked = [], []
+    for name, campaign in campaigns.items():
+        for one in campaign.runs:
+            try:
+                contradicted += [f"{name}: {words}" for words in contradicted_statements(one, cautions=False)]
+            except ForceTorqueError as error:
+                unchecked.append(f"{name}: {error}")
+    if contradicted:
+        way.stop("check", "; ".join(dict.fromkeys(contradicted)), "correct what the file states")
+    else:
+        way.end("check", f"{len(campaigns)} sensor(s): nothing contradicts the file{_not_checked(unchecked)}")
+
+
+def _not_checked(unchecked: Sequence[str]) -> str:
+    return f"; not checked: {unchecked[0]}" if unchecked else ""
+
+
+def _weigh(way: _Way, campaign: Campaign) -> None:
+    """Estimate the unknown load of a wrist sensor."""
+    way.begin("payload")
+    try:
+        load = weigh_load(campaign.runs)
+    except FitError as error:
+        way.stop("payload", str(error), "correct the file or record other poses", for_good=True)
+        return
+    way.results.append(load)
+    way.answers = tuple(load.answers())
+    way.end("payload", f"{campaign.sensor.name}: load estimated")
+
+
+def _calibrate(way: _Way, campaigns: Mapping[str, Campaign]) -> SensorCalibrations:
+    """Fit every sensor; those that cannot be fitted are named."""
+    way.begin("calibrate")
+    results, failures = [], []
+    for name, campaign in campaigns.items():
+        way.progress(f"fitting {name}")
+        file = way.output / calibration_file(name, campaign.sensor.serial)
+        try:
+            results.append(calibrate_for_file(campaign, file, code_version=_version(), created=created_now()))
+        except (FitError, ExperimentError) as error:
+            failures.append(f"{name}: {error}")
+    if failures:
+        way.stop("calibrate", "; ".join(failures), "correct the file or the recording", for_good=not results)
+    fitted = SensorCalibrations.together(results)
+    way.results.append(fitted)
+    way.answers = tuple(fitted.answers())
+    if not failures:
+        way.end("calibrate", f"{len(results)} sensor(s)")
+    return fitted
+
+
+def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibrations) -> None:
+    """Evaluate on data that were not fitted; a calibration that must not be used is withheld."""
+    way.begin("evaluate")
+    evaluations: list[Evaluation] = []
+    uses: list[UseVerdict] = []
+    for entry in fitted.calibrations:
+        campaign, named = campaigns[entry.calibration.sensor.name], {entry.file: entry.calibration}
+        uses += (own := use_verdicts(campaign, named))
+        if any(one.has(Use.VALIDATION) for one in campaign.runs):
+            evaluations.append(validation_errors(campaign, named).model_copy(update={"uses": own}))
+    way.uses = tuple(uses)
+    if evaluations:
+        evaluation = Evaluation.together(evaluations)
+        way.results.append(evaluation)
+        way.answers = tuple(evaluation.answers())
+    forbidden = [use for use in uses if use.decision == "do not use"]
+    if forbidden:
+        worst = forbidden[0]
+        remedy = next((reason.remedy for reason in worst.reasons if reason.remedy is not None), "keep the prior matrix")
+        way.stop("evaluate", "; ".join(f"{use.sensor}: {use.sentence}" for use in forbidden), remedy.rstrip("."))
+    elif evaluations:
+        way.end("evaluate", ", ".join(f"{use.sensor}: {use.decision}" for use in uses))
+    else:
+        way.end("evaluate", 'no interval with use = "validation": nothing tests the calibrations', skipped=True)
+
+
+def _with_doubts(entry: SensorCalibration, doubts: Sequence[str]) -> SensorCalibration:
+    calibration = entry.calibration
+    doubted = calibration.model_copy(update={"doubts": (*calibration.doubts, *doubts)})
+    return entry.model_copy(update={"calibration": doubted}) if doubts else entry
+
+
+def _report(way: _Way, experiments: Mapping[Path, Experiment], saved: SensorCalibrations) -> None:
+    way.begin("report")
+    groups: dict[str, Mapping[str, Calibration]] = {
+        entry.calibration.sensor.name: {entry.file: entry.calibration} for entry in saved.calibrations
+    }
+    page, numbers = way.output / "report.html", way.output / "report.numbers.json"
+    shown = [(str(path), experiment) for path, experiment in experiments.items()]
+    try:
+        written = report(
+            shown,
+            [{name: own for name, own in groups.items() if name in _names(one)} for _, one in shown],
+            created=created_now(),
+            code_version=_version(),
+            progress=way.progress,
+        )
+        written.save(page, numbers, force=way.force)
+    except ForceTorqueError as error:  # the answer does not wait for a page, such as where an extra is missing
+        way.end("report", f"not written: {error}", skipped=True)
+        return
+    way.written += [str(page), str(numbers)]
+    way.end("report", str(page))
+
+
+def _export(way: _Way, saved: SensorCalibrations) -> None:
+    """Write matrices as files that robots read: a table of all, and per sensor the file of an iCub's board."""
+    way.begin("export")
+    named = {entry.file: entry.calibration for entry in saved.calibrations}
+    table = way.output / TABLE
+    export_table(named, table, force=way.force)
+    files = [str(table)]
+    for file, calibration in named.items():
+        if _is_of_icub(calibration):
+            matrix = way.output / f"matrix_{calibration.sensor.serial}.txt"
+            export_icub_matrix(file, calibration, matrix, force=way.force)
+            files.append(str(matrix))
+    way.written += files
+    way.end("export", ", ".join(files))
+
+
+def _is_of_icub(calibration: Calibration) -> bool:
+    """Whether the prior came from such a file, as that of an iCub's board is called."""
+    prior = calibration.prior
+    return (
+        prior is not None
+        and calibration.matrix.shape[1] == _CHANNELS
+        and Path(prior.source).name.startswith("matrix_")
+        and calibration.posterior is not None
+    )
+
+
+def _version() -> str:
+    return version("forcetorque")

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque run`: the right stage stops it, the right answer comes out, and exit codes tell which."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import forcetorque
+from forcetorque.app.run.questions import answer_questions, open_questions
+from forcetorque.base.errors import ExperimentError
+from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.workbench.simulated_benches import BenchFaults
+from tests.app.json_schema import faults
+from tests.app.outcome import Run
+from tests.scenes.benches import write_bench
+from tests.scenes.experiments import PARQUET, edit, snapshot, write_experiments
+
+FITTED = "results/arm_ft_SIM001.json"
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The experiment of the small arm in the working folder."""
+    write_experiments(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def shifted(folder: Path, start_s: float, counts: float) -> None:
+    """Add counts to all channels of the arm's sensor from an instant on."""
+    recording = read_recording(folder / "recording")
+    stream = recording.stream("arm_ft")
+    signal = stream.signal("raw")
+    values = signal.values.copy()
+    values[(stream.stamp_ns - recording.start_ns) * 1e-9 >= start_s] += counts
+    moved = replace(stream, signals={**stream.signals, "raw": replace(signal, values=values)})
+    write_recording(folder / "recording", replace(recording, streams={**recording.streams, "arm_ft": moved}))
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_good_log_goes_the_whole_way(run: Run) -> None:
+    """Every stage is done in its order; the files are there, and the verdict is that of `evaluate`."""
+    outcome = run("run", PARQUET, "-o", "results", "--format", "json")
+    result = json.loads(outcome.out)
+    assert faults(result, run("schema", "run").result()) == []
+    assert [stage["name"] for stage in result["stages"]] == [
+        "inspect",
+        "check",
+        "calibrate",
+        "evaluate",
+        "report",
+        "export",
+    ]
+    assert {stage["outcome"] for stage in result["stages"]} == {"done"}
+    assert all(Path(file).is_file() for file in result["files"])
+    uses = run("evaluate", PARQUET, "-c", FITTED, "--format", "json").result()["uses"]
+    assert [use["decision"] for use in result["uses"]] == [use["decision"] for use in uses]
+    assert outcome.code == (0 if all(use["decision"] == "use" for use in uses) else 1)
+
+
+@pytest.mark.usefixtures("folder")
+def test_people_read_the_verdict_first(run: Run) -> None:
+    """The first line has the sensor and the verdict of `evaluate`, a later one the files; tables wait for --details."""
+    short = run("run", PARQUET, "-o", "results", "--no-report").out.splitlines()
+    first = run("evaluate", PARQUET, "-c", FITTED).out.splitlines()[0]
+    assert short[0].split("  ")[-1] == first.split("  ")[-1]
+    assert any("calibrations.csv" in line for line in short)
+    assert len(short) <= 12
+    assert "calibrations.csv" in run("run", PARQUET, "-o", "results", "--no-report").error()  # is there already
+    assert "stage" in run("run", PARQUET, "-o", "results", "--no-report", "--force", "--details").out
+
+
+def test_a_contact_in_the_fitted_interval_stops_it(folder: Path, run: Run) -> None:
+    """Nothing is written and exit code 3 tells; a reason goes on, and stands in calibration and report."""
+    shifted(folder, 6.0, 0.0)
+    recording = read_recording(folder / "recording")
+    stream = recording.stream("arm_ft")
+    signal, seconds = stream.signal("raw"), (stream.stamp_ns - recording.start_ns) * 1e-9
+    touched = signal.values.copy()
+    touched[(seconds > 6.0) & (seconds < 9.0)] *= 0.3  # most of the weight rests on something
+    moved = replace(stream, signals={**stream.signals, "raw": replace(signal, values=touched)})
+    write_recording(folder / "recording", replace(recording, streams={**recording.streams, "arm_ft": moved}))
+    before = snapshot(folder)
+    stopped = run("run", PARQUET, "-o", "results")
+    assert stopped.code == 3
+    assert "STOPPED AT INSPECT" in stopped.out.splitlines()[0]
+    assert snapshot(folder) == before
+    went_on = run("run", PARQUET, "-o", "results", "--override", "the table is part of the test", "--format", "json")
+    result = json.loads(went_on.out)
+    assert [stage["outcome"] for stage in result["stages"] if stage["name"] == "inspect"] == ["overridden"]
+    assert result["override"] == "the table is part of the test"
+    assert any("the table is part of the test" in doubt for doubt in read_calibration(Path(FITTED)).doubts)
+    assert "the table is part of the test" in Path("results/report.html").read_text(encoding="utf-8")
+
+
+def test_a_calibration_that_must_not_be_used_is_withheld(folder: Path, run: Run) -> None:
+    """Data that were not fitted are off by a constant: no calibration is written."""
+    shifted(folder, 14.2, 400.0)
+    stopped = run("run", PARQUET, "-o", "results")
+    assert stopped.code == 3
+    assert "STOPPED AT EVALUATE" in stopped.out.splitlines()[0]
+    assert not Path("results").exists()
+
+
+def test_a_sensor_read_in_the_wrong_sense_stops_it(folder: Path, run: Run) -> None:
+    """Calibrate refuses it, and so does the whole way, even with a reason to go on."""
+    edit(folder / PARQUET, "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [0.0, 0.0, 1.0]")
+    stopped = run("run", PARQUET, "-o", "results")
+    assert stopped.code == 3
+    assert not Path("results").exists()
+
+
+def test_a_log_without_a_file_asks_its_questions(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are listed with exit code 4; answered one by one they end in the same way as a file that was written."""
+    monkeypatch.chdir(tmp_path)
+    rows = "\n".join(f"{0.01 * k:.2f},{k % 7},{k % 5},{k % 3},{k % 2},1,2" for k in range(200))
+    Path("log.csv").write_text(f"time,fx,fy,fz,tx,ty,tz\n{rows}\n", encoding="utf-8")
+    stopped = run("run", "log.csv", "-o", "results", "--no-input", "--format", "json")
+    questions = json.loads(stopped.out)["questions"]
+    assert stopped.code == 4
+    file = Path("results/experiment.toml")
+    assert len(questions) == len(open_questions(file)) > 1
+    asked: list[str] = []
+
+    def answer(question: str) -> str:
+        asked.append(question)
+        return "" if len(asked) == 1 else "SN1"
+
+    assert not answer_questions(file, answer)
+    assert len(asked) == len(questions)
+    assert len(open_questions(file)) == 1
+    assert answer_questions(file, lambda _: "[1, 2]")
+    assert open_questions(file) == ()
+    assert "[1, 2]" in file.read_text(encoding="utf-8")
+
+
+def test_known_loads_of_a_workbench(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A sound bench gives a calibration; swapped weights stop it."""
+    monkeypatch.chdir(tmp_path)
+    file, _ = write_bench(tmp_path)
+    good = run("run", file, "-o", "results", "--format", "json")
+    assert [stage["outcome"] for stage in json.loads(good.out)["stages"]] == ["done"]
+    assert read_calibration(Path(json.loads(good.out)["files"][0])).sensor.serial == "SIM001"
+    bad = tmp_path / "bad"
+    bad.mkdir()
+    swapped, _ = write_bench(bad, faults=BenchFaults(swapped=(3, 12)))
+    stopped = run("run", swapped, "-o", "other")
+    assert stopped.code == 3
+    assert not Path("other").exists()
+
+
+@pytest.mark.usefixtures("folder")
+def test_from_python() -> None:
+    """One line, with the same result; an empty reason is refused."""
+    result = forcetorque.run(PARQUET, "results", with_report=False)
+    assert result.stopped is None
+    assert Path(FITTED).is_file()
+    with pytest.raises(ExperimentError, match="expected the reason to go on"):
+        forcetorque.run(PARQUET, "results", override=" ")
