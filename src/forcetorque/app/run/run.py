@@ -10,8 +10,7 @@ from pathlib import Path
 from time import monotonic
 
 from forcetorque.app.run.result import Stage, StageName, WholeRun
-from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError
-from forcetorque.base.output_file import refuse_output
+from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, OutputError
 from forcetorque.base.toml_file import toml_content
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, calibrate_for_file
 from forcetorque.calibration.export.export import export_icub_matrix, export_table
@@ -182,7 +181,8 @@ def _by_known_loads(way: _Way) -> None:
 
 
 def _of_experiments(way: _Way, sensors: Sequence[str] | None, *, with_report: bool) -> None:
-    refuse_output(way.output / TABLE, force=way.force)
+    if (table := way.output / TABLE).exists() and not way.force:
+        raise OutputError(f"{table}: an earlier run wrote it; name another folder, or replace its files by --force")
     experiments = {path: load_experiment(path) for path in way.files}
     first = next(iter(experiments.values()))
     names = [first.sensor(name).name for name in sensors] if sensors else [sensor.name for sensor in first.sensors]
