@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import sys
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Final
 
 import typer
 
@@ -12,6 +13,7 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.run_files import files_of_one_run
 from forcetorque.results.capability import all_named, named
 from forcetorque.results.terminal.command import command_function
+from forcetorque.results.terminal.help import WholeSentences
 from forcetorque.results.terminal.output import report_error, spell_missing_letters
 
 _NAME = "forcetorque"
@@ -22,12 +24,53 @@ _TOP = (
     "forcetorque.viewer.command:view",
 )
 """Commands that are of no capability."""
+PANELS: Final[Mapping[str, tuple[str, ...]]] = {
+    "Everything at once": ("run",),
+    "Begin": ("init", "inspect"),
+    "Calibrate": ("calibrate", "payload", "tare"),
+    "Evaluate": ("evaluate", "accept", "plan", "report", "view"),
+    "Use": ("export", "estimate"),
+    "More": ("bench", "robot", "skin", "study", "simulate", "schema"),
+}
+"""Commands and groups in the order of work, as the help shows them."""
+GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
+    "bench": (
+        "Known loads, temperature, frequency response, gains and offset of sensors, on a bench.",
+        {name: name for name in ("workbench", "thermal", "response", "gains", "device", "contest")},
+    ),
+    "robot": (
+        "Feet, net force, motion and torque loops of a robot.",
+        {name: name for name in ("balance", "coherence", "motion", "torque-loop")},
+    ),
+    "study": (
+        "Compare estimation types, trials and sensors.",
+        {"fits": "study"} | {name: name for name in ("sphere", "compare", "validate")},
+    ),
+}
+"""Help of every group, and its commands with the names that their functions have."""
 
 
-def _commands() -> dict[str, str]:
-    """Where commands and groups of them are, by the words of the command line."""
+def commands() -> dict[str, str]:
+    """Say where the commands are.
+
+    Returns:
+        References by what is typed, such as `evaluate` or `bench thermal`; a group that a capability makes by itself,
+        such as `skin`, is one entry.
+    """
     every = dict(all_named("commands")) | {reference.partition(":")[2]: reference for reference in _TOP}
-    return {name.replace("_", "-"): every[name] for name in sorted(every)}
+    by_name = {name.replace("_", "-"): reference for name, reference in every.items()}
+    grouped = {
+        f"{group} {name}": by_name.pop(function)
+        for group, (_, members) in GROUPS.items()
+        for name, function in members.items()
+    }
+    return dict(sorted((by_name | grouped).items()))
+
+
+class _ByPanels(WholeSentences):
+    """The program, in the order of work."""
+
+    panels = PANELS
 
 
 def _add(program: typer.Typer, name: str, reference: str) -> None:
@@ -38,16 +81,29 @@ def _add(program: typer.Typer, name: str, reference: str) -> None:
         program.command(name)(command_function(found))
 
 
+def _add_group(program: typer.Typer, group: str, members: Mapping[str, str]) -> None:
+    added = typer.Typer(
+        name=group, cls=WholeSentences, help=GROUPS[group][0], no_args_is_help=True, rich_markup_mode=None
+    )
+    for name, reference in members.items():
+        _add(added, name, reference)
+    added.callback()(_no_options)
+    program.add_typer(added)
+
+
 def _program(first: list[str]) -> typer.Typer:
     """The program with the one command that is asked for: importing the others takes longer."""
     # options of the program itself stand before a command, so with a command first there are none
-    name = next(iter(first), "")
-    reference = _commands().get(name)
-    if reference is None:
+    known = commands()
+    name, both = next(iter(first), ""), " ".join(first[:2])
+    if name not in known and both not in known:
         return whole_program()
     one = typer.Typer(name=_NAME, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
     one.callback(add_help_option=False)(_no_options)
-    _add(one, name, reference)
+    if name in known:
+        _add(one, name, known[name])
+    else:
+        _add_group(one, name, {first[1]: known[both]})
     return one
 
 
@@ -59,14 +115,19 @@ def whole_program() -> typer.Typer:
     """
     program = typer.Typer(
         name=_NAME,
+        cls=_ByPanels,
         help="Calibrate force-torque sensors where they are mounted, and say how far to trust them.",
         no_args_is_help=True,
         pretty_exceptions_enable=False,
         rich_markup_mode=None,
     )
     program.callback(invoke_without_command=True)(_version)
-    for name, reference in _commands().items():
-        _add(program, name, reference)
+    known = commands()
+    for name, reference in known.items():
+        if " " not in name:
+            _add(program, name, reference)
+    for group, (_, members) in GROUPS.items():
+        _add_group(program, group, {name: known[f"{group} {name}"] for name in members})
     return program
 
 
@@ -89,7 +150,7 @@ def main() -> None:
     spell_missing_letters()
     try:
         with files_of_one_run():
-            _program(sys.argv[1:2])()
+            _program(sys.argv[1:3])()
     except (ForceTorqueError, OSError) as error:
         report_error(error)
         raise SystemExit(2) from None

@@ -8,6 +8,7 @@ import typer
 
 from forcetorque.results.command import Drawing, Option, Saved, command
 from forcetorque.results.terminal.command import command_function
+from forcetorque.results.terminal.help import WholeSentences
 
 if TYPE_CHECKING:
     from forcetorque.skin.experiment import PatchExperiment
@@ -179,6 +180,7 @@ def skin_wrench(
 
 skin = typer.Typer(
     name="skin",
+    cls=WholeSentences,
     help="Check, calibrate and use patches of artificial skin.",
     no_args_is_help=True,
     rich_markup_mode=None,
