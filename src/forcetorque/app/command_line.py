@@ -18,6 +18,7 @@ from forcetorque.results.terminal.output import report_error, spell_missing_lett
 
 _NAME = "forcetorque"
 _TOP = (
+    "forcetorque.app.demo:demo",
     "forcetorque.app.run.command:run",
     "forcetorque.app.schema_command:schema",
     "forcetorque.report.command:report",
@@ -25,7 +26,7 @@ _TOP = (
 )
 """Commands that are of no capability."""
 PANELS: Final[Mapping[str, tuple[str, ...]]] = {
-    "Everything at once": ("run",),
+    "Everything at once": ("run", "demo"),
     "Begin": ("init", "inspect"),
     "Calibrate": ("calibrate", "payload", "tare"),
     "Evaluate": ("evaluate", "accept", "plan", "report", "view"),
