@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from forcetorque.evaluation.load_cases.validation_evidence import PriorComparison
 from forcetorque.evaluation.load_cases.verdict import (
-    ADD_VALIDATION,
+    ADVICE_BY_SOURCE,
     CORRECT_DATA,
     KEEP_PRIOR,
     LOOK_FOR_CAUSE,
@@ -119,14 +119,12 @@ def _measured(row: CandidateErrors, compared: Sequence[PriorComparison]) -> Iter
 def _step(use: UseVerdict) -> tuple[str, str]:
     """What to do next, and the command for it."""
     remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
-    calibration = f"-c {use.candidate}"
     if remedy is None:
         return "export the matrix to the robot", f"export {use.candidate} --to csv -o {use.sensor}.csv"
     if remedy in (LOOK_FOR_CAUSE, KEEP_PRIOR, CORRECT_DATA):
         return remedy, f"inspect {EXPERIMENT}"
-    if remedy == ADD_VALIDATION:
-        return remedy, ""
-    return remedy, f"plan {EXPERIMENT} {calibration}"
+    records = any(ADVICE_BY_SOURCE[source] in remedy for source in ("matrix", "model"))
+    return remedy, f"plan {EXPERIMENT} -c {use.candidate}" if records else ""
 
 
 def _mean(value: float, half_width: float | None, unit: str) -> str:

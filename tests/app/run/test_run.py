@@ -154,6 +154,19 @@ def test_known_loads_of_a_workbench(tmp_path: Path, run: Run, monkeypatch: pytes
     assert not Path("other").exists()
 
 
+def test_recordings_of_one_use_each_go_together(folder: Path, run: Run) -> None:
+    """One file is fitted and the other evaluates, in either order; without one to fit it is said."""
+    text = (folder / PARQUET).read_text(encoding="utf-8")
+    head, fit, judge = text.split("[[interval]]")
+    Path("fit.toml").write_text(f"{head}[[interval]]{fit}", encoding="utf-8")
+    Path("judge.toml").write_text(f"{head}[[interval]]{judge}".replace("small arm", "again"), encoding="utf-8")
+    result = json.loads(run("run", "judge.toml", "fit.toml", "-o", "results", "--no-report", "--format", "json").out)
+    assert [stage["outcome"] for stage in result["stages"]] == ["done"] * 5
+    lonely = run("run", "judge.toml", "-o", "other", "--no-report")
+    assert 'use = "calibration"' in lonely.err + lonely.out
+    assert lonely.code in (2, 3)
+
+
 @pytest.mark.usefixtures("folder")
 def test_from_python() -> None:
     """One line, with the same result; an empty reason is refused."""

@@ -231,7 +231,7 @@ def _contacts(experiment: Experiment, inspection: Inspection) -> Iterator[str]:
     """Firm contacts in calibration intervals."""
     start_ns = experiment.recording.start_ns
     streams = {sensor.stream for sensor in experiment.sensors}
-    for interval in experiment.intervals(Use.CALIBRATION):
+    for interval in (one for one in experiment.recording.intervals if one.use is Use.CALIBRATION):
         start, end = ((stamp - start_ns) * 1e-9 for stamp in (interval.start_ns, interval.end_ns))
         for row in inspection.findings:
             if row.kind == "contact" and row.stream in streams and _overlaps(row, start, end):
@@ -266,7 +266,7 @@ def _weigh(way: _Way, campaign: Campaign) -> None:
     """Estimate the unknown load of a wrist sensor."""
     way.begin("payload")
     try:
-        load = weigh_load(campaign.runs)
+        load = weigh_load(Campaign(campaign.runs_with(Use.CALIBRATION)))
     except FitError as error:
         way.stop("payload", str(error), "correct the file or record other poses", for_good=True)
         return
@@ -283,7 +283,8 @@ def _calibrate(way: _Way, campaigns: Mapping[str, Campaign]) -> SensorCalibratio
         way.progress(f"fitting {name}")
         file = way.output / calibration_file(name, campaign.sensor.serial)
         try:
-            results.append(calibrate_for_file(campaign, file, code_version=_version(), created=created_now()))
+            fitted_runs = Campaign(campaign.runs_with(Use.CALIBRATION))
+            results.append(calibrate_for_file(fitted_runs, file, code_version=_version(), created=created_now()))
         except (FitError, ExperimentError) as error:
             failures.append(f"{name}: {error}")
     if failures:

@@ -170,7 +170,7 @@ TARE: Final = 'Tare the sensor before use, and state offset = "tared" in [[load_
 """About a constant error."""
 FIT_GENERATIVE: Final = "Calibrate by the generative model, whose calibrations know their errors at any load."
 """About a calibration without a covariance."""
-_BY_SOURCE: Final[dict[ErrorSource, str]] = {
+ADVICE_BY_SOURCE: Final[dict[ErrorSource, str]] = {
     "matrix": "the matrix: record more and larger loads, like those of the use, and calibrate again.",
     "offset": 'the offset: tare the sensor before use and state offset = "tared" in [[load_case]], or record loads '
     "that are known better.",
@@ -179,6 +179,7 @@ _BY_SOURCE: Final[dict[ErrorSource, str]] = {
     "tolerance), or record other postures and loads.",
     "noise": "noise, which no recording lowers: average readings over more than a second, or allow more.",
 }
+"""What lowers an error, by its largest source."""
 
 
 def error_reduction_advice(after: PredictedError, allowed: tuple[float, float]) -> str:
@@ -193,9 +194,9 @@ def error_reduction_advice(after: PredictedError, allowed: tuple[float, float]) 
     """
     force, moment = allowed
     worst = after.force if after.force.at_most / force >= after.moment.at_most / moment else after.moment
-    shares = {source: worst.sources[source] for source in _BY_SOURCE}
+    shares = {source: worst.sources[source] for source in ADVICE_BY_SOURCE}
     quantity = "force" if worst is after.force else "moment"
-    return f"Most of the {quantity} error comes from {_BY_SOURCE[max(shares, key=shares.__getitem__)]}"
+    return f"Most of the {quantity} error comes from {ADVICE_BY_SOURCE[max(shares, key=shares.__getitem__)]}"
 
 
 FEWEST_S: Final = 5
