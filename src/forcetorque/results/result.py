@@ -14,7 +14,7 @@ from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field
 
-from forcetorque.base.errors import ShapeError
+from forcetorque.base.errors import MissingExtraError, ShapeError
 from forcetorque.results.answer import Answer, answer_text
 from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.results.table_rendering import html_lines, html_table, html_text, html_warnings, table_text, wrapped
@@ -105,6 +105,21 @@ class Result(Row):
             none.
         """
         return list(dict.fromkeys(name for record in self.records() for name in record))
+
+    def to_pandas(self) -> Any:
+        """Give the records as a table of pandas.
+
+        Returns:
+            `pandas.DataFrame` with a line per record.
+
+        Raises:
+            MissingExtraError: If pandas is not installed.
+        """
+        try:
+            pandas = import_module("pandas")
+        except ImportError:
+            raise MissingExtraError("to_pandas needs pandas: pip install pandas") from None
+        return pandas.DataFrame(self.records(), columns=self.columns())
 
     def text(self, width: int = NOTEBOOK_WIDTH) -> str:
         """Write the result as text for people: the answer, and the details.

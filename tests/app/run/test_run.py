@@ -173,5 +173,8 @@ def test_from_python() -> None:
     result = forcetorque.run(PARQUET, "results", with_report=False)
     assert result.stopped is None
     assert Path(FITTED).is_file()
+    again = forcetorque.load_experiment(PARQUET).run("again", with_report=False)
+    assert [stage.name for stage in again.stages] == [stage.name for stage in result.stages]
+    assert [use.sentence for use in again.uses] == [use.sentence for use in result.uses]
     with pytest.raises(ExperimentError, match="expected the reason to go on"):
         forcetorque.run(PARQUET, "results", override=" ")

@@ -49,7 +49,7 @@ def run(
 
     Example: forcetorque run experiment.toml -o results
 
-    Python: `forcetorque.run("experiment.toml", "results")`
+    Python: `experiment.run("results")`, of files `forcetorque.run("experiment.toml", "results")`
     """
     from forcetorque.app.run.run import run as go
 

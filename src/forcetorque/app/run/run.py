@@ -34,6 +34,8 @@ from forcetorque.results.result import Result, created_now
 from forcetorque.workbench.calibrate import workbench
 from forcetorque.workbench.recording import read_bench
 
+Source = Path | str | Experiment
+"""An experiment file, or an experiment that is read already."""
 _WORKBENCH = "forcetorque/bench/"
 """What names of the schema of workbench files begin with."""
 TABLE = "calibrations.csv"
@@ -108,7 +110,7 @@ class _Way:
 
 
 def run(
-    files: Path | str | Sequence[Path | str],
+    files: Source | Sequence[Source],
     output: Path | str,
     *,
     sensors: Sequence[str] | None = None,
@@ -123,7 +125,7 @@ def run(
     weighed, and sensors of a robot or with a known load are calibrated and evaluated.
 
     Args:
-        files: Experiment files (TOML), or workbench files.
+        files: Experiment files (TOML), experiments that are read already, or workbench files.
         output: Folder for calibrations, report and exported files; made if it is not there.
         sensors: Sensors; all of the first file if None.
         override: Reason to go on where a stage would stop; it is written into the calibrations and the report.
@@ -138,7 +140,8 @@ def run(
         ExperimentError: If there is no file, or a reason to go on is empty.
         ForceTorqueError: If a file cannot be read; the message names it.
     """
-    paths = [Path(files)] if isinstance(files, Path | str) else [Path(one) for one in files]
+    sources = [files] if isinstance(files, Path | str | Experiment) else list(files)
+    paths = [one.file if isinstance(one, Experiment) else Path(one) for one in sources]
     if not paths:
         raise ExperimentError("run: expected experiment files, got none")
     if override is not None and not override.strip():
@@ -146,10 +149,14 @@ def run(
     refuse_a_file_twice(paths)
     way = _Way(files=paths, output=Path(output), override=override, force=force, progress=progress)
     try:
-        if all(_is_workbench(path) for path in paths):
+        if not any(isinstance(one, Experiment) for one in sources) and all(map(_is_workbench, paths)):
             _by_known_loads(way)
         else:
-            _of_experiments(way, sensors, with_report=with_report)
+            read = {
+                path: one if isinstance(one, Experiment) else load_experiment(path)
+                for path, one in zip(paths, sources, strict=True)
+            }
+            _of_experiments(way, read, sensors, with_report=with_report)
     except _StoppedError:
         pass
     return way.result()
@@ -180,10 +187,11 @@ def _by_known_loads(way: _Way) -> None:
     way.end("workbench", f"{len(result.sensors)} sensor(s)")
 
 
-def _of_experiments(way: _Way, sensors: Sequence[str] | None, *, with_report: bool) -> None:
+def _of_experiments(
+    way: _Way, experiments: Mapping[Path, Experiment], sensors: Sequence[str] | None, *, with_report: bool
+) -> None:
     if (table := way.output / TABLE).exists() and not way.force:
         raise OutputError(f"{table}: an earlier run wrote it; name another folder, or replace its files by --force")
-    experiments = {path: load_experiment(path) for path in way.files}
     first = next(iter(experiments.values()))
     names = [first.sensor(name).name for name in sensors] if sensors else [sensor.name for sensor in first.sensors]
     if not names:
