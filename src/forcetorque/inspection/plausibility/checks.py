@@ -9,8 +9,10 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
-from forcetorque.calibration.plausibility.reversed_sense_and_gain import (
+from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
+from forcetorque.experiment.calibration.sensor_model import is_invertible
+from forcetorque.inspection.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
+from forcetorque.inspection.plausibility.reversed_sense_and_gain import (
     axis_doubts,
     require_moment_unit,
     require_moving_load,
@@ -19,9 +21,7 @@ from forcetorque.calibration.plausibility.reversed_sense_and_gain import (
     scale_doubts,
     span_doubts,
 )
-from forcetorque.calibration.plausibility.timing import delay_doubts, require_gauges
-from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
-from forcetorque.experiment.calibration.sensor_model import is_invertible
+from forcetorque.inspection.plausibility.timing import delay_doubts, require_gauges
 
 _FEWEST = 20
 """Samples below which six components of a reference explain any reading."""
