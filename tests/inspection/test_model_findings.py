@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.inspection.findings import model_findings
+from forcetorque.inspection.residual_findings import model_findings
 from forcetorque.recording.recording import Finding
 
 RATE = 100.0

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts of a free limb, steps, intervals off level, and outliers of a sensor, beside its expected wrench.
+
+The residual is measurement minus expectation, less its median over the samples that are in use. A running median of
+half a second takes vibration out and keeps steps sharp. The limit is a tenth of the load of the limb on the sensor, or
+four times the usual scatter if that is more: heuristics, chosen so that a log of a laboratory gives few and useful
+findings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.errors import ShapeError
+from forcetorque.base.units import MAD_TO_DEVIATION
+from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.recording.recording import Finding
+from forcetorque.recording.stream_faults import true_runs
+
+LOAD_SHARE = 0.1
+"""Least residual of a finding, as a share of the load of the limb."""
+FIRM_SHARE = 0.5
+"""Least share of the weight of the limb that a certain contact carries at its peak."""
+SCATTERS = 4.0
+"""Least residual of a finding, in robust standard deviations of the smoothed residual."""
+CONTACT_SCATTERS = 3.0
+"""Least lifting force of a contact, in robust standard deviations."""
+OUTLIER_SCATTERS = 12.0
+"""Least deviation of an outlier from the smoothed residual, in robust standard deviations."""
+
+_SMOOTH_S, _LEVEL_S, _EDGE_S, _MERGE_S, _SHORTEST_S = 0.5, 1.0, 0.25, 1.0, 0.5
+_LONGEST_OUTLIER = 3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Residual:
+    stream: str
+    stamp_ns: IntArray
+    rate_hz: float
+    values: FloatArray
+    smooth: FloatArray
+    limit: FloatArray
+    least: FloatArray
+    in_use: BoolArray
+
+    def samples(self, seconds: float) -> int:
+        return max(1, round(seconds * self.rate_hz))
+
+    def finding(self, kind: str, message: str, first: int, last: int, axis: int | None, size: float) -> Finding:
+        return Finding(
+            stream=self.stream,
+            kind=kind,
+            message=message,
+            count=last - first + 1,
+            start_ns=int(self.stamp_ns[first]),
+            end_ns=int(self.stamp_ns[last]),
+            channel=None if axis is None else WRENCH_COMPONENTS[axis],
+            size=size,
+            unit="N" if axis is None else WRENCH_UNITS[axis],
+        )
+
+
+def model_findings(
+    stream: str, stamp_ns: IntArray, measured: FloatArray, expected: FloatArray, *, in_use: BoolArray
+) -> tuple[Finding, ...]:
+    """Compare the measurements of a sensor, whose distal links should be free, with the expected wrench.
+
+    Args:
+        stream: Name of the sensor's stream, for the findings.
+        stamp_ns: Increasing instants; shape (n,); ns.
+        measured: Measured wrenches, offset not removed; shape (n, 6); N, N m.
+        expected: Expected wrenches; shape (n, 6); N, N m.
+        in_use: Samples of intervals in use, which define level and scatter; shape (n,).
+
+    Returns:
+        Findings of the kinds `contact` and `light_contact` (something carries part of the limb's
+        weight), `step`, `off_level` and `outlier`; each with its time and size.
+
+    Raises:
+        ShapeError: If the shapes differ or no sample is in use.
+    """
+    if measured.shape != expected.shape or measured.shape != (len(stamp_ns), 6) or not in_use.any():
+        raise ShapeError(
+            f"expected readings and references of one shape (n, 6) and some samples in use, "
+            f"got {measured.shape}, {expected.shape} and {np.count_nonzero(in_use)} in use"
+        )
+    residual = _residual(stream, stamp_ns, measured, expected, in_use)
+    carried, weight = _carried(residual, expected), np.linalg.norm(expected[:, :3], axis=1)
+    usual = CONTACT_SCATTERS * MAD_TO_DEVIATION * float(np.median(np.abs(carried[in_use])))
+    contacts = _merged(residual, carried > np.maximum(LOAD_SHARE * weight, usual))
+    free = np.ones(len(stamp_ns), dtype=bool)
+    for first, last in contacts:
+        # a light contact may as well be a step of the sensor: its axes are then reported too
+        free[first : last + 1] &= not _is_firm(residual, expected, first, last)
+    return (
+        *_contact_findings(residual, contacts, expected),
+        *_off_level(residual, free),
+        *_steps(residual, free),
+        *_outliers(residual, free),
+    )
+
+
+def _residual(
+    stream: str, stamp_ns: IntArray, measured: FloatArray, expected: FloatArray, in_use: BoolArray
+) -> _Residual:
+    from scipy.ndimage import median_filter  # here because importing it takes longer than most commands
+
+    values = measured - expected
+    values = values - np.median(values[in_use], axis=0)
+    rate_hz = 1e9 / float(np.median(np.diff(stamp_ns))) if len(stamp_ns) > 1 else 1.0
+    size = max(1, round(_SMOOTH_S * rate_hz))
+    smooth: FloatArray = median_filter(values, size=(size, 1), mode="nearest")
+    scatter = MAD_TO_DEVIATION * np.median(np.abs(smooth[in_use]), axis=0)
+    load = np.repeat([np.percentile(np.linalg.norm(expected[:, part], axis=1), 95) for part in FORCE_AND_MOMENT], 3)
+    return _Residual(
+        stream=stream,
+        stamp_ns=stamp_ns,
+        rate_hz=rate_hz,
+        values=values,
+        smooth=smooth,
+        limit=np.maximum(LOAD_SHARE * load, SCATTERS * scatter),
+        least=LOAD_SHARE * load,
+        in_use=in_use,
+    )
+
+
+def _carried(residual: _Residual, expected: FloatArray) -> FloatArray:
+    """Force that lifts the limb, against the expected weight; shape (n,); N."""
+    weight = np.linalg.norm(expected[:, :3], axis=1)
+    along = np.einsum("ij,ij->i", residual.smooth[:, :3], expected[:, :3])
+    return np.divide(-along, weight, out=np.zeros_like(along), where=weight > 0.0)
+
+
+def _merged(residual: _Residual, mask: BoolArray) -> list[tuple[int, int]]:
+    """Runs of true values, joined across short pauses, without short ones."""
+    joined: list[tuple[int, int]] = []
+    for first, last in true_runs(mask):
+        if joined and residual.stamp_ns[first] - residual.stamp_ns[joined[-1][1]] < _MERGE_S * 1e9:
+            joined[-1] = (joined[-1][0], last)
+        else:
+            joined.append((first, last))
+    shortest = residual.samples(_SHORTEST_S)
+    return [(first, last) for first, last in joined if last - first + 1 >= shortest]
+
+
+def _is_firm(residual: _Residual, expected: FloatArray, first: int, last: int) -> bool:
+    part = slice(first, last + 1)
+    weight = np.linalg.norm(expected[part, :3], axis=1)
+    return bool((_carried(residual, expected)[part] > FIRM_SHARE * weight).any())
+
+
+def _contact_findings(residual: _Residual, contacts: Sequence[tuple[int, int]], expected: FloatArray) -> list[Finding]:
+    carried = _carried(residual, expected)
+    findings = []
+    for first, last in contacts:
+        largest = float(carried[first : last + 1].max())
+        if _is_firm(residual, expected, first, last):
+            kind, text = "contact", "the limb touches something, which carries part of its weight"
+        else:
+            kind, text = "light_contact", "the limb is lifted a little: a light contact, or a step of the sensor"
+        findings.append(residual.finding(kind, text, first, last, None, largest))
+    return findings
+
+
+def _off_level(residual: _Residual, free: BoolArray) -> list[Finding]:
+    findings = []
+    for axis, name in enumerate(WRENCH_COMPONENTS):
+        far = (np.abs(residual.smooth[:, axis]) > residual.limit[axis]) & free
+        for first, last in _merged(residual, far):
+            level = float(np.median(residual.values[first : last + 1, axis]))
+            text = f"{name} is off the level of the samples in use"
+            findings.append(residual.finding("off_level", text, first, last, axis, level))
+    return findings
+
+
+def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
+    """Differences between the levels of a second before and a second after, each off by a quarter second."""
+    from scipy.ndimage import binary_erosion, median_filter  # here because importing it takes longer than most commands
+
+    width = residual.samples(_LEVEL_S)
+    shift = width // 2 + residual.samples(_EDGE_S)
+    findings: list[Finding] = []
+    if len(free) <= 2 * shift:
+        return findings
+    levels = median_filter(residual.values, size=(width, 1), mode="nearest")
+    away = binary_erosion(
+        free, structure=np.ones(2 * shift + 1, dtype=np.bool_), border_value=1
+    )  # both levels free of contact
+    for axis, name in enumerate(WRENCH_COMPONENTS):
+        change = np.zeros(len(free))
+        change[shift:-shift] = levels[2 * shift :, axis] - levels[: -2 * shift, axis]
+        # a repeated edge sample is no level; and where a wrong prior makes levels wander, only the sudden counts
+        margin = shift + width // 2
+        change[:margin] = change[len(change) - margin :] = 0.0
+        usual = MAD_TO_DEVIATION * float(np.median(np.abs(change[residual.in_use])))
+        limit = max(residual.least[axis], SCATTERS * usual)
+        change[~away] = 0.0
+        while np.abs(change).max() > limit:
+            peak = int(np.argmax(np.abs(change)))
+            at = _steepest(residual, axis, peak, shift, float(np.sign(change[peak])))
+            text = f"{name} steps against the model"
+            findings.append(residual.finding("step", text, at, at, axis, float(change[peak])))
+            change[max(0, peak - 2 * shift) : peak + 2 * shift + 1] = 0.0
+    return sorted(findings, key=lambda finding: finding.start_ns or 0)
+
+
+def _steepest(residual: _Residual, axis: int, peak: int, shift: int, sign: float) -> int:
+    """Index at which the smoothed residual changes fastest near a step."""
+    first, last = max(0, peak - shift), min(len(residual.smooth), peak + shift + 1)
+    part = residual.smooth[first:last, axis]
+    lag = residual.samples(_EDGE_S)
+    if len(part) <= lag:
+        return peak
+    return first + lag // 2 + int(np.argmax(sign * (part[lag:] - part[:-lag])))
+
+
+def _outliers(residual: _Residual, free: BoolArray) -> list[Finding]:
+    quick = residual.values - residual.smooth
+    scatter = MAD_TO_DEVIATION * np.median(np.abs(quick[residual.in_use]), axis=0)
+    findings: list[Finding] = []
+    for axis, name in enumerate(WRENCH_COMPONENTS):
+        limit = max(OUTLIER_SCATTERS * scatter[axis], residual.limit[axis])
+        runs = [run for run in true_runs((np.abs(quick[:, axis]) > limit) & free) if run[1] - run[0] < _LONGEST_OUTLIER]
+        if runs:
+            largest = max(runs, key=lambda run: float(np.abs(quick[run[0], axis])))
+            size = float(quick[largest[0], axis])
+            text = f"{len(runs)} outlier(s) of {name} of at most {_LONGEST_OUTLIER} samples, the largest here"
+            findings.append(residual.finding("outlier", text, *largest, axis, size))
+    return findings
