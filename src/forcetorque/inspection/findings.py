@@ -3,17 +3,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, IntArray
-from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.errors import FitError, ForceTorqueError
+from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sample_quality import sample_quality
+from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.sensor_samples import IntervalSamples
+from forcetorque.inspection.diagnosis import Comparison, compared, diagnosed, fault_finding, stability_of
+from forcetorque.inspection.plausibility.checks import FEWEST, examine
+from forcetorque.inspection.plausibility.hypotheses import Explanation
 from forcetorque.inspection.residual_findings import model_findings
 from forcetorque.recording.recording import Finding, Interval, Recording, Use
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
@@ -25,6 +31,7 @@ _UNRELIABLE = {
     "contact",
     "light_contact",
     "off_level",
+    "drift",
     "step",
     "saturation",
     "frozen",
@@ -47,7 +54,13 @@ def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
     return (*recording.findings, *(f for stream in recording.streams.values() for f in stream_findings(stream)))
 
 
-def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tuple[Finding, ...]:
+def inspect_experiment(
+    experiment: Experiment,
+    *,
+    by_model: bool = True,
+    with_causes: bool = True,
+    calibrations: Mapping[str, Calibration] | None = None,
+) -> tuple[Finding, ...]:
     """Find faults of the recording of an experiment, with its robot and sensors.
 
     The sensors are compared with the model over the whole log where all intervals have one support
@@ -57,6 +70,8 @@ def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tupl
     Args:
         experiment: The experiment.
         by_model: Whether sensors are compared with the model, which has no contact but the support.
+        with_causes: Whether faults of experiment file, URDF and log are looked for, about a second per sensor.
+        calibrations: Calibrations that read the sensors in place of their priors, by the name of the sensor.
 
     Returns:
         Findings in the order of time, those without a time first.
@@ -70,7 +85,8 @@ def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tupl
             text = f"no look for saturation: {error}"
             findings.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
         if by_model:
-            findings += _model_findings(SensorRun(experiment, sensor))
+            calibration = (calibrations or {}).get(sensor.name)
+            findings += _model_findings(SensorRun(experiment, sensor), calibration, with_causes=with_causes)
     return tuple(sorted(findings, key=lambda finding: finding.start_ns or 0))
 
 
@@ -87,7 +103,8 @@ def unreliable_intervals(
     Returns:
         Interval and finding, for findings that make its samples unreliable.
     """
-    findings = [finding for finding in inspect_experiment(experiment, by_model=by_model) if finding.kind in _UNRELIABLE]
+    found = inspect_experiment(experiment, by_model=by_model, with_causes=False)  # a fit checks the causes by itself
+    findings = [finding for finding in found if finding.kind in _UNRELIABLE]
     return tuple(
         (interval, finding)
         for interval in experiment.recording.intervals
@@ -127,11 +144,18 @@ def _saturation(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Findi
     return saturation_findings(stream, counts, limit_counts=sensor.limit_counts, recovered=recovered)
 
 
-def _model_findings(run: SensorRun) -> Iterator[Finding]:
+def _model_findings(run: SensorRun, calibration: Calibration | None, *, with_causes: bool) -> Iterator[Finding]:
     stream = run.sensor.stream
+    if run.sensor.quantity == "raw" and run.sensor.prior is None and calibration is None:
+        return
+    correction = run.read_by(None, calibration).bare
     supported = [interval for interval in run.experiment.recording.intervals if interval.support is not None]
     touched = {interval.label: run.touched_beyond(interval) for interval in supported}
     unknown = [label for label, names in touched.items() if names]
+    fault = None
+    if with_causes and len(unknown) < len(supported):
+        over = [] if unknown else _over_the_whole_log(run.experiment, supported)
+        fault = yield from _causes(run, correction, over[0] if len(over) == 1 else None)
     if unknown:
         names = dict.fromkeys(name for label in unknown for name in touched[label])
         text = (
@@ -142,12 +166,64 @@ def _model_findings(run: SensorRun) -> Iterator[Finding]:
         supported = [interval for interval in supported if interval.label not in unknown]
     else:
         supported = _over_the_whole_log(run.experiment, supported)
+    if fault is not None and not fault.changes_every_instant_alike:
+        return
+    turn = None if fault is None else fault.turn
     for interval in supported:
         try:
-            yield from _against_model(run, interval)
+            yield from _against_model(run, interval, correction, turn)
         except ForceTorqueError as error:
             text = f"no comparison with the model over {interval.label}: {error}"
             yield Finding(stream=stream, kind="not_compared", message=text, count=0)
+
+
+def _causes(
+    run: SensorRun, correction: Correction, whole_log: Interval | None
+) -> Generator[Finding, None, Explanation | None]:
+    """Faults of experiment file, URDF and log, or why there is no test; the best fault is returned."""
+    try:
+        whole = None if whole_log is None else _samples(run, whole_log, correction)
+        comparison = compared(run, correction, whole=whole)
+        diagnosis = None if comparison is None else diagnosed(comparison)
+    except ForceTorqueError:
+        return None  # the comparison of every interval names the reason
+    if comparison is None:
+        return None
+    if diagnosis is None:
+        text = (
+            "sense, gravity, joints, columns, units, mount and delay are not tested: the expected wrench stays the "
+            "same; record the limb while it moves"
+        )
+        yield Finding(stream=run.sensor.stream, kind="not_compared", message=text, count=0)
+        return None
+    if diagnosis.faults:
+        yield fault_finding(comparison, diagnosis)
+        return diagnosis.faults[0]
+    yield from _implausible(run, comparison)
+    return None
+
+
+def _samples(run: SensorRun, interval: Interval, correction: Correction) -> IntervalSamples:
+    return run.interval_samples(interval, variables=correction.variables, smoothed=False)
+
+
+def _implausible(run: SensorRun, comparison: Comparison) -> Iterator[Finding]:
+    """What the plausibility checks of `calibrate` refuse or warn of, without a fault that explains it."""
+    stream = run.sensor.stream
+    data_sets = [
+        part.data_set
+        for part in comparison.parts
+        if part.interval.use is Use.CALIBRATION and not run.possibly_touched(part.interval)
+    ]
+    if sum(len(data.raw) for data in data_sets) < FEWEST:
+        return  # the comparison above had more samples
+    try:
+        doubts = examine(data_sets, run.sensor.prior, run.sensor.full_scale)
+    except FitError as error:
+        yield Finding(stream=stream, kind="implausible", message=f"`calibrate` refuses: {error}", count=0)
+        return
+    for doubt in doubts:
+        yield Finding(stream=stream, kind=f"implausible_{doubt.kind}", message=doubt.message, count=0)
 
 
 def _over_the_whole_log(experiment: Experiment, supported: Sequence[Interval]) -> list[Interval]:
@@ -158,17 +234,23 @@ def _over_the_whole_log(experiment: Experiment, supported: Sequence[Interval]) -
     return [replace(supported[0], label="the whole log", start_ns=start, end_ns=end + 1, use=Use.VALIDATION)]
 
 
-def _against_model(run: SensorRun, interval: Interval) -> tuple[Finding, ...]:
-    sensor, samples = run.sensor, run.interval_samples(interval, smoothed=False).samples
-    measured = samples.reading.values
-    if sensor.quantity == "raw":
-        if sensor.prior is None:
-            return ()
-        measured = measured @ sensor.prior.T
-    in_use = _in_use(run.experiment, samples.stamp_ns)
+def _against_model(
+    run: SensorRun, interval: Interval, correction: Correction, turn: FloatArray | None
+) -> tuple[Finding, ...]:
+    """Findings over an interval, beside a fault that turns or scales the wrench alike at every instant."""
+    part = _samples(run, interval, correction)
+    stamps, expected = part.samples.stamp_ns, part.samples.reference
+    in_use = _in_use(run.experiment, stamps)
     if not in_use.any():
         return ()
-    return model_findings(sensor.stream, samples.stamp_ns, measured, samples.reference, in_use=in_use)
+    return model_findings(
+        run.sensor.stream,
+        stamps,
+        part.readings.wrench(correction),
+        expected if turn is None else expected @ turn.T,
+        in_use=in_use,
+        stability=stability_of(run.sensor),
+    )
 
 
 def _in_use(experiment: Experiment, stamp_ns: IntArray) -> BoolArray:

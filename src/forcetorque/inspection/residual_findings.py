@@ -10,7 +10,7 @@ findings.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -65,7 +65,13 @@ class _Residual:
 
 
 def model_findings(
-    stream: str, stamp_ns: IntArray, measured: FloatArray, expected: FloatArray, *, in_use: BoolArray
+    stream: str,
+    stamp_ns: IntArray,
+    measured: FloatArray,
+    expected: FloatArray,
+    *,
+    in_use: BoolArray,
+    stability: FloatArray | None = None,
 ) -> tuple[Finding, ...]:
     """Compare the measurements of a sensor, whose distal links should be free, with the expected wrench.
 
@@ -75,9 +81,10 @@ def model_findings(
         measured: Measured wrenches, offset not removed; shape (n, 6); N, N m.
         expected: Expected wrenches; shape (n, 6); N, N m.
         in_use: Samples of intervals in use, which define level and scatter; shape (n,).
+        stability: Drift over the log that any sensor of its range has; shape (6,); N, N m; none if None.
 
     Returns:
-        Findings of the kinds `contact` and `light_contact` (something carries part of the limb's
+        Findings of the kinds `drift`, `contact` and `light_contact` (something carries part of the limb's
         weight), `step`, `off_level` and `outlier`; each with its time and size.
 
     Raises:
@@ -89,6 +96,7 @@ def model_findings(
             f"got {measured.shape}, {expected.shape} and {np.count_nonzero(in_use)} in use"
         )
     residual = _residual(stream, stamp_ns, measured, expected, in_use)
+    drifts, residual = _drifts(residual, np.zeros(6) if stability is None else stability)
     carried, weight = _carried(residual, expected), np.linalg.norm(expected[:, :3], axis=1)
     usual = CONTACT_SCATTERS * MAD_TO_DEVIATION * float(np.median(np.abs(carried[in_use])))
     contacts = _merged(residual, carried > np.maximum(LOAD_SHARE * weight, usual))
@@ -97,6 +105,7 @@ def model_findings(
         # a light contact may as well be a step of the sensor: its axes are then reported too
         free[first : last + 1] &= not _is_firm(residual, expected, first, last)
     return (
+        *drifts,
         *_contact_findings(residual, contacts, expected),
         *_off_level(residual, free),
         *_steps(residual, free),
@@ -126,6 +135,49 @@ def _residual(
         least=LOAD_SHARE * load,
         in_use=in_use,
     )
+
+
+_SEGMENTS = 12
+"""Segments of a log whose levels show a drift."""
+_EVEN = 0.8
+"""Share of the variance of these levels that a straight line explains, from which on they drift."""
+_SUDDEN = 0.4
+"""Share of a drift that comes from one segment to the next, from which on it is a step."""
+
+
+def _drifts(residual: _Residual, stability: FloatArray) -> tuple[list[Finding], _Residual]:
+    """Axes whose level moves evenly over the whole log, and the residual without that."""
+    rows = np.flatnonzero(residual.in_use)
+    seconds = (residual.stamp_ns - residual.stamp_ns[0]) * 1e-9
+    if len(rows) < 10 * _SEGMENTS or not np.ptp(seconds) > 0.0:
+        return [], residual
+    segments = np.array_split(rows, _SEGMENTS)
+    levels = np.array([np.median(residual.values[segment], axis=0) for segment in segments])
+    at_s = np.array([np.median(seconds[segment]) for segment in segments])
+    at_s, levels = at_s - at_s.mean(), levels - levels.mean(axis=0)
+    slopes = at_s @ levels / (at_s @ at_s)
+    totals = slopes * float(seconds[-1])
+    is_even = ((levels - np.outer(at_s, slopes)) ** 2).sum(axis=0) < (1.0 - _EVEN) * (levels**2).sum(axis=0)
+    is_slow = np.abs(np.diff(levels, axis=0)).max(axis=0) < _SUDDEN * np.abs(totals)
+    drifting = (np.abs(totals) > np.maximum(residual.least, stability)) & is_even & is_slow
+    if not drifting.any():
+        return [], residual
+    findings = [
+        residual.finding(
+            "drift",
+            f"{WRENCH_COMPONENTS[axis]} drifts evenly over the log, as of a sensor that warms up",
+            0,
+            len(seconds) - 1,
+            int(axis),
+            float(totals[axis]),
+        )
+        for axis in np.flatnonzero(drifting)
+    ]
+    taken = np.outer(seconds - seconds.mean(), np.where(drifting, slopes, 0.0))
+    values, smooth = residual.values - taken, residual.smooth - taken
+    scatter = MAD_TO_DEVIATION * np.median(np.abs(smooth[residual.in_use]), axis=0)
+    limit = np.maximum(residual.least, SCATTERS * scatter)
+    return findings, replace(residual, values=values, smooth=smooth, limit=limit)
 
 
 def _carried(residual: _Residual, expected: FloatArray) -> FloatArray:

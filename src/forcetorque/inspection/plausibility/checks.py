@@ -23,7 +23,7 @@ from forcetorque.inspection.plausibility.reversed_sense_and_gain import (
 )
 from forcetorque.inspection.plausibility.timing import delay_doubts, require_gauges
 
-_FEWEST = 20
+FEWEST = 20
 """Samples below which six components of a reference explain any reading."""
 
 
@@ -60,7 +60,7 @@ def examine(
     if not filled:
         return ()  # the fit itself says what is missing
     usable = [data for data in filled if len(data.raw) > 1]  # one sample has no neighbour
-    if sum(len(data.raw) for data in usable) < _FEWEST:
+    if sum(len(data.raw) for data in usable) < FEWEST:
         require_moving_load(_pooled(filled), setup)
         return (_too_few(sum(len(data.raw) for data in filled)),)
     moments = _pooled(usable)
