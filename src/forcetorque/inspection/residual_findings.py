@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from operator import itemgetter
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.inspection.model_errors import ModelErrors
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream_faults import true_runs
 
@@ -45,6 +47,7 @@ class _Residual:
     smooth: FloatArray
     limit: FloatArray
     least: FloatArray
+    expected: FloatArray
     in_use: BoolArray
 
     def samples(self, seconds: float) -> int:
@@ -97,18 +100,20 @@ def model_findings(
         )
     residual = _residual(stream, stamp_ns, measured, expected, in_use)
     drifts, residual = _drifts(residual, np.zeros(6) if stability is None else stability)
-    carried, weight = _carried(residual, expected), np.linalg.norm(expected[:, :3], axis=1)
+    carried, weight = _carried(residual.smooth, expected), np.linalg.norm(expected[:, :3], axis=1)
     usual = CONTACT_SCATTERS * MAD_TO_DEVIATION * float(np.median(np.abs(carried[in_use])))
-    contacts = _merged(residual, carried > np.maximum(LOAD_SHARE * weight, usual))
+    least = np.maximum(LOAD_SHARE * weight, usual)
+    contacts = _merged(residual, carried > least)
     free = np.ones(len(stamp_ns), dtype=bool)
     for first, last in contacts:
         # a light contact may as well be a step of the sensor: its axes are then reported too
         free[first : last + 1] &= not _is_firm(residual, expected, first, last)
+    errors = ModelErrors(residual=residual.smooth, expected=expected, usable=in_use & free)
     return (
         *drifts,
-        *_contact_findings(residual, contacts, expected),
-        *_off_level(residual, free),
-        *_steps(residual, free),
+        *_contact_findings(residual, contacts, expected, least, errors),
+        *_off_level(residual, free, errors),
+        *_steps(residual, free, errors),
         *_outliers(residual, free),
     )
 
@@ -133,6 +138,7 @@ def _residual(
         smooth=smooth,
         limit=np.maximum(LOAD_SHARE * load, SCATTERS * scatter),
         least=LOAD_SHARE * load,
+        expected=expected,
         in_use=in_use,
     )
 
@@ -180,10 +186,10 @@ def _drifts(residual: _Residual, stability: FloatArray) -> tuple[list[Finding], 
     return findings, replace(residual, values=values, smooth=smooth, limit=limit)
 
 
-def _carried(residual: _Residual, expected: FloatArray) -> FloatArray:
+def _carried(residual: FloatArray, expected: FloatArray) -> FloatArray:
     """Force that lifts the limb, against the expected weight; shape (n,); N."""
     weight = np.linalg.norm(expected[:, :3], axis=1)
-    along = np.einsum("ij,ij->i", residual.smooth[:, :3], expected[:, :3])
+    along = np.einsum("ij,ij->i", residual[:, :3], expected[:, :3])
     return np.divide(-along, weight, out=np.zeros_like(along), where=weight > 0.0)
 
 
@@ -202,34 +208,60 @@ def _merged(residual: _Residual, mask: BoolArray) -> list[tuple[int, int]]:
 def _is_firm(residual: _Residual, expected: FloatArray, first: int, last: int) -> bool:
     part = slice(first, last + 1)
     weight = np.linalg.norm(expected[part, :3], axis=1)
-    return bool((_carried(residual, expected)[part] > FIRM_SHARE * weight).any())
+    return bool((_carried(residual.smooth, expected)[part] > FIRM_SHARE * weight).any())
 
 
-def _contact_findings(residual: _Residual, contacts: Sequence[tuple[int, int]], expected: FloatArray) -> list[Finding]:
-    carried = _carried(residual, expected)
+def _contact_findings(
+    residual: _Residual,
+    contacts: Sequence[tuple[int, int]],
+    expected: FloatArray,
+    least: FloatArray,
+    errors: ModelErrors,
+) -> list[Finding]:
+    carried = _carried(residual.smooth, expected)
     findings = []
     for first, last in contacts:
         largest = float(carried[first : last + 1].max())
         if _is_firm(residual, expected, first, last):
             kind, text = "contact", "the limb touches something, which carries part of its weight"
+        elif errors.explain_level(
+            first,
+            last,
+            lambda values, run=slice(first, last + 1): _carried(values, expected[run]),
+            least[first : last + 1],
+            is_moment=False,
+            margin=residual.samples(_LEVEL_S),
+            shortest=residual.samples(_SHORTEST_S),
+        ):
+            continue
         else:
             kind, text = "light_contact", "the limb is lifted a little: a light contact, or a step of the sensor"
         findings.append(residual.finding(kind, text, first, last, None, largest))
     return findings
 
 
-def _off_level(residual: _Residual, free: BoolArray) -> list[Finding]:
+def _off_level(residual: _Residual, free: BoolArray, errors: ModelErrors) -> list[Finding]:
     findings = []
     for axis, name in enumerate(WRENCH_COMPONENTS):
         far = (np.abs(residual.smooth[:, axis]) > residual.limit[axis]) & free
         for first, last in _merged(residual, far):
+            if errors.explain_level(
+                first,
+                last,
+                itemgetter((slice(None), axis)),
+                np.full(last - first + 1, residual.limit[axis]),
+                is_moment=axis >= 3,
+                margin=residual.samples(_LEVEL_S),
+                shortest=residual.samples(_SHORTEST_S),
+            ):
+                continue
             level = float(np.median(residual.values[first : last + 1, axis]))
             text = f"{name} is off the level of the samples in use"
             findings.append(residual.finding("off_level", text, first, last, axis, level))
     return findings
 
 
-def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
+def _steps(residual: _Residual, free: BoolArray, errors: ModelErrors) -> list[Finding]:
     """Differences between the levels of a second before and a second after, each off by a quarter second."""
     from scipy.ndimage import binary_erosion, median_filter  # here because importing it takes longer than most commands
 
@@ -253,9 +285,11 @@ def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
         change[~away] = 0.0
         while np.abs(change).max() > limit:
             peak = int(np.argmax(np.abs(change)))
-            at = _steepest(residual, axis, peak, shift, float(np.sign(change[peak])))
-            text = f"{name} steps against the model"
-            findings.append(residual.finding("step", text, at, at, axis, float(change[peak])))
+            size, half = float(change[peak]), width // 2
+            before, after = (slice(peak + way * shift - half, peak + way * shift + half + 1) for way in (-1, 1))
+            if not errors.explain_step(size, axis, before, after, limit):
+                at = _steepest(residual, axis, peak, shift, float(np.sign(size)))
+                findings.append(residual.finding("step", f"{name} steps against the model", at, at, axis, size))
             change[max(0, peak - 2 * shift) : peak + 2 * shift + 1] = 0.0
     return sorted(findings, key=lambda finding: finding.start_ns or 0)
 
