@@ -102,6 +102,19 @@ class ModelErrors(ArrayRecord):
         levels = [predicted[own.start - before.start : own.stop - before.start, axis].mean() for own in (before, after)]
         return bool(abs(size - (levels[1] - levels[0])) < limit)
 
+    def beside_load(self) -> FloatArray:
+        """Take out of the residual what follows the expected wrench over the whole log.
+
+        Returns:
+            The rest, for slow changes; shape (n, 6); N, N m.
+        """
+        rows = np.flatnonzero(self.usable)
+        rows = rows[np.unique(np.linspace(0, len(rows) - 1, min(_MOST, len(rows))).round().astype(np.int64))]
+        loads = self.expected[rows]
+        middle, size = loads.mean(axis=0), np.maximum(np.ptp(loads, axis=0), np.finfo(float).tiny)
+        coefficients = _robust_fit(_design(loads, middle, size), self.residual[rows])
+        return self.residual - _design(self.expected, middle, size) @ coefficients
+
     def _predicted(self, first: int, last: int, margin: int) -> FloatArray | None:
         """Residual of an interval by the rest of the log; None where that is short or has no such loads."""
         rest = np.array(self.usable)

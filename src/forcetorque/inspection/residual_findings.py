@@ -99,7 +99,8 @@ def model_findings(
             f"got {measured.shape}, {expected.shape} and {np.count_nonzero(in_use)} in use"
         )
     residual = _residual(stream, stamp_ns, measured, expected, in_use)
-    drifts, residual = _drifts(residual, np.zeros(6) if stability is None else stability)
+    errors = ModelErrors(residual=residual.smooth, expected=expected, usable=in_use)
+    drifts, residual = _drifts(residual, errors, np.zeros(6) if stability is None else stability)
     carried, weight = _carried(residual.smooth, expected), np.linalg.norm(expected[:, :3], axis=1)
     usual = CONTACT_SCATTERS * MAD_TO_DEVIATION * float(np.median(np.abs(carried[in_use])))
     least = np.maximum(LOAD_SHARE * weight, usual)
@@ -109,12 +110,17 @@ def model_findings(
         # a light contact may as well be a step of the sensor: its axes are then reported too
         free[first : last + 1] &= not _is_firm(residual, expected, first, last)
     errors = ModelErrors(residual=residual.smooth, expected=expected, usable=in_use & free)
+    pushes = _pushes(residual, expected, contacts, errors)
+    untouched = np.ones(len(stamp_ns), dtype=bool)
+    for first, last in pushes:
+        untouched[first : last + 1] = False
     return (
         *drifts,
+        *_push_findings(residual, pushes),
         *_contact_findings(residual, contacts, expected, least, errors),
-        *_off_level(residual, free, errors),
-        *_steps(residual, free, errors),
-        *_outliers(residual, free),
+        *_off_level(residual, free & untouched, errors),
+        *_steps(residual, free, untouched, errors),
+        *_outliers(residual, free & untouched),
     )
 
 
@@ -151,22 +157,25 @@ _SUDDEN = 0.4
 """Share of a drift that comes from one segment to the next, from which on it is a step."""
 
 
-def _drifts(residual: _Residual, stability: FloatArray) -> tuple[list[Finding], _Residual]:
+def _drifts(residual: _Residual, errors: ModelErrors, stability: FloatArray) -> tuple[list[Finding], _Residual]:
     """Axes whose level moves evenly over the whole log, and the residual without that."""
     rows = np.flatnonzero(residual.in_use)
     seconds = (residual.stamp_ns - residual.stamp_ns[0]) * 1e-9
     if len(rows) < 10 * _SEGMENTS or not np.ptp(seconds) > 0.0:
         return [], residual
     segments = np.array_split(rows, _SEGMENTS)
-    levels = np.array([np.median(residual.values[segment], axis=0) for segment in segments])
     at_s = np.array([np.median(seconds[segment]) for segment in segments])
-    at_s, levels = at_s - at_s.mean(), levels - levels.mean(axis=0)
-    slopes = at_s @ levels / (at_s @ at_s)
-    totals = slopes * float(seconds[-1])
-    is_even = ((levels - np.outer(at_s, slopes)) ** 2).sum(axis=0) < (1.0 - _EVEN) * (levels**2).sum(axis=0)
-    is_slow = np.abs(np.diff(levels, axis=0)).max(axis=0) < _SUDDEN * np.abs(totals)
-    drifting = (np.abs(totals) > np.maximum(residual.least, stability)) & is_even & is_slow
-    if not drifting.any():
+    at_s = at_s - at_s.mean()
+    slopes = np.zeros(6)
+    for values in (errors.beside_load(), residual.values):
+        levels = np.array([np.median(values[segment], axis=0) for segment in segments])
+        levels = levels - levels.mean(axis=0)
+        slope = at_s @ levels / (at_s @ at_s)
+        total = np.abs(slope) * float(seconds[-1])
+        is_even = ((levels - np.outer(at_s, slope)) ** 2).sum(axis=0) < (1.0 - _EVEN) * (levels**2).sum(axis=0)
+        is_slow = np.abs(np.diff(levels, axis=0)).max(axis=0) < _SUDDEN * total
+        slopes = np.where((total > np.maximum(residual.least, stability)) & is_even & is_slow, slope, slopes)
+    if not slopes.any():
         return [], residual
     findings = [
         residual.finding(
@@ -175,15 +184,79 @@ def _drifts(residual: _Residual, stability: FloatArray) -> tuple[list[Finding], 
             0,
             len(seconds) - 1,
             int(axis),
-            float(totals[axis]),
+            float(slopes[axis] * seconds[-1]),
         )
-        for axis in np.flatnonzero(drifting)
+        for axis in np.flatnonzero(slopes)
     ]
-    taken = np.outer(seconds - seconds.mean(), np.where(drifting, slopes, 0.0))
+    taken = np.outer(seconds - seconds.mean(), slopes)
     values, smooth = residual.values - taken, residual.smooth - taken
     scatter = MAD_TO_DEVIATION * np.median(np.abs(smooth[residual.in_use]), axis=0)
     limit = np.maximum(residual.least, SCATTERS * scatter)
     return findings, replace(residual, values=values, smooth=smooth, limit=limit)
+
+
+_QUICK_S, _SHORTEST_PUSH_S, _LONGEST_PUSH_S, _QUIET_S = 0.2, 0.25, 20.0, 0.5
+"""Length of the running median that keeps pushes of half a second, how long a push is, and for how long all axes are
+back at their level before and after it; s."""
+_ALONG = 0.9
+"""Cosine from which on a force acts along the weight: more weight, not a push."""
+
+
+def _pushes(
+    residual: _Residual, expected: FloatArray, contacts: Sequence[tuple[int, int]], errors: ModelErrors
+) -> list[tuple[int, int]]:
+    """Runs in which several axes are off together and come back: a force on the limb that is not one of `contacts`."""
+    from scipy.ndimage import median_filter  # here because importing it takes longer than most commands
+
+    quick = median_filter(residual.values, size=(residual.samples(_QUICK_S), 1), mode="nearest")
+    beside = replace(errors, residual=quick)
+    off = np.abs(quick) > residual.limit
+    quiet = residual.samples(_QUIET_S)
+    pushes = []
+    for first, last in true_runs(np.asarray(off.any(axis=1))):
+        length_s = (residual.stamp_ns[last] - residual.stamp_ns[first]) * 1e-9
+        own = slice(first, last + 1)
+        if not _SHORTEST_PUSH_S <= length_s <= _LONGEST_PUSH_S or first == 0 or last == len(off) - 1:
+            continue
+        if off[max(0, first - quiet) : first].any() or off[last + 1 : last + 1 + quiet].any():
+            continue
+        if off[own].any(axis=0).sum() < 2 or any(first <= end and last >= start for start, end in contacts):
+            continue
+        force, weight = quick[own, :3].mean(axis=0), expected[own, :3].mean(axis=0)
+        if force @ weight >= _ALONG * np.linalg.norm(force) * np.linalg.norm(weight):
+            continue
+        unexplained = [
+            axis
+            for axis in np.flatnonzero(off[own].any(axis=0))
+            if not _is_explained(residual, beside, first, last, int(axis), _SHORTEST_PUSH_S)
+        ]
+        if len(unexplained) > 1:
+            pushes.append((first, last))
+    return pushes
+
+
+def _push_findings(residual: _Residual, pushes: Sequence[tuple[int, int]]) -> list[Finding]:
+    text = "several axes are off together for a while: something pushes the limb"
+    return [
+        residual.finding(
+            "light_contact", text, a, b, None, float(np.linalg.norm(residual.values[a : b + 1, :3], axis=1).max())
+        )
+        for a, b in pushes
+    ]
+
+
+def _is_explained(
+    residual: _Residual, errors: ModelErrors, first: int, last: int, axis: int, shortest_s: float = _SHORTEST_S
+) -> bool:
+    return errors.explain_level(
+        first,
+        last,
+        itemgetter((slice(None), axis)),
+        np.full(last - first + 1, residual.limit[axis]),
+        is_moment=axis >= 3,
+        margin=residual.samples(_LEVEL_S),
+        shortest=residual.samples(shortest_s),
+    )
 
 
 def _carried(residual: FloatArray, expected: FloatArray) -> FloatArray:
@@ -245,15 +318,7 @@ def _off_level(residual: _Residual, free: BoolArray, errors: ModelErrors) -> lis
     for axis, name in enumerate(WRENCH_COMPONENTS):
         far = (np.abs(residual.smooth[:, axis]) > residual.limit[axis]) & free
         for first, last in _merged(residual, far):
-            if errors.explain_level(
-                first,
-                last,
-                itemgetter((slice(None), axis)),
-                np.full(last - first + 1, residual.limit[axis]),
-                is_moment=axis >= 3,
-                margin=residual.samples(_LEVEL_S),
-                shortest=residual.samples(_SHORTEST_S),
-            ):
+            if _is_explained(residual, errors, first, last, axis):
                 continue
             level = float(np.median(residual.values[first : last + 1, axis]))
             text = f"{name} is off the level of the samples in use"
@@ -261,7 +326,7 @@ def _off_level(residual: _Residual, free: BoolArray, errors: ModelErrors) -> lis
     return findings
 
 
-def _steps(residual: _Residual, free: BoolArray, errors: ModelErrors) -> list[Finding]:
+def _steps(residual: _Residual, free: BoolArray, untouched: BoolArray, errors: ModelErrors) -> list[Finding]:
     """Differences between the levels of a second before and a second after, each off by a quarter second."""
     from scipy.ndimage import binary_erosion, median_filter  # here because importing it takes longer than most commands
 
@@ -274,6 +339,8 @@ def _steps(residual: _Residual, free: BoolArray, errors: ModelErrors) -> list[Fi
     away = binary_erosion(
         free, structure=np.ones(2 * shift + 1, dtype=np.bool_), border_value=1
     )  # both levels free of contact
+    # and free of pushes to their ends: what is short and comes back is no step
+    away &= binary_erosion(untouched, structure=np.ones(2 * (shift + width // 2) + 1, dtype=np.bool_), border_value=1)
     for axis, name in enumerate(WRENCH_COMPONENTS):
         change = np.zeros(len(free))
         change[shift:-shift] = levels[2 * shift :, axis] - levels[: -2 * shift, axis]
