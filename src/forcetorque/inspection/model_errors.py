@@ -17,12 +17,13 @@ from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 
-_USUAL, _LARGEST = (0.2, 0.005), (0.5, 0.02)
-"""Residual that errors of the model may leave, as a share of the movement of the expected wrench, and as moment per
-force that moves (m): of any robot model and matrix, and where the rest of the log predicts it. Heuristics."""
+_USUAL, _LARGEST = (0.2, 0.005, 0.0), (0.5, 0.02, 5.0)
+"""Residual that errors of the model may leave, as a share of the movement of the expected wrench, as moment per force
+that moves (m), and as force per moment (1/m): of any robot model and matrix, and where the rest of the log predicts it.
+Heuristics."""
 _MOST, _FEWEST = 2000, 40
 """Samples that a prediction is fitted to, evenly over the log: how many at most, and at least."""
-_BEYOND = 0.1
+_BEYOND = 0.2
 """Share of the range of a component by which loads may lie beyond those of the rest of the log."""
 _ROUNDS = 4
 """How often the weights of the fit follow its residual."""
@@ -133,11 +134,13 @@ class ModelErrors(ArrayRecord):
         return np.asarray(_design(own, middle, size) @ coefficients)
 
 
-def _tolerance(change: FloatArray, share_and_lever: tuple[float, float], *, is_moment: bool) -> FloatArray:
+def _tolerance(change: FloatArray, shares: tuple[float, float, float], *, is_moment: bool) -> FloatArray:
     """What errors of the model may leave where the expected wrench moves by `change`; shape (n,); N or N m."""
-    share, lever_m = share_and_lever
+    share, moment_per_force, force_per_moment = shares
     force, moment = (np.linalg.norm(change[:, own], axis=1) for own in FORCE_AND_MOMENT)
-    return np.asarray(share * moment + lever_m * force if is_moment else share * force)
+    if is_moment:
+        return np.asarray(share * moment + moment_per_force * force)
+    return np.asarray(share * force + force_per_moment * moment)
 
 
 def _design(loads: FloatArray, middle: FloatArray, size: FloatArray) -> FloatArray:

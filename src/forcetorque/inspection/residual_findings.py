@@ -104,7 +104,10 @@ def model_findings(
     carried, weight = _carried(residual.smooth, expected), np.linalg.norm(expected[:, :3], axis=1)
     usual = CONTACT_SCATTERS * MAD_TO_DEVIATION * float(np.median(np.abs(carried[in_use])))
     least = np.maximum(LOAD_SHARE * weight, usual)
-    contacts = _merged(residual, carried > least)
+    errors = replace(errors, residual=residual.smooth)
+    contacts = [
+        run for run in _merged(residual, carried > least) if not _is_no_contact(residual, expected, least, errors, *run)
+    ]
     free = np.ones(len(stamp_ns), dtype=bool)
     for first, last in contacts:
         # a light contact may as well be a step of the sensor: its axes are then reported too
@@ -117,7 +120,7 @@ def model_findings(
     return (
         *drifts,
         *_push_findings(residual, pushes),
-        *_contact_findings(residual, contacts, expected, least, errors),
+        *_contact_findings(residual, contacts, expected),
         *_off_level(residual, free & untouched, errors),
         *_steps(residual, free, untouched, errors),
         *_outliers(residual, free & untouched),
@@ -284,29 +287,29 @@ def _is_firm(residual: _Residual, expected: FloatArray, first: int, last: int) -
     return bool((_carried(residual.smooth, expected)[part] > FIRM_SHARE * weight).any())
 
 
-def _contact_findings(
-    residual: _Residual,
-    contacts: Sequence[tuple[int, int]],
-    expected: FloatArray,
-    least: FloatArray,
-    errors: ModelErrors,
-) -> list[Finding]:
+def _is_no_contact(
+    residual: _Residual, expected: FloatArray, least: FloatArray, errors: ModelErrors, first: int, last: int
+) -> bool:
+    """Whether errors of the model explain that the limb seems to be lifted."""
+    own = slice(first, last + 1)
+    return errors.explain_level(
+        first,
+        last,
+        lambda values: _carried(values, expected[own]),
+        least[own],
+        is_moment=False,
+        margin=residual.samples(_LEVEL_S),
+        shortest=residual.samples(_SHORTEST_S),
+    )
+
+
+def _contact_findings(residual: _Residual, contacts: Sequence[tuple[int, int]], expected: FloatArray) -> list[Finding]:
     carried = _carried(residual.smooth, expected)
     findings = []
     for first, last in contacts:
         largest = float(carried[first : last + 1].max())
         if _is_firm(residual, expected, first, last):
             kind, text = "contact", "the limb touches something, which carries part of its weight"
-        elif errors.explain_level(
-            first,
-            last,
-            lambda values, run=slice(first, last + 1): _carried(values, expected[run]),
-            least[first : last + 1],
-            is_moment=False,
-            margin=residual.samples(_LEVEL_S),
-            shortest=residual.samples(_SHORTEST_S),
-        ):
-            continue
         else:
             kind, text = "light_contact", "the limb is lifted a little: a light contact, or a step of the sensor"
         findings.append(residual.finding(kind, text, first, last, None, largest))
