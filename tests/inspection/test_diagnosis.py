@@ -13,7 +13,8 @@ from forcetorque.base.pose import rotation_about_z
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.diagnosis import Comparison, Diagnosis, compared, diagnosed, fault_finding, reversed_sensors
+from forcetorque.inspection.comparison import Comparison, compared
+from forcetorque.inspection.diagnosis import Diagnosis, diagnosed, fault_finding, reversed_sensors
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.recording.recording import Finding
 

@@ -17,7 +17,8 @@ from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
-from forcetorque.inspection.diagnosis import Comparison, compared, diagnosed, fault_finding, stability_of
+from forcetorque.inspection.comparison import Comparison, compared
+from forcetorque.inspection.diagnosis import diagnosed, fault_finding, stability_of
 from forcetorque.inspection.plausibility.checks import FEWEST, examine
 from forcetorque.inspection.plausibility.hypotheses import Explanation
 from forcetorque.inspection.residual_findings import model_findings

@@ -112,7 +112,8 @@ def model_findings(
     for first, last in contacts:
         # a light contact may as well be a step of the sensor: its axes are then reported too
         free[first : last + 1] &= not _is_firm(residual, expected, first, last)
-    errors = ModelErrors(residual=residual.smooth, expected=expected, usable=in_use & free)
+    if (in_use & free).any():
+        errors = replace(errors, usable=in_use & free)
     pushes = _pushes(residual, expected, contacts, errors)
     untouched = np.ones(len(stamp_ns), dtype=bool)
     for first, last in pushes:
