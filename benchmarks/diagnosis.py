@@ -191,7 +191,9 @@ def _size(experiment: Experiment, limb: str) -> float:
     return float(np.median(np.linalg.norm(samples.reference[:, :3], axis=1)))
 
 
-def _added(shape: Callable[[FloatArray, np.random.Generator], FloatArray], share: float, lever_m: float, axes: int = 3):
+def _added(
+    shape: Callable[[FloatArray, np.random.Generator], FloatArray], share: float, lever_m: float, axes: int = 3
+) -> Callable[[Experiment, str, np.random.Generator], Experiment]:
     """Add a wrench in a random direction with a course in time; its force is a share of the weight."""
 
     def plant(experiment: Experiment, limb: str, rng: np.random.Generator) -> Experiment:
@@ -371,7 +373,7 @@ def main() -> None:
     seeds = range(960, 961) if options.quick else range(960, 963)
     results = outcomes(seeds, MOTIONS)
     print("\n".join(table(results)))
-    accuracy = {
+    accuracy: dict[str, dict[str, float]] = {
         fault: {
             "logs": sum(one.fault == fault for one in results),
             "found": sum(one.fault == fault and one.is_found for one in results),

@@ -25,6 +25,8 @@ _MOST, _FEWEST = 2000, 40
 """Samples that a prediction is fitted to, evenly over the log: how many at most, and at least."""
 _BEYOND = 0.2
 """Share of the range of a component by which loads may lie beyond those of the rest of the log."""
+_WITH_TIME = 0.8
+"""Share of time that the expected wrench explains, from which on the load moves with time alone."""
 _ROUNDS = 4
 """How often the weights of the fit follow its residual."""
 _TAIL = 3.0
@@ -106,6 +108,8 @@ class ModelErrors(ArrayRecord):
     def beside_load(self) -> FloatArray:
         """Take out of the residual what follows the expected wrench over the whole log.
 
+        A residual that follows the load as well as the time is taken out where the load moves with time alone.
+
         Returns:
             The rest, for slow changes; shape (n, 6); N, N m.
         """
@@ -113,7 +117,11 @@ class ModelErrors(ArrayRecord):
         rows = rows[np.unique(np.linspace(0, len(rows) - 1, min(_MOST, len(rows))).round().astype(np.int64))]
         loads = self.expected[rows]
         middle, size = loads.mean(axis=0), np.maximum(np.ptp(loads, axis=0), np.finfo(float).tiny)
-        coefficients = _robust_fit(_design(loads, middle, size), self.residual[rows])
+        design = _design(loads, middle, size)
+        time = (rows - rows.mean()) / len(self.expected)
+        left = time - design @ np.linalg.lstsq(design, time)[0]
+        columns = np.column_stack([design, time]) if left @ left > (1.0 - _WITH_TIME) * (time @ time) else design
+        coefficients = _robust_fit(columns, self.residual[rows])[: design.shape[1]]
         return self.residual - _design(self.expected, middle, size) @ coefficients
 
     def _predicted(self, first: int, last: int, margin: int) -> FloatArray | None:
@@ -148,7 +156,7 @@ def _design(loads: FloatArray, middle: FloatArray, size: FloatArray) -> FloatArr
 
 
 def _robust_fit(design: FloatArray, residual: FloatArray) -> FloatArray:
-    """Linear fit in which far samples count less, component by component; shape (7, 6)."""
+    """Linear fit in which far samples count less, component by component; shape (k, 6)."""
     weights = np.ones_like(residual)
     coefficients = np.zeros((design.shape[1], residual.shape[1]))
     for _ in range(_ROUNDS):

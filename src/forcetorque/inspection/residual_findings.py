@@ -159,13 +159,16 @@ _EVEN = 0.8
 """Share of the variance of these levels that a straight line explains, from which on they drift."""
 _SUDDEN = 0.4
 """Share of a drift that comes from one segment to the next, from which on it is a step."""
+_SHORTEST_DRIFT_S, _LEAST_IN_USE = 30.0, 0.5
+"""Time that samples in use span at least for a drift: s, and as a share of the log."""
 
 
 def _drifts(residual: _Residual, errors: ModelErrors, stability: FloatArray) -> tuple[list[Finding], _Residual]:
     """Axes whose level moves evenly over the whole log, and the residual without that."""
     rows = np.flatnonzero(residual.in_use)
     seconds = (residual.stamp_ns - residual.stamp_ns[0]) * 1e-9
-    if len(rows) < 10 * _SEGMENTS or not np.ptp(seconds) > 0.0:
+    span_s = float(np.ptp(seconds[rows])) if len(rows) else 0.0
+    if len(rows) < 10 * _SEGMENTS or span_s < max(_SHORTEST_DRIFT_S, _LEAST_IN_USE * float(seconds[-1])):
         return [], residual
     segments = np.array_split(rows, _SEGMENTS)
     at_s = np.array([np.median(seconds[segment]) for segment in segments])
@@ -175,7 +178,7 @@ def _drifts(residual: _Residual, errors: ModelErrors, stability: FloatArray) -> 
         levels = np.array([np.median(values[segment], axis=0) for segment in segments])
         levels = levels - levels.mean(axis=0)
         slope = at_s @ levels / (at_s @ at_s)
-        total = np.abs(slope) * float(seconds[-1])
+        total = np.abs(slope) * span_s
         is_even = ((levels - np.outer(at_s, slope)) ** 2).sum(axis=0) < (1.0 - _EVEN) * (levels**2).sum(axis=0)
         is_slow = np.abs(np.diff(levels, axis=0)).max(axis=0) < _SUDDEN * total
         slopes = np.where((total > np.maximum(residual.least, stability)) & is_even & is_slow, slope, slopes)
@@ -185,10 +188,10 @@ def _drifts(residual: _Residual, errors: ModelErrors, stability: FloatArray) -> 
         residual.finding(
             "drift",
             f"{WRENCH_COMPONENTS[axis]} drifts evenly over the log, as of a sensor that warms up",
-            0,
-            len(seconds) - 1,
+            int(rows[0]),
+            int(rows[-1]),
             int(axis),
-            float(slopes[axis] * seconds[-1]),
+            float(slopes[axis] * span_s),
         )
         for axis in np.flatnonzero(slopes)
     ]
