@@ -14,7 +14,6 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.calibration.plausibility.checks import examine
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation
@@ -23,6 +22,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.inspection.plausibility.checks import examine
 from forcetorque.recording.recording import Use
 from forcetorque.recording.smoothing import smooth
 from forcetorque.robot.mechanics.samples import SensorSamples

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.inspection.findings import model_findings
+from forcetorque.inspection.residual_findings import model_findings
 from forcetorque.recording.recording import Finding
 
 RATE = 100.0
@@ -113,6 +113,49 @@ def test_a_load_along_gravity_is_no_contact() -> None:
     kinds = {finding.kind for finding in _find(measured)}
     assert "off_level" in kinds
     assert not kinds & {"contact", "light_contact"}
+
+
+def test_a_drift_is_one_finding_with_its_size() -> None:
+    """15 N over the minute, beside a model whose fz takes 10 % of fx; without it nothing is found."""
+    _, measured, expected, _ = _reading()
+    measured[:, 2] += 0.1 * expected[:, 0]
+    assert _find(measured) == ()
+    measured[:, 1] += np.linspace(0.0, 15.0, len(measured))
+    (drift,) = _find(measured)
+    assert (drift.kind, drift.channel) == ("drift", "fy")
+    assert drift.size == pytest.approx(15.0, abs=1.0)
+
+
+@pytest.mark.parametrize("length_s", [0.5, 3.0])
+def test_a_push_is_one_finding_with_its_time(length_s: float) -> None:
+    """10 N to the side with a moment, which do not lift the limb; one axis alone is off its level instead."""
+    _, measured, _, _ = _reading()
+    measured[_span(20, 20 + length_s), 1] += 10.0
+    alone = [finding.kind for finding in _find(measured)]
+    assert "light_contact" not in alone
+    measured[_span(20, 20 + length_s), 3] += 3.0
+    (push,) = _find(measured)
+    assert push.kind == "light_contact"
+    assert push.size == pytest.approx(10.0, abs=1.5)
+    assert push.start_ns == pytest.approx(20 * SECOND_NS, abs=0.1 * SECOND_NS)
+    assert push.end_ns == pytest.approx((20 + length_s) * SECOND_NS, abs=0.1 * SECOND_NS)
+
+
+def test_a_movement_of_the_joints_is_no_step_where_the_model_is_off() -> None:
+    """A limb that turns within a second, again and again, with an fx that takes 25 % of fz; a step on top is found."""
+    stamps, _, _, in_use = _reading()
+    seconds = stamps * 1e-9
+    tilt = np.interp(seconds % 10.0, [0.0, 4.5, 5.5, 9.5, 10.0], [0.0, 0.0, 1.2, 1.2, 0.0])
+    expected = np.zeros((len(seconds), 6))
+    expected[:, 0], expected[:, 2] = 40.0 * np.sin(tilt), -40.0 * np.cos(tilt)
+    measured = expected + np.random.default_rng(4).normal(size=expected.shape) * [0.3, 0.3, 0.3, 0.05, 0.05, 0.05]
+    measured[:, 0] += 0.25 * expected[:, 2]
+    assert model_findings("ft", stamps, measured, expected, in_use=in_use) == ()
+    measured[_span(35, 60), 0] += 12.0
+    found = model_findings("ft", stamps, measured, expected, in_use=in_use)
+    assert any(
+        one.kind == "step" and one.start_ns == pytest.approx(35 * SECOND_NS, abs=0.5 * SECOND_NS) for one in found
+    )
 
 
 def test_single_samples_far_off_are_outliers() -> None:

@@ -88,6 +88,16 @@ def test_a_stuck_channel_is_named() -> None:
     assert (finding.start_ns, finding.end_ns) == (200 * PERIOD_NS, 499 * PERIOD_NS)
 
 
+def test_a_channel_that_is_stuck_for_a_moment_is_named_where_noise_forbids_it() -> None:
+    """0.4 s in noise; where the converter steps by four times the noise, such runs are usual and none is named."""
+    values = np.random.default_rng(3).normal(size=(COUNT, 6))
+    values[200:240, 2] = values[200, 2]
+    finding = _only(stream_findings(_stream(values=values)))
+    assert (finding.kind, finding.channel, finding.size) == ("stuck", "fz", pytest.approx(0.39))
+    coarse = 4.0 * np.round(np.random.default_rng(3).normal(size=(COUNT, 6)) / 4.0)
+    assert stream_findings(_stream(values=coarse)) == ()
+
+
 def test_a_frozen_reading_is_one_finding() -> None:
     """All channels that repeat their values for 3 s are one finding, not six."""
     values = np.random.default_rng(5).normal(size=(COUNT, 6))

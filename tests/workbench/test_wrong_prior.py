@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.plausibility.compared_wrenches import Doubt
+from forcetorque.inspection.plausibility.compared_wrenches import Doubt
 from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.workbench.bench import Bench
 from forcetorque.workbench.loads import BenchLoads

@@ -75,7 +75,7 @@ def recording_moments(runs: Runs) -> list[RecordingMoments]:
     Raises:
         ExperimentError: If there is no calibration interval, or the full scale of the sensor is not known.
     """
-    from forcetorque.calibration.plausibility.checks import examine
+    from forcetorque.inspection.plausibility.checks import examine
 
     campaign = Campaign.of(runs)
     sensor = campaign.sensor

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 CAPABILITY = Capability(
     page="estimation/estimation.md",
-    needs=("skin",),
+    needs=("skin", "inspection"),
     commands=("forcetorque.estimation.command:estimate",),
     sections=(
         "forcetorque.estimation.section:MOTORS",

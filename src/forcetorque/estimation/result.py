@@ -20,6 +20,7 @@ from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.validity import ReadingsOutside, outside_row, sentences
+from forcetorque.inspection.diagnosis import reversed_sensors
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
@@ -329,6 +330,7 @@ def summarise_estimates(
         skin=tuple(row for span in spans for row in skin_rows(span)),
         warnings=(
             *sentences(validity),
+            *reversed_sensors(experiment, corrections),
             *_warnings(corrections, spans),
             *(f"left out: {sentence}" for sentence in left_out),
             *(() if fusion is None else fusion.warnings()),

@@ -54,8 +54,12 @@ def inspect(
     log_format: Annotated[
         str | None, Option("Format of a log, such as ros or hdf5, as in [recording]. Default: by what is there.")
     ] = None,
+    calibration: Annotated[
+        "Path | str | None",
+        Option("Calibration that reads its sensor. Default: the prior, or as logged.", "--calibration", "-c"),
+    ] = None,
 ) -> "Inspection":
-    """Find gaps, lost messages, frozen or saturated sensors, steps and contacts.
+    """Find what is wrong with a log, its experiment file and the URDF, and the line to change.
 
     Example: forcetorque inspect experiment.toml
 
@@ -66,4 +70,4 @@ def inspect(
     """
     from forcetorque.inspection.inspect import inspect_log
 
-    return inspect_log(log, log_format=log_format)
+    return inspect_log(log, log_format=log_format, calibration=calibration)

@@ -1,249 +1,38 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Findings on the recording of an experiment: streams, sensors against the model, taxels.
-
-Against the model: contacts of a free limb, steps, intervals off level, and outliers. The residual is measurement minus
-expectation, less its median over the samples that are in use. A running median of half a second takes vibration out
-and keeps steps sharp. The limit is a tenth of the load of the limb on the sensor, or four times the usual scatter if
-that is more: heuristics, chosen so that a log of a laboratory gives few and useful findings.
-"""
+"""Findings on the recording of an experiment: streams, sensors against the model, taxels."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Generator, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.base.errors import ForceTorqueError, ShapeError
-from forcetorque.base.units import MAD_TO_DEVIATION
-from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.base.errors import FitError, ForceTorqueError
+from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sample_quality import sample_quality
+from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.sensor_samples import IntervalSamples
+from forcetorque.inspection.comparison import Comparison, compared
+from forcetorque.inspection.diagnosis import diagnosed, fault_finding, stability_of
+from forcetorque.inspection.plausibility.checks import FEWEST, examine
+from forcetorque.inspection.plausibility.hypotheses import Explanation
+from forcetorque.inspection.residual_findings import model_findings
 from forcetorque.recording.recording import Finding, Interval, Recording, Use
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.recording import PatchRecording, patch_recordings
 
-LOAD_SHARE = 0.1
-"""Least residual of a finding, as a share of the load of the limb."""
-FIRM_SHARE = 0.5
-"""Least share of the weight of the limb that a certain contact carries at its peak."""
-SCATTERS = 4.0
-"""Least residual of a finding, in robust standard deviations of the smoothed residual."""
-CONTACT_SCATTERS = 3.0
-"""Least lifting force of a contact, in robust standard deviations."""
-OUTLIER_SCATTERS = 12.0
-"""Least deviation of an outlier from the smoothed residual, in robust standard deviations."""
-
-_SMOOTH_S, _LEVEL_S, _EDGE_S, _MERGE_S, _SHORTEST_S = 0.5, 1.0, 0.25, 1.0, 0.5
-_LONGEST_OUTLIER = 3
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Residual:
-    stream: str
-    stamp_ns: IntArray
-    rate_hz: float
-    values: FloatArray
-    smooth: FloatArray
-    limit: FloatArray
-    least: FloatArray
-    in_use: BoolArray
-
-    def samples(self, seconds: float) -> int:
-        return max(1, round(seconds * self.rate_hz))
-
-    def finding(self, kind: str, message: str, first: int, last: int, axis: int | None, size: float) -> Finding:
-        return Finding(
-            stream=self.stream,
-            kind=kind,
-            message=message,
-            count=last - first + 1,
-            start_ns=int(self.stamp_ns[first]),
-            end_ns=int(self.stamp_ns[last]),
-            channel=None if axis is None else WRENCH_COMPONENTS[axis],
-            size=size,
-            unit="N" if axis is None else WRENCH_UNITS[axis],
-        )
-
-
-def model_findings(
-    stream: str, stamp_ns: IntArray, measured: FloatArray, expected: FloatArray, *, in_use: BoolArray
-) -> tuple[Finding, ...]:
-    """Compare the measurements of a sensor, whose distal links should be free, with the expected wrench.
-
-    Args:
-        stream: Name of the sensor's stream, for the findings.
-        stamp_ns: Increasing instants; shape (n,); ns.
-        measured: Measured wrenches, offset not removed; shape (n, 6); N, N m.
-        expected: Expected wrenches; shape (n, 6); N, N m.
-        in_use: Samples of intervals in use, which define level and scatter; shape (n,).
-
-    Returns:
-        Findings of the kinds `contact` and `light_contact` (something carries part of the limb's
-        weight), `step`, `off_level` and `outlier`; each with its time and size.
-
-    Raises:
-        ShapeError: If the shapes differ or no sample is in use.
-    """
-    if measured.shape != expected.shape or measured.shape != (len(stamp_ns), 6) or not in_use.any():
-        raise ShapeError(
-            f"expected readings and references of one shape (n, 6) and some samples in use, "
-            f"got {measured.shape}, {expected.shape} and {np.count_nonzero(in_use)} in use"
-        )
-    residual = _residual(stream, stamp_ns, measured, expected, in_use)
-    carried, weight = _carried(residual, expected), np.linalg.norm(expected[:, :3], axis=1)
-    usual = CONTACT_SCATTERS * MAD_TO_DEVIATION * float(np.median(np.abs(carried[in_use])))
-    contacts = _merged(residual, carried > np.maximum(LOAD_SHARE * weight, usual))
-    free = np.ones(len(stamp_ns), dtype=bool)
-    for first, last in contacts:
-        # a light contact may as well be a step of the sensor: its axes are then reported too
-        free[first : last + 1] &= not _is_firm(residual, expected, first, last)
-    return (
-        *_contact_findings(residual, contacts, expected),
-        *_off_level(residual, free),
-        *_steps(residual, free),
-        *_outliers(residual, free),
-    )
-
-
-def _residual(
-    stream: str, stamp_ns: IntArray, measured: FloatArray, expected: FloatArray, in_use: BoolArray
-) -> _Residual:
-    from scipy.ndimage import median_filter  # here because importing it takes longer than most commands
-
-    values = measured - expected
-    values = values - np.median(values[in_use], axis=0)
-    rate_hz = 1e9 / float(np.median(np.diff(stamp_ns))) if len(stamp_ns) > 1 else 1.0
-    size = max(1, round(_SMOOTH_S * rate_hz))
-    smooth: FloatArray = median_filter(values, size=(size, 1), mode="nearest")
-    scatter = MAD_TO_DEVIATION * np.median(np.abs(smooth[in_use]), axis=0)
-    load = np.repeat([np.percentile(np.linalg.norm(expected[:, part], axis=1), 95) for part in FORCE_AND_MOMENT], 3)
-    return _Residual(
-        stream=stream,
-        stamp_ns=stamp_ns,
-        rate_hz=rate_hz,
-        values=values,
-        smooth=smooth,
-        limit=np.maximum(LOAD_SHARE * load, SCATTERS * scatter),
-        least=LOAD_SHARE * load,
-        in_use=in_use,
-    )
-
-
-def _carried(residual: _Residual, expected: FloatArray) -> FloatArray:
-    """Force that lifts the limb, against the expected weight; shape (n,); N."""
-    weight = np.linalg.norm(expected[:, :3], axis=1)
-    along = np.einsum("ij,ij->i", residual.smooth[:, :3], expected[:, :3])
-    return np.divide(-along, weight, out=np.zeros_like(along), where=weight > 0.0)
-
-
-def _merged(residual: _Residual, mask: BoolArray) -> list[tuple[int, int]]:
-    """Runs of true values, joined across short pauses, without short ones."""
-    joined: list[tuple[int, int]] = []
-    for first, last in true_runs(mask):
-        if joined and residual.stamp_ns[first] - residual.stamp_ns[joined[-1][1]] < _MERGE_S * 1e9:
-            joined[-1] = (joined[-1][0], last)
-        else:
-            joined.append((first, last))
-    shortest = residual.samples(_SHORTEST_S)
-    return [(first, last) for first, last in joined if last - first + 1 >= shortest]
-
-
-def _is_firm(residual: _Residual, expected: FloatArray, first: int, last: int) -> bool:
-    part = slice(first, last + 1)
-    weight = np.linalg.norm(expected[part, :3], axis=1)
-    return bool((_carried(residual, expected)[part] > FIRM_SHARE * weight).any())
-
-
-def _contact_findings(residual: _Residual, contacts: Sequence[tuple[int, int]], expected: FloatArray) -> list[Finding]:
-    carried = _carried(residual, expected)
-    findings = []
-    for first, last in contacts:
-        largest = float(carried[first : last + 1].max())
-        if _is_firm(residual, expected, first, last):
-            kind, text = "contact", "the limb touches something, which carries part of its weight"
-        else:
-            kind, text = "light_contact", "the limb is lifted a little: a light contact, or a step of the sensor"
-        findings.append(residual.finding(kind, text, first, last, None, largest))
-    return findings
-
-
-def _off_level(residual: _Residual, free: BoolArray) -> list[Finding]:
-    findings = []
-    for axis, name in enumerate(WRENCH_COMPONENTS):
-        far = (np.abs(residual.smooth[:, axis]) > residual.limit[axis]) & free
-        for first, last in _merged(residual, far):
-            level = float(np.median(residual.values[first : last + 1, axis]))
-            text = f"{name} is off the level of the samples in use"
-            findings.append(residual.finding("off_level", text, first, last, axis, level))
-    return findings
-
-
-def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
-    """Differences between the levels of a second before and a second after, each off by a quarter second."""
-    from scipy.ndimage import binary_erosion, median_filter  # here because importing it takes longer than most commands
-
-    width = residual.samples(_LEVEL_S)
-    shift = width // 2 + residual.samples(_EDGE_S)
-    findings: list[Finding] = []
-    if len(free) <= 2 * shift:
-        return findings
-    levels = median_filter(residual.values, size=(width, 1), mode="nearest")
-    away = binary_erosion(
-        free, structure=np.ones(2 * shift + 1, dtype=np.bool_), border_value=1
-    )  # both levels free of contact
-    for axis, name in enumerate(WRENCH_COMPONENTS):
-        change = np.zeros(len(free))
-        change[shift:-shift] = levels[2 * shift :, axis] - levels[: -2 * shift, axis]
-        # a repeated edge sample is no level; and where a wrong prior makes levels wander, only the sudden counts
-        margin = shift + width // 2
-        change[:margin] = change[len(change) - margin :] = 0.0
-        usual = MAD_TO_DEVIATION * float(np.median(np.abs(change[residual.in_use])))
-        limit = max(residual.least[axis], SCATTERS * usual)
-        change[~away] = 0.0
-        while np.abs(change).max() > limit:
-            peak = int(np.argmax(np.abs(change)))
-            at = _steepest(residual, axis, peak, shift, float(np.sign(change[peak])))
-            text = f"{name} steps against the model"
-            findings.append(residual.finding("step", text, at, at, axis, float(change[peak])))
-            change[max(0, peak - 2 * shift) : peak + 2 * shift + 1] = 0.0
-    return sorted(findings, key=lambda finding: finding.start_ns or 0)
-
-
-def _steepest(residual: _Residual, axis: int, peak: int, shift: int, sign: float) -> int:
-    """Index at which the smoothed residual changes fastest near a step."""
-    first, last = max(0, peak - shift), min(len(residual.smooth), peak + shift + 1)
-    part = residual.smooth[first:last, axis]
-    lag = residual.samples(_EDGE_S)
-    if len(part) <= lag:
-        return peak
-    return first + lag // 2 + int(np.argmax(sign * (part[lag:] - part[:-lag])))
-
-
-def _outliers(residual: _Residual, free: BoolArray) -> list[Finding]:
-    quick = residual.values - residual.smooth
-    scatter = MAD_TO_DEVIATION * np.median(np.abs(quick[residual.in_use]), axis=0)
-    findings: list[Finding] = []
-    for axis, name in enumerate(WRENCH_COMPONENTS):
-        limit = max(OUTLIER_SCATTERS * scatter[axis], residual.limit[axis])
-        runs = [run for run in true_runs((np.abs(quick[:, axis]) > limit) & free) if run[1] - run[0] < _LONGEST_OUTLIER]
-        if runs:
-            largest = max(runs, key=lambda run: float(np.abs(quick[run[0], axis])))
-            size = float(quick[largest[0], axis])
-            text = f"{len(runs)} outlier(s) of {name} of at most {_LONGEST_OUTLIER} samples, the largest here"
-            findings.append(residual.finding("outlier", text, *largest, axis, size))
-    return findings
-
-
 _UNRELIABLE = {
     "contact",
     "light_contact",
     "off_level",
+    "drift",
     "step",
     "saturation",
     "frozen",
@@ -266,7 +55,13 @@ def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
     return (*recording.findings, *(f for stream in recording.streams.values() for f in stream_findings(stream)))
 
 
-def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tuple[Finding, ...]:
+def inspect_experiment(
+    experiment: Experiment,
+    *,
+    by_model: bool = True,
+    with_causes: bool = True,
+    calibrations: Mapping[str, Calibration] | None = None,
+) -> tuple[Finding, ...]:
     """Find faults of the recording of an experiment, with its robot and sensors.
 
     The sensors are compared with the model over the whole log where all intervals have one support
@@ -276,6 +71,8 @@ def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tupl
     Args:
         experiment: The experiment.
         by_model: Whether sensors are compared with the model, which has no contact but the support.
+        with_causes: Whether faults of experiment file, URDF and log are looked for, about a second per sensor.
+        calibrations: Calibrations that read the sensors in place of their priors, by the name of the sensor.
 
     Returns:
         Findings in the order of time, those without a time first.
@@ -289,7 +86,8 @@ def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tupl
             text = f"no look for saturation: {error}"
             findings.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
         if by_model:
-            findings += _model_findings(SensorRun(experiment, sensor))
+            calibration = (calibrations or {}).get(sensor.name)
+            findings += _model_findings(SensorRun(experiment, sensor), calibration, with_causes=with_causes)
     return tuple(sorted(findings, key=lambda finding: finding.start_ns or 0))
 
 
@@ -306,7 +104,8 @@ def unreliable_intervals(
     Returns:
         Interval and finding, for findings that make its samples unreliable.
     """
-    findings = [finding for finding in inspect_experiment(experiment, by_model=by_model) if finding.kind in _UNRELIABLE]
+    found = inspect_experiment(experiment, by_model=by_model, with_causes=False)  # a fit checks the causes by itself
+    findings = [finding for finding in found if finding.kind in _UNRELIABLE]
     return tuple(
         (interval, finding)
         for interval in experiment.recording.intervals
@@ -346,11 +145,18 @@ def _saturation(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Findi
     return saturation_findings(stream, counts, limit_counts=sensor.limit_counts, recovered=recovered)
 
 
-def _model_findings(run: SensorRun) -> Iterator[Finding]:
+def _model_findings(run: SensorRun, calibration: Calibration | None, *, with_causes: bool) -> Iterator[Finding]:
     stream = run.sensor.stream
+    if run.sensor.quantity == "raw" and run.sensor.prior is None and calibration is None:
+        return
+    correction = run.read_by(None, calibration).bare
     supported = [interval for interval in run.experiment.recording.intervals if interval.support is not None]
     touched = {interval.label: run.touched_beyond(interval) for interval in supported}
     unknown = [label for label, names in touched.items() if names]
+    fault = None
+    if with_causes and len(unknown) < len(supported):
+        over = [] if unknown else _over_the_whole_log(run.experiment, supported)
+        fault = yield from _causes(run, correction, over[0] if len(over) == 1 else None)
     if unknown:
         names = dict.fromkeys(name for label in unknown for name in touched[label])
         text = (
@@ -361,12 +167,64 @@ def _model_findings(run: SensorRun) -> Iterator[Finding]:
         supported = [interval for interval in supported if interval.label not in unknown]
     else:
         supported = _over_the_whole_log(run.experiment, supported)
+    if fault is not None and not fault.changes_every_instant_alike:
+        return
+    turn = None if fault is None else fault.turn
     for interval in supported:
         try:
-            yield from _against_model(run, interval)
+            yield from _against_model(run, interval, correction, turn)
         except ForceTorqueError as error:
             text = f"no comparison with the model over {interval.label}: {error}"
             yield Finding(stream=stream, kind="not_compared", message=text, count=0)
+
+
+def _causes(
+    run: SensorRun, correction: Correction, whole_log: Interval | None
+) -> Generator[Finding, None, Explanation | None]:
+    """Faults of experiment file, URDF and log, or why there is no test; the best fault is returned."""
+    try:
+        whole = None if whole_log is None else _samples(run, whole_log, correction)
+        comparison = compared(run, correction, whole=whole)
+        diagnosis = None if comparison is None else diagnosed(comparison)
+    except ForceTorqueError:
+        return None  # the comparison of every interval names the reason
+    if comparison is None:
+        return None
+    if diagnosis is None:
+        text = (
+            "sense, gravity, joints, columns, units, mount and delay are not tested: the expected wrench stays the "
+            "same; record the limb while it moves"
+        )
+        yield Finding(stream=run.sensor.stream, kind="not_compared", message=text, count=0)
+        return None
+    if diagnosis.faults:
+        yield fault_finding(comparison, diagnosis)
+        return diagnosis.faults[0]
+    yield from _implausible(run, comparison)
+    return None
+
+
+def _samples(run: SensorRun, interval: Interval, correction: Correction) -> IntervalSamples:
+    return run.interval_samples(interval, variables=correction.variables, smoothed=False)
+
+
+def _implausible(run: SensorRun, comparison: Comparison) -> Iterator[Finding]:
+    """What the plausibility checks of `calibrate` refuse or warn of, without a fault that explains it."""
+    stream = run.sensor.stream
+    data_sets = [
+        part.data_set
+        for part in comparison.parts
+        if part.interval.use is Use.CALIBRATION and not run.possibly_touched(part.interval)
+    ]
+    if sum(len(data.raw) for data in data_sets) < FEWEST:
+        return  # the comparison above had more samples
+    try:
+        doubts = examine(data_sets, run.sensor.prior, run.sensor.full_scale)
+    except FitError as error:
+        yield Finding(stream=stream, kind="implausible", message=f"`calibrate` refuses: {error}", count=0)
+        return
+    for doubt in doubts:
+        yield Finding(stream=stream, kind=f"implausible_{doubt.kind}", message=doubt.message, count=0)
 
 
 def _over_the_whole_log(experiment: Experiment, supported: Sequence[Interval]) -> list[Interval]:
@@ -377,17 +235,23 @@ def _over_the_whole_log(experiment: Experiment, supported: Sequence[Interval]) -
     return [replace(supported[0], label="the whole log", start_ns=start, end_ns=end + 1, use=Use.VALIDATION)]
 
 
-def _against_model(run: SensorRun, interval: Interval) -> tuple[Finding, ...]:
-    sensor, samples = run.sensor, run.interval_samples(interval, smoothed=False).samples
-    measured = samples.reading.values
-    if sensor.quantity == "raw":
-        if sensor.prior is None:
-            return ()
-        measured = measured @ sensor.prior.T
-    in_use = _in_use(run.experiment, samples.stamp_ns)
+def _against_model(
+    run: SensorRun, interval: Interval, correction: Correction, turn: FloatArray | None
+) -> tuple[Finding, ...]:
+    """Findings over an interval, beside a fault that turns or scales the wrench alike at every instant."""
+    part = _samples(run, interval, correction)
+    stamps, expected = part.samples.stamp_ns, part.samples.reference
+    in_use = _in_use(run.experiment, stamps)
     if not in_use.any():
         return ()
-    return model_findings(sensor.stream, samples.stamp_ns, measured, samples.reference, in_use=in_use)
+    return model_findings(
+        run.sensor.stream,
+        stamps,
+        part.readings.wrench(correction),
+        expected if turn is None else expected @ turn.T,
+        in_use=in_use,
+        stability=stability_of(run.sensor),
+    )
 
 
 def _in_use(experiment: Experiment, stamp_ns: IntArray) -> BoolArray:

@@ -11,8 +11,10 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from forcetorque.base.errors import FormatError, MissingFileError, RecordingError
+from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError, RecordingError
 from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.applicability import one_per_sensor
+from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
@@ -154,35 +156,53 @@ class Inspection(Result):
 
 
 @with_recording_notes
-def inspect_log(path: Path | str, *, log_format: str | None = None) -> Inspection:
+def inspect_log(
+    path: Path | str, *, log_format: str | None = None, calibration: Path | str | None = None
+) -> Inspection:
     """Inspect an experiment file, a log of any known format, or the calibration of a maker.
 
     Args:
         path: Experiment file, folder or file of a log, or file of the calibration of a maker.
         log_format: Name of the format of a log; recognised from the files if left out.
+        calibration: File of the calibration that reads its sensor; priors, or the logged wrench, if left out.
 
     Returns:
         Contents and findings.
+
+    Raises:
+        ExperimentError: If there is a calibration for a log without an experiment file.
     """
     source = Path(path)
     unread = _without_experiment(source, log_format)
-    if unread is not None:
+    if unread is None and calibration is None:
+        return _inspection(str(source), *_recorded(source, log_format))
+    if unread is not None and calibration is None:
         return unread
-    return _inspection(str(source), *_recorded(source, log_format))
+    if unread is not None or log_format is not None or recognised_format(source) is not None:
+        raise ExperimentError(
+            f"{source}: expected an experiment file, got a log, where --calibration reads nothing; `forcetorque init "
+            f"{source}` drafts one"
+        )
+    return inspected(load_experiment(source), calibration, source=str(source))
 
 
 @with_recording_notes
-def inspected(experiment: Experiment) -> Inspection:
+def inspected(
+    experiment: Experiment, calibration: Calibration | Path | str | None = None, *, source: str | None = None
+) -> Inspection:
     """Inspect the recording of an experiment that is read already, or was made from arrays.
 
     Args:
         experiment: The experiment.
+        calibration: Calibration that reads its sensor, or its file; priors, or the logged wrench, if left out.
+        source: Name for it; that of its file if left out.
 
     Returns:
         Contents and findings.
     """
-    findings = _of_experiment(experiment, experiment.section(PATCHES))
-    return _inspection(str(experiment.file), experiment.recording, findings)
+    read = read_calibration(calibration) if isinstance(calibration, Path | str) else calibration
+    findings = _of_experiment(experiment, experiment.section(PATCHES), read)
+    return _inspection(source or str(experiment.file), experiment.recording, findings)
 
 
 def _inspection(source: str, recording: Recording, findings: Iterable[Finding]) -> Inspection:
@@ -256,8 +276,11 @@ def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding,
     return experiment.recording, _of_experiment(experiment, patches)
 
 
-def _of_experiment(experiment: Experiment, patches: PatchExperiment | None) -> tuple[Finding, ...]:
-    findings = inspect_experiment(experiment)
+def _of_experiment(
+    experiment: Experiment, patches: PatchExperiment | None, calibration: Calibration | None = None
+) -> tuple[Finding, ...]:
+    chosen = {} if calibration is None else one_per_sensor(experiment, {"calibration": calibration})
+    findings = inspect_experiment(experiment, calibrations={sensor: one for sensor, (_, one) in chosen.items()})
     return findings if patches is None else (*findings, *taxel_findings(patches))
 
 

@@ -21,6 +21,9 @@ from forcetorque.recording.stream import Signal, Stream
 STUCK_SECONDS = 1.0
 """A noisy channel that repeats one value for longer than this is stuck."""
 
+STUCK_NOISY_SECONDS = 0.2
+"""One channel that repeats one value for longer than this is stuck, if the noise of the log forbids that."""
+
 _NOISY = ("wrench", "raw", "proper_acceleration", "angular_velocity")
 """Quantities whose noise changes them at every sample; encoders and thermometers may rest."""
 _SPARSE = ("skin_event",)
@@ -213,21 +216,13 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
         for first, last in [run]
         if run not in frozen and _seconds(stream, run) > STUCK_SECONDS
     ]
-    for name, unit, column in zip(signal.columns, signal.units, signal.values.T, strict=True):
+    for k, (name, unit) in enumerate(zip(signal.columns, signal.units, strict=True)):
+        column = signal.values[:, k]
         alone: BoolArray = (np.diff(column) == 0.0) & ~whole
-        findings += [
-            _finding(
-                stream,
-                "stuck",
-                f"{name} stays at {column[at]:g} {unit}",
-                at,
-                last,
-                channel=name,
-                size=seconds,
-                unit="s",
-            )
-            for at, last, seconds in _long_runs(stream, alone)
-        ]
+        for at, last in _stuck_runs(stream, signal.values[:, [k]], alone):
+            text = f"{name} stays at {column[at]:g} {unit}"
+            seconds = _seconds(stream, (at, last))
+            findings.append(_finding(stream, "stuck", text, at, last, channel=name, size=seconds, unit="s"))
     return findings
 
 
@@ -251,8 +246,9 @@ def _seconds(stream: Stream, run: Run) -> float:
     return float(stream.stamp_ns[run[1]] - stream.stamp_ns[run[0]]) * 1e-9
 
 
-def _long_runs(stream: Stream, same_as_before: BoolArray) -> list[tuple[int, int, float]]:
-    """First and last index, and seconds, of runs of equal values that are too long for noise."""
-    runs = ((first, last + 1) for first, last in true_runs(same_as_before))
-    timed = ((first, last, float(stream.stamp_ns[last] - stream.stamp_ns[first]) * 1e-9) for first, last in runs)
-    return [run for run in timed if run[2] > STUCK_SECONDS]
+def _stuck_runs(stream: Stream, column: FloatArray, alone: BoolArray) -> list[Run]:
+    """Runs of equal values of one channel, other than of all, that are too long for noise."""
+    runs = [(first, last + 1) for first, last in true_runs(alone)]
+    short = [run for run in runs if STUCK_NOISY_SECONDS < _seconds(stream, run) <= STUCK_SECONDS]
+    surely = set(noisy_runs(stream.stamp_ns, column, short))
+    return [run for run in runs if _seconds(stream, run) > STUCK_SECONDS or run in surely]

@@ -16,6 +16,7 @@ CAPABILITY = Capability(
     needs=(
         "simulation",
         "estimation",
+        "inspection",
         "calibration",
         "evaluation",
     ),

@@ -219,7 +219,7 @@ def _recordings(
     kept: Mapping[str, IntervalMoments],
     left_out: Mapping[str, Sequence[str]],
 ) -> list[RecordingMoments]:
-    from forcetorque.calibration.plausibility.checks import examine
+    from forcetorque.inspection.plausibility.checks import examine
 
     sensor = data.sensor
     doubts = examine([interval.data_set for interval in intervals], sensor.prior, sensor.full_scale)

@@ -124,7 +124,9 @@ def build_scene(
         skin=skin,
         skin_events=events,
         intervals=_intervals(experiment),
-        findings=tuple(_finding(finding, recording.start_ns) for finding in inspect_experiment(usable)),
+        findings=tuple(
+            _finding(finding, recording.start_ns) for finding in inspect_experiment(usable, with_causes=False)
+        ),
         notes=tuple(draft.notes) if skin_alone else (*draft.notes, *missing),
         provenance=tuple(draft.sources),
         annotations_url=None,

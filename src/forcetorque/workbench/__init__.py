@@ -14,6 +14,7 @@ CAPABILITY = Capability(
     page="workbench.md",
     needs=(
         "simulation",
+        "inspection",
         "calibration",
         "evaluation",
     ),

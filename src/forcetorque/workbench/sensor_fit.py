@@ -12,12 +12,12 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.calibration.generative.agreement import unmoved_directions
-from forcetorque.calibration.plausibility.compared_wrenches import Doubt
 from forcetorque.calibration.thesis.calibrate import validity_of
 from forcetorque.experiment.calibration.artefact import GENERATIVE, Calibration, Prior, SessionOffset
 from forcetorque.experiment.calibration.excitation import excitation_of
 from forcetorque.experiment.calibration.moments import DataSet, Moments
 from forcetorque.experiment.calibration.provenance import FittedInterval, Provenance, Selection, SensorIdentity
+from forcetorque.inspection.plausibility.compared_wrenches import Doubt
 from forcetorque.workbench.bench import Bench
 from forcetorque.workbench.fit import SESSION, BenchFit, fit_bench, fit_means
 from forcetorque.workbench.recording import BenchRecording
@@ -312,8 +312,8 @@ _DETERMINED = 1e-6
 
 def _plausibility_doubts(bench: Bench) -> tuple[Doubt, ...]:
     """Doubts of the plausibility checks, which raise an error where measurements are implausible."""
-    from forcetorque.calibration.plausibility.checks import examine
-    from forcetorque.calibration.plausibility.compared_wrenches import WORKBENCH
+    from forcetorque.inspection.plausibility.checks import examine
+    from forcetorque.inspection.plausibility.compared_wrenches import WORKBENCH
 
     blocks = DataSet(
         label=bench.serial,

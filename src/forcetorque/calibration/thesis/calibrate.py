@@ -265,7 +265,7 @@ def thesis_calibration(
     Raises:
         FitError: If the data cannot be those of the sensor under the modelled load, or do not determine the fit.
     """
-    from forcetorque.calibration.plausibility.checks import examine
+    from forcetorque.inspection.plausibility.checks import examine
 
     sensor, variables = campaign.sensor, campaign.sensor.variables if kind.with_variables else ()
     intervals = campaign.samples(Use.CALIBRATION, variables=[variable.linear.name for variable in variables])

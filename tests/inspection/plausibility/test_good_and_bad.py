@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.plausibility.checks import examine
-from forcetorque.calibration.plausibility.compared_wrenches import Doubt
 from forcetorque.experiment.calibration.moments import DataSet
+from forcetorque.inspection.plausibility.checks import examine
+from forcetorque.inspection.plausibility.compared_wrenches import Doubt
 from tests.calibration.push_error import Case, cases
 
 ALONE: dict[str, Sequence[str]] = {"grid": ["grid"], "tz": ["tz"], "bsl": ["bsl"]}

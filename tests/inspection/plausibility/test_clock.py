@@ -10,8 +10,8 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.plausibility.checks import examine
 from forcetorque.experiment.calibration.moments import DataSet
+from forcetorque.inspection.plausibility.checks import examine
 
 SAMPLES = 1200
 TIME_S = 0.01 * np.arange(SAMPLES)

@@ -9,8 +9,10 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
-from forcetorque.calibration.plausibility.reversed_sense_and_gain import (
+from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
+from forcetorque.experiment.calibration.sensor_model import is_invertible
+from forcetorque.inspection.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
+from forcetorque.inspection.plausibility.reversed_sense_and_gain import (
     axis_doubts,
     require_moment_unit,
     require_moving_load,
@@ -19,11 +21,9 @@ from forcetorque.calibration.plausibility.reversed_sense_and_gain import (
     scale_doubts,
     span_doubts,
 )
-from forcetorque.calibration.plausibility.timing import delay_doubts, require_gauges
-from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
-from forcetorque.experiment.calibration.sensor_model import is_invertible
+from forcetorque.inspection.plausibility.timing import delay_doubts, require_gauges
 
-_FEWEST = 20
+FEWEST = 20
 """Samples below which six components of a reference explain any reading."""
 
 
@@ -60,7 +60,7 @@ def examine(
     if not filled:
         return ()  # the fit itself says what is missing
     usable = [data for data in filled if len(data.raw) > 1]  # one sample has no neighbour
-    if sum(len(data.raw) for data in usable) < _FEWEST:
+    if sum(len(data.raw) for data in usable) < FEWEST:
         require_moving_load(_pooled(filled), setup)
         return (_too_few(sum(len(data.raw) for data in filled)),)
     moments = _pooled(usable)

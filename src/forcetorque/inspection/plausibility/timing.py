@@ -10,8 +10,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.calibration.plausibility.compared_wrenches import Doubt, Movement
 from forcetorque.experiment.calibration.moments import DataSet, Moments, symmetric_pseudo_inverse
+from forcetorque.inspection.plausibility.compared_wrenches import Doubt, Movement
 from forcetorque.recording.clock_offset import EVEN, ResampledPair, residual_at_lags
 
 _FEWEST = 20

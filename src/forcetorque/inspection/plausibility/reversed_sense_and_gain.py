@@ -11,8 +11,8 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
-from forcetorque.calibration.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
 from forcetorque.experiment.calibration.moments import DataSet, Moments
+from forcetorque.inspection.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
 
 _SPREAD = np.repeat([0.1, 0.2], 3)
 """Standard deviation of the coefficients of a matrix, relative to those of their row, in rows of force and of moment.

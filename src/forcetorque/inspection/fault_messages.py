@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is wrong, with its size, and the line of the experiment file or URDF to change."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.inspection.comparison import Comparison
+from forcetorque.inspection.plausibility.hypotheses import Explanation
+
+
+def fault_size(one: Explanation) -> tuple[float | None, str | None]:
+    """Give the size of a fault, for its finding.
+
+    Args:
+        one: The fault.
+
+    Returns:
+        Size and unit; None each for a fault without a parameter.
+    """
+    if one.value is None:
+        return None, None
+    if one.kind in ("mount", "gravity", "joint_offset"):
+        return float(np.rad2deg(one.value)), "deg"
+    return (one.value, "s") if one.kind == "delay" else (one.value, "times")
+
+
+def _interval(one: Explanation, factor: float = 1.0, digits: str = ".3g") -> str:
+    """Value with its 95 % interval."""
+    value = (one.value or 0.0) * factor
+    if one.half_width is None:
+        return f"{value:{digits}}"
+    half = one.half_width * abs(factor)
+    return f"{value:{digits}} (95 %: {value - half:{digits}} to {value + half:{digits}})"
+
+
+def fault_text(comparison: Comparison, one: Explanation) -> str:
+    """Say what is wrong, with its size.
+
+    Args:
+        comparison: The compared samples.
+        one: The fault.
+
+    Returns:
+        A clause.
+    """
+    degrees = float(np.rad2deg(1.0))
+    if one.kind == "reversed":
+        return "the sensor measures the opposite of the expected wrench"
+    if one.kind == "component_reversed":
+        return f"{one.about} has the opposite sign, the rest of the wrench has not"
+    if one.kind == "gravity":
+        return f"gravity is off the specified direction by {_interval(one, degrees)} deg"
+    if one.kind == "mass":
+        return f"the sensor measures {_interval(one)} times the expected wrench"
+    if one.kind == "joint_sign":
+        return f"joint {one.about!r} turns the other way"
+    if one.kind == "joint_offset":
+        return f"the zero of joint {one.about!r} is off by {_interval(one, degrees)} deg"
+    if one.kind == "joint_unit":
+        return f"positions of the joints are in {one.about}"
+    if one.kind == "columns":
+        return one.about
+    if one.kind == "moment_unit":
+        return f"moments are in {one.about}, read as N m"
+    if one.kind == "delay":
+        return _delay_text(comparison, one)
+    vector = np.zeros(3) if one.vector is None else one.vector
+    return f"the sensor is turned by {_interval(one, degrees)} deg about {_axis_text(vector)} against the URDF"
+
+
+def _delay_text(comparison: Comparison, one: Explanation) -> str:
+    later = (one.value or 0.0) > 0.0
+    amount = f"{_interval(one, 1e3 if later else -1e3, '.0f')} ms {'later' if later else 'earlier'}"
+    if one.about:
+        return f"stream {one.about!r} of joints comes {amount} than the others"
+    return f"stream {comparison.run.sensor.stream!r} comes {amount} than the joints"
+
+
+def _axis_text(vector: FloatArray) -> str:
+    largest = int(np.argmax(np.abs(vector)))
+    if abs(vector[largest]) > 0.97:
+        return "xyz"[largest]
+    return f"({', '.join(f'{value:.2f}' for value in vector)})"
+
+
+def remedy(comparison: Comparison, one: Explanation) -> str:
+    """Name the line of the experiment file or URDF to change.
+
+    Args:
+        comparison: The compared samples.
+        one: The fault.
+
+    Returns:
+        A clause in the imperative.
+    """
+    run = comparison.run
+    name, support = run.sensor.name, comparison.parts[0].interval.support
+    frame = "" if support is None else support.frame
+    if one.kind == "reversed":
+        return (
+            f"turn <measure_direction> of the sensor tag {name!r} in the URDF, or measure_direction of [[sensor]], or "
+            "gravity_direction of [[support]], the other way round"
+        )
+    if one.kind == "component_reversed":
+        return (
+            f"check the sign of {one.about} in columns of [[recording.stream]] {run.sensor.stream!r} and in prior of "
+            f"[[sensor]] {name!r}"
+        )
+    if one.kind == "gravity":
+        vector = np.zeros(3) if one.vector is None else one.vector
+        listed = ", ".join(f"{value:.3g}" for value in np.round(vector, 3) + 0.0)
+        return f'write gravity_direction = [{listed}] of [[support]] frame = "{frame}"'
+    if one.kind == "mass":
+        return (
+            f"check the mass of the links beyond {name!r} in the file that urdf of [robot] names, mass_kg of [load], "
+            f"and prior of [[sensor]] {name!r}, at the amplifier gains of the recording"
+        )
+    if one.kind == "joint_sign":
+        return f"turn the sign of its column in [[recording.stream]], or <axis> of joint {one.about!r} in the URDF"
+    if one.kind == "joint_offset":
+        return (
+            f"add it to the column of {one.about!r} in [[recording.stream]], or turn <origin rpy> of the joint in the "
+            "URDF about its axis by it"
+        )
+    if one.kind == "joint_unit":
+        unit = "deg" if one.about.startswith("degrees") else "rad"
+        return f'write "{unit}" in units of [[recording.stream]] for the joints'
+    if one.kind == "columns":
+        return (
+            f"put columns of [[recording.stream]] {run.sensor.stream!r} in the order fx, fy, fz, mx, my, mz, raw "
+            "channels in that of the prior"
+        )
+    if one.kind == "moment_unit":
+        return (
+            f'write "{one.about}" in units of [[recording.stream]] {run.sensor.stream!r}, or check prior of [[sensor]] '
+            f"{name!r}"
+        )
+    if one.kind == "delay":
+        holders = run.experiment.recording.joint_signals("position")
+        joints = dict.fromkeys(stream.name for stream, _ in holders.values())
+        late, other = (one.about, run.sensor.stream) if one.about else (run.sensor.stream, next(iter(joints), "joints"))
+        return f'write [[clock]] stream = "{late}", to = "{other}", delay_s = {one.value or 0.0:.3f}'
+    return f"turn <origin rpy> of the fixed joint of {name!r} in the URDF, or mount the sensor as the URDF has it"
