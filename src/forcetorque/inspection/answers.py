@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, get_args
 
+from forcetorque.inspection.plausibility.hypotheses import FaultKind
 from forcetorque.results.answer import Answer, Concern
 
 if TYPE_CHECKING:
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
 _LEADING: Final = ("contact", "light_contact")
 """Kinds that make an event by themselves; what else is found meanwhile belongs to it."""
+_FAULTS: Final = frozenset(get_args(FaultKind))
 _APART_S: Final = 1.0
 """Time between findings of two events."""
 _WHOLE: Final = 0.95
@@ -60,6 +62,18 @@ def _kind_text(kind: str, rows: Sequence[FindingRow]) -> str:
     )
     size = f" up to {largest}" if largest else ""
     return f"{kind.replace('_', ' ')}{where}{size}"
+
+
+def faults(findings: Iterable[FindingRow]) -> tuple[FindingRow, ...]:
+    """Select what is wrong with the experiment file, the URDF or the log as a whole, by the robot model.
+
+    Args:
+        findings: Findings.
+
+    Returns:
+        Those of a fault that explains the measurements, and of what `calibrate` refuses or warns of.
+    """
+    return tuple(row for row in findings if row.kind in _FAULTS or row.kind.startswith("implausible"))
 
 
 def events(findings: Iterable[FindingRow], duration_s: float) -> tuple[Event, ...]:
@@ -120,6 +134,15 @@ def inspection_answer(inspection: Inspection) -> Answer:
     notes = [row.message for row in inspection.findings if is_about_all(row, inspection.duration_s)]
     source, is_experiment = inspection.source, inspection.source.endswith(".toml")
     subject = f"{source}: {inspection.duration_s:.1f} s, {len(inspection.streams)} stream(s)"
+    if wrong := faults(inspection.findings):
+        return Answer(
+            subject=subject,
+            verdict=f"{len(wrong)} FAULT{'S' * (len(wrong) > 1)}",
+            why=tuple(f"{row.stream}: {row.message}" for row in wrong[:2]),
+            step="correct it, and inspect again",
+            command=f"inspect {source}",
+            concern=Concern.BAD,
+        )
     more = (f"{len(notes)} remark(s) on the whole log: {notes[0]}",) if notes else ()
     if not grouped:
         return Answer(

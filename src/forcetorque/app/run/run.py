@@ -23,6 +23,7 @@ from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.inspection.answers import faults
 from forcetorque.inspection.inspect import FindingRow, Inspection, inspected
 from forcetorque.payload.identify import weigh_load
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
@@ -196,11 +197,11 @@ def _of_experiments(
     names = [first.sensor(name).name for name in sensors] if sensors else [sensor.name for sensor in first.sensors]
     if not names:
         raise ExperimentError(f"{way.files[0]}: expected a [[sensor]] to calibrate, got none")
-    _inspect(way, experiments)
+    wrong = _inspect(way, experiments)
     campaigns = {
         name: Campaign([SensorRun(one, name) for one in experiments.values() if name in _names(one)]) for name in names
     }
-    _check(way, campaigns)
+    _check(way, campaigns, wrong)
     if (loads := wrist_loads(first)) is not None and not loads.are_stated:
         _weigh(way, campaigns[names[0]])
         return
@@ -220,19 +221,21 @@ def _names(experiment: Experiment) -> list[str]:
     return [sensor.name for sensor in experiment.sensors]
 
 
-def _inspect(way: _Way, experiments: Mapping[Path, Experiment]) -> None:
-    """Look for contacts in what is to be fitted."""
+def _inspect(way: _Way, experiments: Mapping[Path, Experiment]) -> list[str]:
+    """Look for contacts in what is to be fitted; what else is wrong by the robot model, in words."""
     way.begin("inspect")
-    touched, found = [], 0
+    touched, wrong, found = [], [], 0
     for path, experiment in experiments.items():
         inspection = inspected(experiment)
         way.results.append(inspection)
         found += sum(answer.verdict != "NOTHING FOUND" for answer in inspection.answers())
+        wrong += [f"{path}: {row.stream}: {row.message}" for row in faults(inspection.findings)]
         touched += [f"{path}: {words}" for words in _contacts(experiment, inspection)]
     if touched:
         way.stop("inspect", "; ".join(touched), "leave the contact out of the [[interval]], or state it as [[contact]]")
     else:
         way.end("inspect", f"{len(experiments)} recording(s), {found} with events outside or inside the intervals")
+    return wrong
 
 
 def _contacts(experiment: Experiment, inspection: Inspection) -> Iterator[str]:
@@ -250,10 +253,16 @@ def _overlaps(row: FindingRow, start: float, end: float) -> bool:
     return row.start_s is not None and row.end_s is not None and row.start_s < end and row.end_s >= start
 
 
-def _check(way: _Way, campaigns: Mapping[str, Campaign]) -> None:
-    """Compare frames, senses, clocks and units that the files state with what the readings say."""
+def _check(way: _Way, campaigns: Mapping[str, Campaign], wrong: Sequence[str]) -> None:
+    """Compare frames, senses, clocks and units that the files state with what the readings say.
+
+    Args:
+        way: What has been done.
+        campaigns: Sensors by name.
+        wrong: What `inspect` found to be wrong as a whole.
+    """
     way.begin("check")
-    contradicted, unchecked = [], []
+    contradicted, unchecked = list(wrong), []
     for name, campaign in campaigns.items():
         for one in campaign.runs:
             try:
