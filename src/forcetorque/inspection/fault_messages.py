@@ -129,7 +129,7 @@ def remedy(comparison: Comparison, one: Explanation) -> str:
         return f'write "{unit}" in units of [[recording.stream]] for the joints'
     if one.kind == "columns":
         return (
-            f"put columns of [[recording.stream]] {run.sensor.stream!r} in the order fx, fy, fz, mx, my, mz, raw "
+            f"put columns of [[recording.stream]] {run.sensor.stream!r} in the order fx, fy, fz, tx, ty, tz, raw "
             "channels in that of the prior"
         )
     if one.kind == "moment_unit":

@@ -16,7 +16,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.pose import skew
-from forcetorque.base.wrench import FORCE_AND_MOMENT
+from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.inspection.plausibility.evidence import Evidence, Fit
 
 FaultKind = Literal[
@@ -34,8 +34,6 @@ FaultKind = Literal[
 ]
 """What may be wrong."""
 
-NAMES: Final = ("fx", "fy", "fz", "mx", "my", "mz")
-"""Components of a wrench, in messages."""
 _MOMENT_UNITS: Final = {"N mm": 1e3, "kN m": 1e-3, "N cm": 1e2, "kgf cm": 10.197162, "lbf in": 8.8507458}
 """Units of moments, in what one N m is in each."""
 Changes: TypeAlias = Mapping[str, tuple[float, float]]
@@ -138,7 +136,11 @@ def senses(evidence: Evidence, expected: FloatArray) -> Iterator[Explanation]:
         Explanations.
     """
     yield _linear(evidence, expected, "reversed", "", -np.eye(6))
-    for about, places in (("force", range(3)), ("moment", range(3, 6)), *((NAMES[k], (k,)) for k in range(6))):
+    for about, places in (
+        ("force", range(3)),
+        ("moment", range(3, 6)),
+        *((WRENCH_COMPONENTS[k], (k,)) for k in range(6)),
+    ):
         sign = np.ones(6)
         sign[list(places)] = -1.0
         yield _linear(evidence, expected, "component_reversed", about, np.diag(sign))
@@ -157,11 +159,15 @@ def _of_log(evidence: Evidence, expected: FloatArray, *, is_raw: bool) -> Iterat
     for own in FORCE_AND_MOMENT:
         places = list(range(6))[own]
         for a, b in combinations(places, 2):
-            yield _permuted(evidence, expected, f"{NAMES[a]} and {NAMES[b]} are swapped", {a: b, b: a})
+            yield _permuted(
+                evidence, expected, f"{WRENCH_COMPONENTS[a]} and {WRENCH_COMPONENTS[b]} are swapped", {a: b, b: a}
+            )
         for shift in (1, 2):
             order = dict(zip(places, places[shift:] + places[:shift], strict=True))
-            listed = ", ".join(NAMES[order[k]] for k in places)
-            yield _permuted(evidence, expected, f"{listed} stand in the columns of {', '.join(NAMES[own])}", order)
+            listed = ", ".join(WRENCH_COMPONENTS[order[k]] for k in places)
+            yield _permuted(
+                evidence, expected, f"{listed} stand in the columns of {', '.join(WRENCH_COMPONENTS[own])}", order
+            )
     yield _permuted(evidence, expected, "moment before force", {k: (k + 3) % 6 for k in range(6)})
     prior = evidence.prior
     if is_raw and prior.shape == (6, 6):
