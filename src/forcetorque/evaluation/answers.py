@@ -15,10 +15,11 @@ from forcetorque.evaluation.load_cases.verdict import (
     Decision,
     LoadCaseError,
     UseVerdict,
-    amount,
 )
+from forcetorque.evaluation.next_step import to_calibrate, to_export
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.results.answer import EXPERIMENT, Answer, Concern
+from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.number_text import amount, bounded
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
@@ -57,6 +58,7 @@ def evaluation_answers(evaluation: Evaluation) -> Iterator[Answer]:
 
 def _of_errors(subject: str, row: CandidateErrors) -> Answer:
     """Of a candidate without a verdict: its error."""
+    step, command = to_calibrate(row.sensor)
     return Answer(
         subject=subject,
         verdict=f"force error {_mean(row.force_error_mean_N, row.force_error_half_width_95_N, 'N')}",
@@ -64,8 +66,8 @@ def _of_errors(subject: str, row: CandidateErrors) -> Answer:
             f"moment error {_mean(row.moment_error_mean_Nm, row.moment_error_half_width_95_Nm, 'N m')}; {row.samples} "
             "samples that were not fitted, with their mean error removed",
         ),
-        step="calibrate the sensor",
-        command=f"calibrate {EXPERIMENT} --sensor {row.sensor} -o {row.sensor}.json",
+        step=step,
+        command=command,
     )
 
 
@@ -119,16 +121,14 @@ def _measured(row: CandidateErrors, compared: Sequence[PriorComparison]) -> Iter
 def _step(use: UseVerdict) -> tuple[str, str]:
     """What to do next, and the command for it."""
     remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
-    calibration = f"-c {use.candidate}"
     if remedy is None:
-        return "export the matrix to the robot", f"export {use.candidate} --to csv -o {use.sensor}.csv"
+        return to_export(use.candidate, use.sensor)
     if remedy in (LOOK_FOR_CAUSE, KEEP_PRIOR, CORRECT_DATA):
-        return remedy, f"inspect {EXPERIMENT}"
+        return remedy, typed("inspect", EXPERIMENT)
     if remedy == ADD_VALIDATION:
         return remedy, ""
-    return remedy, f"plan {EXPERIMENT} {calibration}"
+    return remedy, typed("plan", EXPERIMENT, "-c", use.candidate)
 
 
 def _mean(value: float, half_width: float | None, unit: str) -> str:
-    interval = "" if half_width is None else f" (95 %: {amount(value + half_width, unit)})"
-    return f"{amount(value, unit)}{interval}"
+    return amount(value, unit) if half_width is None else bounded(value, value + half_width, unit)

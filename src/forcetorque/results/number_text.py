@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 
 from forcetorque.base.units import SI_FACTORS
 
@@ -48,6 +49,61 @@ def interval(low: float, high: float | None, *, digits: int) -> str:
         Such as `0.21 to 0.43`, or `0.21 to any`.
     """
     return f"{low:.{digits}f} to {'any' if high is None else f'{high:.{digits}f}'}"
+
+
+def amount(value: float, unit: str) -> str:
+    """Write a size with two digits that count and without a power of ten.
+
+    Args:
+        value: The size.
+        unit: Its unit.
+
+    Returns:
+        Such as `0.043 N m` or `324 N`.
+    """
+    return f"{value:.0f} {unit}" if abs(value) >= 100.0 else f"{float(f'{value:.2g}'):g} {unit}"
+
+
+def bounded(value: float, most: float | None, unit: str) -> str:
+    """Write a size with the upper bound of its 95 % interval.
+
+    Args:
+        value: The size.
+        most: The bound; None or infinite where there is none.
+        unit: Unit of both.
+
+    Returns:
+        Such as `0.85 N (95 %: 1.4 N)`.
+    """
+    bound = "no bound" if most is None or not math.isfinite(most) else amount(most, unit)
+    return f"{amount(value, unit)} (95 %: {bound})"
+
+
+def plus_minus(values: float | Sequence[float], half_width: float | None, unit: str) -> str:
+    """Write a number, or several, with the half-width of a 95 % interval, down to two digits of that.
+
+    Args:
+        values: The number, or several such as those of three axes.
+        half_width: The half-width, of several the largest; None or infinite where it is not known.
+        unit: Unit of all.
+
+    Returns:
+        Such as `1.237 kg (95 %: ±0.012 kg)` or `(0.1, -2.3, 4.0) N (95 %: ±0.2 N)`.
+    """
+    known = half_width is not None and math.isfinite(half_width) and half_width > 0.0
+    digits = max(0, 1 - math.floor(math.log10(half_width))) if known and half_width else 3
+    digits = min(digits, _MOST_DIGITS)
+    text = (
+        f"({', '.join(f'{value:.{digits}f}' for value in values)})"
+        if isinstance(values, Sequence)
+        else f"{values:.{digits}f}"
+    )
+    bound = f"±{amount(half_width, unit)}" if half_width is not None and math.isfinite(half_width) else "no bound"
+    return f"{text} {unit} (95 %: {bound})"
+
+
+_MOST_DIGITS = 6
+"""Digits behind the point of a number with a half-width."""
 
 
 def finite_or_none(value: float) -> float | None:
