@@ -25,11 +25,12 @@ from forcetorque.results.table import short_names
 if TYPE_CHECKING:
     from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation
 
-_CONCERN: Final[Mapping[Decision, Concern]] = {
+CONCERN: Final[Mapping[Decision, Concern]] = {
     "use": Concern.NONE,
     "not enough data": Concern.UNCERTAIN,
     "do not use": Concern.BAD,
 }
+"""How much a decision asks for attention."""
 
 
 def evaluation_answers(evaluation: Evaluation) -> Iterator[Answer]:
@@ -75,7 +76,7 @@ def _of_uses(
     subject: str, row: CandidateErrors, uses: Sequence[UseVerdict], compared: Sequence[PriorComparison]
 ) -> Answer:
     """Of a calibration: the verdict on its load cases, the worst first."""
-    worst = max(uses, key=lambda use: _CONCERN[use.decision])
+    worst = max(uses, key=lambda use: CONCERN[use.decision])
     agree = len({use.decision for use in uses}) == 1
     decision = worst.decision.upper()
     reason = worst.reasons[0]
@@ -89,7 +90,7 @@ def _of_uses(
         why=(first, *(() if _is_predicted(worst) else (reason.text,)), *_measured(row, compared)),
         step=step,
         command=command,
-        concern=_CONCERN[worst.decision],
+        concern=CONCERN[worst.decision],
     )
 
 
