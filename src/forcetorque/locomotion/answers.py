@@ -79,7 +79,7 @@ def coherence_answers(coherence: Coherence) -> Iterator[Answer]:
             why=(
                 f"net contact force of {row.phases} phase{'s' * (row.phases != 1)} less the weight, "
                 f"{amount(coherence.weight_N, 'N')}: mean of the norm, and the largest",
-                "phases that gave the offset or the matrix are no evidence; forces of one foot against the other cancel",
+                "phases that gave the offset or the matrix are no evidence; what one foot does against the other cancels",
             ),
             written=() if coherence.figure is None else (coherence.figure,),
             concern=Concern.NONE if row.phases else Concern.UNCERTAIN,
@@ -135,14 +135,10 @@ def _course(motion: Motion, interval: str, column: str) -> Iterator[str]:
     words = []
     for step in motion.settling:
         if (step.interval, step.column) == (interval, column):
-            settled = (
-                "does not settle"
-                if step.settling_s is None
-                else f"settles in {bounded(step.settling_s, step.latest_s, 's')}"
-            )
-            words.append(
-                f"after the step at {step.step_at_s:.3g} s it {settled}, overshoot {step.overshoot_percent:.0f} %"
-            )
+            time = step.settling_s
+            settles = "does not settle" if time is None else f"settles in {bounded(time, step.latest_s, 's')}"
+            at, overshoot = f"{step.step_at_s:.3g} s", f"{step.overshoot_percent:.0f} %"
+            words.append(f"after the step at {at} it {settles}, overshoot {overshoot}")
             break
     for row in motion.tracking:
         if (row.interval, row.column) == (interval, column):
@@ -161,28 +157,25 @@ def torque_loop_answers(study: TorqueLoopStudy, none: str) -> Iterator[Answer]:
     Yields:
         One answer each.
     """
-    keys = dict.fromkeys((row.tilt_deg, row.gain_factor, row.errors) for row in study.rows if row.errors != none)
-    for tilt, gain, errors in keys:
-        rows = [row for row in study.rows if (row.tilt_deg, row.gain_factor, row.errors) == (tilt, gain, errors)]
+    for key in dict.fromkeys((row.tilt_deg, row.gain_factor, row.errors) for row in study.rows if row.errors != none):
+        tilt, gain, errors = key
+        rows = [row for row in study.rows if (row.tilt_deg, row.gain_factor, row.errors) == key]
         rows.sort(key=lambda row: row.force_error_N)
-        onsets = [
-            row.median_force_error_N
-            for row in study.onsets
-            if (row.tilt_deg, row.gain_factor, row.errors) == (tilt, gain, errors)
-            and row.median_force_error_N is not None
-        ]
+        last = rows[-1]
         exact = [row for row in study.rows if (row.tilt_deg, row.gain_factor, row.errors) == (tilt, gain, none)]
+        beside = f", {_tracking(exact[0])} without" if exact else ""
+        own = [row for row in study.onsets if (row.tilt_deg, row.gain_factor, row.errors) == key]
+        onsets = [row.median_force_error_N for row in own if row.median_force_error_N is not None]
         linear = f"; the linear loop is unstable from {amount(min(onsets), 'N')} on, median" if onsets else ""
-        falls = any(row.falls for row in rows)
         yield Answer(
             subject=f"soles {tilt:g} deg, gains times {gain:g}, errors {errors}",
             verdict=_falls(rows),
-            why=(f"torque tracking error {_tracking(rows[-1])} with a force error of "
-                 f"{amount(rows[-1].force_error_N, 'N')}"
-                 + (f", {_tracking(exact[0])} without" if exact else ""),
-                 f"{rows[-1].oscillating} of {rows[-1].runs} runs go on swinging after a push{linear}"),
-            concern=Concern.UNCERTAIN if falls else Concern.NONE,
-        )  # fmt: skip
+            why=(
+                f"torque tracking error {_tracking(last)} with a force error of {amount(last.force_error_N, 'N')}{beside}",
+                f"{last.oscillating} of {last.runs} runs go on swinging after a push{linear}",
+            ),
+            concern=Concern.UNCERTAIN if any(row.falls for row in rows) else Concern.NONE,
+        )
 
 
 def _falls(rows: Sequence[TorqueLoopRow]) -> str:

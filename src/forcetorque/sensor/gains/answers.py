@@ -63,9 +63,10 @@ def _nearest(row: SensorRow, margin: float) -> str:
     channel = min(row.channels, key=_left)
     saturated = sum(channel.saturated_share > 0.0 for channel in row.channels)
     lost = f"; {saturated} of {len(row.channels)} channels saturate" if saturated else ""
+    left, least = f"{100.0 * _left(channel):.1f} %", f"{100.0 * margin:g} %"
     return (
-        f"nearest to its limit of {row.limit_counts:g} counts: {channel.channel} with {100.0 * _left(channel):.1f} % left, "
-        f"at least {100.0 * margin:g} % are to stay{lost}"
+        f"nearest to its limit of {row.limit_counts:g} counts: {channel.channel} with {left} left, at least {least} are "
+        f"to stay{lost}"
     )
 
 
