@@ -20,6 +20,7 @@ import numpy as np
 import pytest
 
 from forcetorque.app.command_line import whole_program
+from forcetorque.results.answer import MOST_LINES
 from forcetorque.results.capability import all_named, named
 from forcetorque.results.command import command_of
 from forcetorque.results.result import Result
@@ -228,3 +229,15 @@ def test_no_line_is_wider_than_its_terminal() -> None:
                 continue
             assert len(line) <= width or " " not in line.strip(), (picture.name, width, line)
         assert width == WIDTHS[-1]
+
+
+def test_the_answer_is_at_most_twelve_lines() -> None:
+    """At 80 characters, warnings included, of one sensor and its prior; `inspect` shows its table still."""
+    lengths = {}
+    for picture in sorted(FOLDER.glob("*.txt")):
+        parts = re.split(r"^===== (x+(?: details)?) =====\n", picture.read_text(encoding="utf-8"), flags=re.M)
+        shown = dict(zip(parts[1::2], parts[2::2], strict=True))
+        if f"{'x' * 80} details" in shown:
+            lengths[picture.stem] = shown["x" * 80].count("\n")
+    assert len(lengths) >= len(COMMANDS) - 1
+    assert {name: length for name, length in lengths.items() if length > MOST_LINES} == {}

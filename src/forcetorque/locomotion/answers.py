@@ -79,7 +79,7 @@ def coherence_answers(coherence: Coherence) -> Iterator[Answer]:
             why=(
                 f"net contact force of {row.phases} phase{'s' * (row.phases != 1)} less the weight, "
                 f"{amount(coherence.weight_N, 'N')}: mean of the norm, and the largest",
-                "phases that gave the offset or the matrix are no evidence; what one foot does against the other cancels",
+                "phases that gave offset or matrix are not counted; forces of one foot against the other cancel",
             ),
             written=() if coherence.figure is None else (coherence.figure,),
             concern=Concern.NONE if row.phases else Concern.UNCERTAIN,
@@ -171,7 +171,7 @@ def torque_loop_answers(study: TorqueLoopStudy, none: str) -> Iterator[Answer]:
             subject=f"soles {tilt:g} deg, gains times {gain:g}, errors {errors}",
             verdict=_falls(rows),
             why=(
-                f"torque tracking error {_tracking(last)} with a force error of {amount(last.force_error_N, 'N')}{beside}",
+                f"torque tracking error {_tracking(last)} at {amount(last.force_error_N, 'N')} of force error{beside}",
                 f"{last.oscillating} of {last.runs} runs go on swinging after a push{linear}",
             ),
             concern=Concern.UNCERTAIN if any(row.falls for row in rows) else Concern.NONE,

@@ -61,7 +61,12 @@ def amount(value: float, unit: str) -> str:
     Returns:
         Such as `0.043 N m` or `324 N`.
     """
-    return f"{value:.0f} {unit}" if abs(value) >= 100.0 else f"{float(f'{value:.2g}'):g} {unit}"
+    size = abs(value)
+    if size >= 100.0 or not size:
+        return f"{value:.0f} {unit}".rstrip()
+    digits = min(max(0, 1 - math.floor(math.log10(float(f"{size:.2g}")))), _MOST_DIGITS)
+    text = f"{value:.{digits}f}"
+    return f"{text.rstrip('0').rstrip('.') if digits else text} {unit}".rstrip()
 
 
 def bounded(value: float, most: float | None, unit: str) -> str:
@@ -90,20 +95,17 @@ def plus_minus(values: float | Sequence[float], half_width: float | None, unit: 
     Returns:
         Such as `1.237 kg (95 %: ±0.012 kg)` or `(0.1, -2.3, 4.0) N (95 %: ±0.2 N)`.
     """
-    known = half_width is not None and math.isfinite(half_width) and half_width > 0.0
+    known = half_width is not None and math.isfinite(half_width)
     digits = max(0, 1 - math.floor(math.log10(half_width))) if known and half_width else 3
     digits = min(digits, _MOST_DIGITS)
-    text = (
-        f"({', '.join(f'{value:.{digits}f}' for value in values)})"
-        if isinstance(values, Sequence)
-        else f"{values:.{digits}f}"
-    )
-    bound = f"±{amount(half_width, unit)}" if half_width is not None and math.isfinite(half_width) else "no bound"
-    return f"{text} {unit} (95 %: {bound})"
+    several = isinstance(values, Sequence)
+    numbers = ", ".join(f"{value:.{digits}f}" for value in (values if isinstance(values, Sequence) else (values,)))
+    text = f"{f'({numbers})' if several else numbers} {unit}".rstrip()
+    return f"{text} (95 %: {f'±{amount(half_width, unit)}' if known and half_width is not None else 'no bound'})"
 
 
-_MOST_DIGITS = 6
-"""Digits behind the point of a number with a half-width."""
+_MOST_DIGITS = 9
+"""Digits behind the point of a size or of a number with a half-width."""
 
 
 def finite_or_none(value: float) -> float | None:
@@ -161,6 +163,8 @@ _OTHERS = (
     "dB",
     "N/m",
     "N/count",
+    "N/degC",
+    "N m/degC",
     "N m/count",
     "%",
 )

@@ -90,16 +90,11 @@ class Draft(Result):
             One answer.
         """
         count, first = len(self.questions), next(iter(self.questions), None)
-        step = (
-            f"fill in {'it' if count == 1 else 'them'}, then check the file" if count else "read the file, then go on"
-        )
+        step = "fill in what is asked, then check the file" if count else "read the file, then go on"
         yield Answer(
             subject=self.file,
             verdict=f"{count} LINE{'S' * (count != 1)} TO FILL IN" if count else "COMPLETE",
-            why=(
-                *self.notes[:1],
-                *(() if first is None else (f"first, in line {first.line}: {first.key}: {first.question}",)),
-            ),
+            why=self.notes[-1:] if first is None else (f"line {first.line}, {first.key}: {first.question}",),
             step=step,
             command=typed(*("inspect" if count else self._next).split(), self.file),
             concern=Concern.UNCERTAIN if count else Concern.NONE,

@@ -65,8 +65,8 @@ def _nearest(row: SensorRow, margin: float) -> str:
     lost = f"; {saturated} of {len(row.channels)} channels saturate" if saturated else ""
     left, least = f"{100.0 * _left(channel):.1f} %", f"{100.0 * margin:g} %"
     return (
-        f"nearest to its limit of {row.limit_counts:g} counts: {channel.channel} with {left} left, at least {least} are "
-        f"to stay{lost}"
+        f"nearest to its limit of {row.limit_counts:g} counts: {channel.channel}, {left} left where {least} are to "
+        f"stay{lost}"
     )
 
 
