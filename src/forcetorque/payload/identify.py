@@ -188,9 +188,13 @@ def _require_weight(weighed: WeighedLoad) -> None:
             continue
         mass = plus_minus(load.mass_kg, load.mass_half_width_95_kg, "kg")
         accounts = "; ".join(f"{row.name}: {row.words}" for row in weighed.hypotheses)
-        remedy = accounts or (
-            "check measure_direction, gravity_direction and the orientation, whose signs decide it, or whether "
-            "anything is attached"
+        remedy = (
+            f"{accounts}; mend that, and weigh again"
+            if accounts
+            else (
+                "check measure_direction, gravity_direction and the orientation, whose signs decide it, or whether "
+                "anything is attached"
+            )
         )
         raise FitError(
             f"sensor {weighed.sensor!r}, load {load.load!r}: expected a mass above 0 kg, got {mass}; {remedy}"
