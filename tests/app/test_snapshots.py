@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Callable, Mapping
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import redirect_stderr
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
@@ -18,9 +20,11 @@ import numpy as np
 import pytest
 
 from forcetorque.app.command_line import whole_program
+from forcetorque.results.answer import MOST_LINES
 from forcetorque.results.capability import all_named, named
 from forcetorque.results.command import command_of
 from forcetorque.results.result import Result
+from forcetorque.results.terminal import output
 from forcetorque.workbench.simulated_benches import BenchFaults
 from tests.app.added_command import added_command
 from tests.app.commands import question_of, typed_commands
@@ -162,13 +166,20 @@ WRITTEN: Mapping[str, Callable[[Path], object]] = MappingProxyType(
 
 @pytest.fixture
 def shown_widths(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let a result write itself once for every width."""
-    text = Result.text
+    """Let a command show its result once for every width, with warnings, and its details."""
+    show = output.show_table
 
-    def at_every_width(result: Result, width: int) -> str:
-        return "".join(f"===== {width} =====\n{text(result, width)}" for width in WIDTHS)
+    def at_every_width(result: Result, *, details: bool, experiments: Sequence[Path]) -> None:
+        assert not details
+        for width in WIDTHS:
+            monkeypatch.setenv("COLUMNS", str(width))
+            sys.stdout.write(f"===== {width} =====\n")
+            with redirect_stderr(sys.stdout):
+                show(result, details=False, experiments=experiments)
+        for width in WIDTHS if tuple(result.answers()) else ():
+            sys.stdout.write(f"===== {width} details =====\n{result.details(width)}")
 
-    monkeypatch.setattr(Result, "text", at_every_width)
+    monkeypatch.setattr(output, "show_table", at_every_width)
 
 
 def test_a_command_of_experiments_is_here_without_a_line() -> None:
@@ -198,7 +209,7 @@ def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, 
     ended = run(*COMMANDS[name])
     assert ended.code in (0, 1), ended.err
     shown = re.sub(
-        r"\d", "0", re.sub(r"(?<======) (\d+) (?=====)", lambda match: f" {'x' * int(match[1])} ", ended.out)
+        r"\d", "0", re.sub(r"(?<======) (\d+) (?=details|=====)", lambda match: f" {'x' * int(match[1])} ", ended.out)
     )
     file = FOLDER / f"{question_of(name)}.txt"
     if request.config.getoption("--write-snapshots"):
@@ -218,3 +229,15 @@ def test_no_line_is_wider_than_its_terminal() -> None:
                 continue
             assert len(line) <= width or " " not in line.strip(), (picture.name, width, line)
         assert width == WIDTHS[-1]
+
+
+def test_the_answer_is_at_most_twelve_lines() -> None:
+    """At 80 characters, warnings included, of one sensor and its prior; `inspect` shows its table still."""
+    lengths = {}
+    for picture in sorted(FOLDER.glob("*.txt")):
+        parts = re.split(r"^===== (x+(?: details)?) =====\n", picture.read_text(encoding="utf-8"), flags=re.M)
+        shown = dict(zip(parts[1::2], parts[2::2], strict=True))
+        if f"{'x' * 80} details" in shown:
+            lengths[picture.stem] = shown["x" * 80].count("\n")
+    assert len(lengths) >= len(COMMANDS) - 1
+    assert {name: length for name, length in lengths.items() if length > MOST_LINES} == {}

@@ -60,7 +60,7 @@ def folder(design: DeviceDesign, tmp_path_factory: pytest.TempPathFactory) -> Pa
 
 def test_it_draws(run: Run, tmp_path: Path) -> None:
     """The motion, what the sensor sees of it, what is swept, and errors of references."""
-    asked = run("device", "--figures", tmp_path / "figures")
+    asked = run("device", "--figures", tmp_path / "figures", "--details")
     assert asked.code == 0
     assert "12 steps, axes swapped" in asked.out
     names = {picture.name for picture in (tmp_path / "figures").iterdir()}
@@ -177,5 +177,5 @@ def test_the_example_with_a_third_lock_tells_all_with_one_load(run: Run, tmp_pat
 def test_python_says_what_the_command_line_says(run: Run) -> None:
     """In one line, with a table for notebooks."""
     answer = design_device()
-    assert answer.text(120) == run("device").out
+    assert answer.text(120) == run("device", "--details").out
     assert "<table" in answer._repr_html_()

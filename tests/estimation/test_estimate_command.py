@@ -63,7 +63,7 @@ def test_the_summary_is_the_mean_norm(arm: Path, run: Run) -> None:
     result = run(*words, "json").result()
     assert faults(result, run("schema", "estimate").result()) == []
     rows = run(*words, "csv").rows()
-    shown = run(*words, "table").out
+    shown = run(*words, "table", "--details").out
     table = pq.read_table("out.parquet")
     force = np.column_stack([table.column(f"contact.arm_ft.f{axis}").to_numpy() for axis in "xyz"])
     judged = np.array(table.column("interval").to_pylist()) == "judge"

@@ -64,7 +64,9 @@ def test_the_example_with_the_truth_is_as_the_page_says(tmp_path: Path) -> None:
     for said, learnt in zip(shown, re.findall(r"^    (learnt: [^;\n]*)", PAGE, re.MULTILINE), strict=True):
         assert learnt in " ".join(said.split())
     for day in ("grid_day2", "bsl_day2"):
-        judged = _typed(folder, "-m", "forcetorque", "evaluate", f"{day}.toml", "-c", "grid.json", "-c", "all.json")
+        judged = _typed(
+            folder, "-m", "forcetorque", "evaluate", f"{day}.toml", "-c", "grid.json", "-c", "all.json", "--details"
+        )
         own = [line for line in judged.splitlines() if "judged-mean" in line]
         prior, _, grid, pooled = (float(line.split("±")[0].split()[-1]) for line in own)
         _agree(_row(f"`{day}`, mean taken off: force"), [prior, grid, pooled])

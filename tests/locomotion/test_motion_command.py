@@ -30,7 +30,7 @@ def test_a_motion_is_shown_and_drawn(log: Path, run: Run) -> None:
     assert len(result["settling"]) == 1
     assert "no settling time: stand: com_y: step at 10.000 s: expected a signal that goes somewhere" in outcome.err
     one = ("--column", "robot.position.knee", "--desired", "robot.position.knee_desired", "--band-percent", "10")
-    assert "within 10 % of the step" in run("motion", log, *one).out
+    assert "within 10 % of the step" in run("motion", log, *one, "--details").out
     assert "robot.position.knee" in run("motion", log, *one, "--format", "csv").out
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -20,7 +21,9 @@ from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.results.showing import require_shown
 from tests.scenes.experiments import FT_LOG, MOUNTED, PARQUET, RATE_HZ, YARP, edit_lines
+from tests.scenes.wrist_postures import write_postures
 
+POSTURES = Rotation.random(8, random_state=4)
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
@@ -138,7 +141,7 @@ def test_calibrate_warns_of_doubtful_samples(run: Run, data_dir: Path, tmp_path:
         path = tmp_path / example
         text = (EXAMPLES / example).read_text(encoding="utf-8")
         path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
-        ended = run("calibrate", path, "-o", tmp_path / "out.json")
+        ended = run("calibrate", path, "-o", tmp_path / "out.json", "--details")
         assert ended.code == 0
         warned[example] = [line for line in ended.log if "WARNING: interval" in line]
     assert any("light_contact" in line for line in warned["02_icub_yoga_forward.toml"])
@@ -152,7 +155,7 @@ def test_an_estimated_load_cannot_judge_a_gain(run: Run, data_dir: Path, tmp_pat
     path = tmp_path / "wrist.toml"
     text = (EXAMPLES / "07_wrist_payload.toml").read_text(encoding="utf-8")
     path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
-    ended = run("calibrate", path, "-o", tmp_path / "wrist.json")
+    ended = run("calibrate", path, "-o", tmp_path / "wrist.json", "--details")
     assert any("a wrong gain cannot be seen" in line for line in ended.log)
     refused = run("export", tmp_path / "wrist.json", "--to", "icub-matrix", "-o", tmp_path / "m.txt")
     assert "not per count" in refused.error()
@@ -182,7 +185,7 @@ def test_the_wrist_payload(run: Run, data_dir: Path, tmp_path: Path) -> None:
     assert float(row["mass_kg"]) == load["mass_kg"]
     assert float(row["bias_tz_Nm"]) == session["bias"][5]
     assert float(row["centre_of_mass_z_m"]) == load["centre_of_mass_m"][2]
-    assert "kg at (" in run("payload", path).out
+    assert "kg at (" in run("payload", path, "--details").out
     assert faults(result, run("schema", "payload").result()) == []
     experiment = load_experiment(path)
     weighed = weigh_load(SensorRun(experiment, experiment.sensors[0]))
@@ -226,3 +229,15 @@ def test_a_log_of_a_stated_format_is_described(arm: Path, run: Run) -> None:
     assert "the log is read with an experiment file that describes it" in run("inspect", arm / "table.csv").out
     assert "no format of logs is called 'ros1'" in run("inspect", arm / "recording", "--log-format", "ros1").error()
     assert "expected a bag of ROS" in run("inspect", arm / "table.csv", "--log-format", "ros").error()
+
+
+def test_a_mass_below_zero_is_refused(run: Run, tmp_path: Path) -> None:
+    """With what the measurements say is wrong; the same file without the fault has an answer and exit code 0."""
+    path = write_postures(tmp_path, seed=6, postures=POSTURES, known=False)
+    text = path.read_text(encoding="utf-8")
+    shown = run("payload", path)
+    assert (shown.code, "kg (95 %: ±" in shown.out) == (0, True)
+    path.write_text(text.replace("child_to_parent", "parent_to_child"), encoding="utf-8")
+    error = run("payload", path).error()
+    assert "expected a mass above 0 kg, got -" in error
+    assert "reversed direction: " in error

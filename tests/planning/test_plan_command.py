@@ -37,7 +37,7 @@ def limited(arm: Path) -> str:
 def test_a_plan_is_shown_and_written(run: Run, arm: Path, limited: str) -> None:
     """Tables for people; JSON that is the same in the folder; a line per recording as CSV."""
     words = ("plan", limited, "-c", "fitted.json", "--recordings", "1", "--seconds", "20")
-    shown = run(*words, "-o", "next")
+    shown = run(*words, "-o", "next", "--details")
     assert shown.code == 0
     assert "recording 1: positions of the joints that move, deg" in shown.out
     assert shown.out.rstrip().endswith("written: next")
@@ -62,7 +62,7 @@ def test_the_clearance_may_be_typed_and_must_be_somewhere(run: Run, arm: Path) -
 def test_a_file_without_a_recording_is_planned_and_nothing_else(run: Run, arm: Path) -> None:
     """Before any recording there is a plan; other commands say what the file lacks."""
     (arm / "new.toml").write_text(NEW, encoding="utf-8")
-    planned = run("plan", "new.toml", "--recordings", "1", "--seconds", "20")
+    planned = run("plan", "new.toml", "--recordings", "1", "--seconds", "20", "--details")
     assert planned.code == 0
     assert "nothing was recorded" in planned.out
     assert run("calibrate", "new.toml", "-o", "x.json").error() == (

@@ -28,7 +28,7 @@ def test_recordings_are_ordered(days: Path, run: Run) -> None:
 
 def test_people_see_steps_and_sensors(days: Path, run: Run) -> None:
     """Two tables and a sentence."""
-    text = run(*WORDS).out
+    text = run(*WORDS, "--details").out
     assert "error over allowed before" in " ".join(text.split())
     assert "after all of these: predicted root mean square error at the loads of use" in text
     assert "record arm " in text

@@ -102,7 +102,7 @@ def test_a_saturated_channel_is_lowered_and_to_be_repeated(arm: Path, run: Run) 
     (warning,) = [line for line in ended.log if line.startswith("WARNING")]
     assert "arm_ft: ch4 saturates in" in warning
     assert "lower its gain and repeat the motion" in warning
-    shown = run("gains", PARQUET)
+    shown = run("gains", PARQUET, "--details")
     assert "repeat at 24" in " ".join(shown.out.split())
 
 
@@ -124,7 +124,7 @@ def test_rows_and_table_say_the_same(arm: Path, run: Run) -> None:
     for row, channel in zip(rows, [*_channels(result), *_channels(result, 1)], strict=True):
         assert float(row["largest_counts"]) == channel["largest_counts"]
         assert (row["change"], row["present_gain"]) == (channel["change"], "")
-    shown = run("gains", TWO)
+    shown = run("gains", TWO, "--details")
     assert shown.code == 0
     for word in ("arm_ft (SIM001)", "tool_ft (SIM/002)", "ch5", "tz, mN m", "rms, after", "wrist", "above 20 %"):
         assert word in shown.out
@@ -151,7 +151,7 @@ def test_a_figure_is_written_where_it_is_asked(arm: Path, run: Run) -> None:
     after = snapshot(arm)
     assert after.keys() - before.keys() == {"gains.png"}
     assert before.items() <= after.items()
-    assert "drawn to gains.png" in run("gains", PARQUET, "--figure", "gains.png").out
+    assert "drawn to gains.png" in run("gains", PARQUET, "--figure", "gains.png", "--details").out
 
 
 def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -28,7 +28,7 @@ def test_drift_is_shown_and_drawn(chamber: Path, run: Run) -> None:
     slopes = [row["drift_per_degC"] for row in sensor["components"]]
     np.testing.assert_allclose(slopes, PER_DEGREE, rtol=0.1)
     assert figure.read_bytes().startswith(b"\x89PNG")
-    table = run("thermal", chamber).out
+    table = run("thermal", chamber, "--details").out
     assert "prior_coefficients = [" in table
     assert "heating - cooling" in table
     lines = run("thermal", chamber, "--format", "csv").out.splitlines()

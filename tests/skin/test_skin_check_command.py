@@ -44,7 +44,7 @@ def test_findings_are_exit_code_1(run: Run, folder: Path) -> None:
 
 def test_a_figure_is_drawn(run: Run, folder: Path) -> None:
     """And refused before the layout is read."""
-    ended = run("skin", "check", "sound.txt", "--figure", "patch.png")
+    ended = run("skin", "check", "sound.txt", "--figure", "patch.png", "--details")
     assert "drawn to patch.png" in ended.out
     assert (folder / "patch.png").read_bytes()[:4] == b"\x89PNG"
     refused = run("skin", "check", "none.txt", "--figure", "patch.jpg").error()

@@ -357,7 +357,7 @@ def test_csv_has_every_candidate(quick: Outcome) -> None:
 
 def test_the_table_shows_the_choice_and_what_to_expect(days: Path, run: Run) -> None:
     """The best in both modes beside the workbench, axis by axis, and what is left on another session."""
-    done = run("study", *FILES, *QUICK, "-o", "out")
+    done = run("study", *FILES, *QUICK, "-o", "out", "--details")
     assert done.code == 0
     shown = " ".join(done.out.split())
     assert (
@@ -384,7 +384,7 @@ def test_the_table_says_which_data_leave_directions_still(days: Path, run: Run) 
     words = ("--type", "OnTdTO", "--lambda", "100", "--data-set", "piece=grid_cold", "--data-set", "all=grid,random")
     piece, every = _sensor(run, *words)["combinations"]
     assert piece["excited"] < every["excited"] == piece["channels"] == 6
-    shown = run("study", *FILES, *words, "-o", "again").out
+    shown = run("study", *FILES, *words, "-o", "again", "--details").out
     assert f"piece: loads move only {piece['excited']} of 6 raw directions\n" in shown
     assert "all: loads move" not in shown
 

@@ -39,7 +39,7 @@ def test_it_names_the_next_position(run: Run, bench: Path) -> None:
     """Without fitting anything; as JSON too."""
     outcome = run("workbench", "SIM002.toml", "--next")
     assert (outcome.code, outcome.err) == (0, "")
-    assert outcome.out.startswith("next: position 3 ")
+    assert "\nnext: record position 3 " in outcome.out
     result = run("workbench", "SIM002.toml", "--next", "--format", "json").result()
     assert result["sensors"] == []
     assert len(result["blocks_checked"]) == 2
@@ -61,6 +61,6 @@ def test_a_limit_that_fails_is_exit_code_1(run: Run, bench: Path) -> None:
     (bench / "limits.toml").write_text(
         'schema = "forcetorque/acceptance/1"\nname = "bench"\n[workbench]\nfaults = 0\n', encoding="utf-8"
     )
-    outcome = run("workbench", "SIM001.toml", "--spec", "limits.toml")
+    outcome = run("workbench", "SIM001.toml", "--spec", "limits.toml", "--details")
     assert outcome.code == 1
     assert "workbench.faults" in outcome.out

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.calibration.artefact import JOINT, Calibration, SessionOffset
-from forcetorque.results.answer import EXPERIMENT, Answer, Concern
+from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import number, with_error
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table
 
@@ -45,7 +45,7 @@ def calibration_answer(
         verdict=("FITTED, WITH WARNINGS" if doubtful else "FITTED") if saved else "FITTED, NOT WRITTEN YET",
         why=(fitted, *((learnt_words(learnt),) if learnt else ())),
         step="evaluate it on data that were not fitted",
-        command=f"evaluate {EXPERIMENT} -c {file}",
+        command=typed("evaluate", EXPERIMENT, "-c", file),
         concern=Concern.UNCERTAIN if doubtful else Concern.NONE,
     )
 

@@ -11,6 +11,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, SensorError, SerialNumberError, ShapeError
+from forcetorque.contests.answers import contest_answer
 from forcetorque.contests.entries import Entries
 from forcetorque.contests.methods import Phases, Reader, contestant_reader, contestant_trials
 from forcetorque.contests.pairwise_comparison import (
@@ -21,6 +22,7 @@ from forcetorque.contests.pairwise_comparison import (
     rms_intervals,
 )
 from forcetorque.contests.phases import Trial, by_load, changes, common_phases, repeatability, require_same_motion
+from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
 
@@ -252,6 +254,14 @@ class Contest(Result):
     """Every contestant against every other."""
     left_out: tuple[LeftOutRow, ...]
     """Those that lack what their method needs."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say who errs least, and by how much.
+
+        Yields:
+            One answer.
+        """
+        yield contest_answer(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give ranks, scores, errors by load and pairs.

@@ -118,6 +118,7 @@ def estimate(
         estimates_of_recordings(summaries) if several else summaries[str(experiments[0])],
         output_format,
         details=details,
+        experiments=experiments,
     )
 
 

@@ -12,6 +12,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import sample_statistics
+from forcetorque.estimation.answers import estimate_answers
 from forcetorque.estimation.estimate import IntervalEstimates
 from forcetorque.estimation.samples_file import write_estimates
 from forcetorque.estimation.torque.experiment_fusion import IntervalFusion, TorqueFusion, summarise_fusion
@@ -23,6 +24,7 @@ from forcetorque.experiment.validity import ReadingsOutside, outside_row, senten
 from forcetorque.inspection.diagnosis import reversed_sensors
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Use
+from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -222,6 +224,14 @@ class EstimateSummary(EstimatedRecording, _EstimateSchema):
     """The estimates of each of several recordings; none where there is one recording."""
     intervals: tuple[IntervalEstimates, ...] = Field(default=(), exclude=True, repr=False)
     """Every sample, in a script; none where they are written to a file."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say of every recording how large contact forces are, and what is not determined.
+
+        Yields:
+            One per recording.
+        """
+        yield from estimate_answers(self.recordings or (self,))
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table of the contacts and one of the sub-models, of one recording after the other.

@@ -15,20 +15,22 @@ from forcetorque.evaluation.load_cases.verdict import (
     Decision,
     LoadCaseError,
     UseVerdict,
-    amount,
 )
+from forcetorque.evaluation.next_step import to_calibrate, to_export
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.results.answer import EXPERIMENT, Answer, Concern
+from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.number_text import amount, bounded
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
     from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation
 
-_CONCERN: Final[Mapping[Decision, Concern]] = {
+CONCERN: Final[Mapping[Decision, Concern]] = {
     "use": Concern.NONE,
     "not enough data": Concern.UNCERTAIN,
     "do not use": Concern.BAD,
 }
+"""How much a decision asks for attention."""
 
 
 def evaluation_answers(evaluation: Evaluation) -> Iterator[Answer]:
@@ -57,6 +59,7 @@ def evaluation_answers(evaluation: Evaluation) -> Iterator[Answer]:
 
 def _of_errors(subject: str, row: CandidateErrors) -> Answer:
     """Of a candidate without a verdict: its error."""
+    step, command = to_calibrate(row.sensor)
     return Answer(
         subject=subject,
         verdict=f"force error {_mean(row.force_error_mean_N, row.force_error_half_width_95_N, 'N')}",
@@ -64,8 +67,8 @@ def _of_errors(subject: str, row: CandidateErrors) -> Answer:
             f"moment error {_mean(row.moment_error_mean_Nm, row.moment_error_half_width_95_Nm, 'N m')}; {row.samples} "
             "samples that were not fitted, with their mean error removed",
         ),
-        step="calibrate the sensor",
-        command=f"calibrate {EXPERIMENT} --sensor {row.sensor} -o {row.sensor}.json",
+        step=step,
+        command=command,
     )
 
 
@@ -73,7 +76,7 @@ def _of_uses(
     subject: str, row: CandidateErrors, uses: Sequence[UseVerdict], compared: Sequence[PriorComparison]
 ) -> Answer:
     """Of a calibration: the verdict on its load cases, the worst first."""
-    worst = max(uses, key=lambda use: _CONCERN[use.decision])
+    worst = max(uses, key=lambda use: CONCERN[use.decision])
     agree = len({use.decision for use in uses}) == 1
     decision = worst.decision.upper()
     reason = worst.reasons[0]
@@ -87,7 +90,7 @@ def _of_uses(
         why=(first, *(() if _is_predicted(worst) else (reason.text,)), *_measured(row, compared)),
         step=step,
         command=command,
-        concern=_CONCERN[worst.decision],
+        concern=CONCERN[worst.decision],
     )
 
 
@@ -120,13 +123,12 @@ def _step(use: UseVerdict) -> tuple[str, str]:
     """What to do next, and the command for it."""
     remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
     if remedy is None:
-        return "export the matrix to the robot", f"export {use.candidate} --to csv -o {use.sensor}.csv"
+        return to_export(use.candidate, use.sensor)
     if remedy in (LOOK_FOR_CAUSE, KEEP_PRIOR, CORRECT_DATA):
-        return remedy, f"inspect {EXPERIMENT}"
+        return remedy, typed("inspect", EXPERIMENT)
     records = any(ADVICE_BY_SOURCE[source] in remedy for source in ("matrix", "model"))
-    return remedy, f"plan {EXPERIMENT} -c {use.candidate}" if records else ""
+    return remedy, typed("plan", EXPERIMENT, "-c", use.candidate) if records else ""
 
 
 def _mean(value: float, half_width: float | None, unit: str) -> str:
-    interval = "" if half_width is None else f" (95 %: {amount(value + half_width, unit)})"
-    return f"{amount(value, unit)}{interval}"
+    return amount(value, unit) if half_width is None else bounded(value, value + half_width, unit)

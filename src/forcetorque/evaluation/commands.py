@@ -210,7 +210,7 @@ def compare(
     )
     if figure is not None and result.analyses:
         result = _drawn(result, figure)
-    show(result, output_format, details=details)
+    show(result, output_format, details=details, experiments=experiments)
     stop_at_failures(result.failures)
 
 

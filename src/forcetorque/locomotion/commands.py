@@ -99,7 +99,7 @@ def balance(
 
         standing = next(one for one in result.intervals if one.phases.down.any())
         write_bytes_atomically(figure, png_bytes(balance_figure(standing)))
-    show(result, output_format, details=details)
+    show(result, output_format, details=details, experiments=experiments)
 
 
 def _answer(

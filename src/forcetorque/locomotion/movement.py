@@ -13,6 +13,7 @@ from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, RecordingError
 from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.locomotion.answers import motion_answers
 from forcetorque.locomotion.logged_signals import MotionSignal
 from forcetorque.locomotion.oscillation.oscillation import OscillationSearch, find_oscillations
 from forcetorque.locomotion.oscillation.settling import (
@@ -23,6 +24,7 @@ from forcetorque.locomotion.oscillation.settling import (
     tracking_error,
 )
 from forcetorque.locomotion.oscillation.spectrum import ResampledSignal, resampled
+from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, Values, table_of
 
@@ -108,6 +110,14 @@ class Motion(Result):
     """File of the figure."""
     curves: tuple[MotionCurve, ...] = Field(default=(), exclude=True, repr=False)
     """Columns with their oscillations, for the figure."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say of every interval and column whether it oscillates.
+
+        Yields:
+            One per interval and column.
+        """
+        yield from motion_answers(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give tables of oscillations, settling times and tracking errors.

@@ -144,7 +144,7 @@ def payload(
     if output == STANDARD_OUTPUT:  # the file itself went there
         show_warnings(load)
     else:
-        show(load, output_format, details=details)
+        show(load, output_format, details=details, experiments=experiments)
 
 
 def tare(
@@ -195,7 +195,7 @@ def tare(
     if output == STANDARD_OUTPUT:
         show_warnings(result)
     else:
-        show(result, output_format, details=details)
+        show(result, output_format, details=details, experiments=[experiment])
 
 
 def _one_for_each(content: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, str]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from forcetorque.base.errors import ExperimentError
+from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.noise.means import means_over
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.campaign import Campaign, Runs
@@ -21,6 +21,7 @@ from forcetorque.payload.load_warnings import load_doubts, overweight_loads, pay
 from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import JudgedLoadRow, LoadRow, RecordingLoadRow, WeighedLoad, disagreements
 from forcetorque.recording.recording import Use
+from forcetorque.results.number_text import plus_minus
 from forcetorque.robot.mounting import rotation_vector
 
 
@@ -140,6 +141,9 @@ def weigh_load(runs: Runs) -> WeighedLoad:
 
     Returns:
         Loads, biases, their 95 % intervals, what stays open, and what makes it doubtful.
+
+    Raises:
+        FitError: If a load has a mass below zero.
     """
     campaign = Campaign.of(runs)
     solution, first, links = weighed(campaign), campaign.runs[0], links_of(campaign)
@@ -169,11 +173,32 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         recordings=tuple(alone),
         disagreements=tuple(disagreements(alone)),
     )
+    _require_weight(result)
     of_runs = (
         words for run in campaign.runs for words in (*overweight_loads(run), *reversed_sense(run), *load_doubts(run))
     )
     doubts = (*payload_doubts(result), *of_runs)
     return result.model_copy(update={"warnings": doubts})
+
+
+def _require_weight(weighed: WeighedLoad) -> None:
+    """Refuse a load below zero: signs, axes or units are wrong, or nothing hangs there."""
+    for load in weighed.loads:
+        if load.mass_kg is None or load.mass_kg >= 0.0:
+            continue
+        mass = plus_minus(load.mass_kg, load.mass_half_width_95_kg, "kg")
+        accounts = "; ".join(f"{row.name}: {row.words}" for row in weighed.hypotheses)
+        remedy = (
+            f"{accounts}; mend that, and weigh again"
+            if accounts
+            else (
+                "check measure_direction, gravity_direction and the orientation, whose signs decide it, or whether "
+                "anything is attached"
+            )
+        )
+        raise FitError(
+            f"sensor {weighed.sensor!r}, load {load.load!r}: expected a mass above 0 kg, got {mass}; {remedy}"
+        )
 
 
 def _vector(solution: LoadSolution) -> tuple[float, float, float]:

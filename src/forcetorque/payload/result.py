@@ -11,6 +11,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 from pydantic import Field
 
+from forcetorque.payload.answers import payload_answers
 from forcetorque.payload.identification.load_estimates import (
     BiasRow,
     BiasTestRow,
@@ -23,6 +24,7 @@ from forcetorque.payload.identification.load_estimates import (
     three,
 )
 from forcetorque.payload.identification.parameter_vector import SECOND_MOMENTS, SIX_PLACES, six_of
+from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import finite_or_none, with_error
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, WrenchValues, table_of
@@ -329,6 +331,14 @@ class WeighedLoad(Result):
     """What each of several recordings says by itself."""
     disagreements: tuple[str, ...] = ()
     """Where they differ by more than their intervals, in sentences."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say what every load weighs, and where its centre of mass is.
+
+        Yields:
+            One per load.
+        """
+        yield from payload_answers(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the loads, then biases, what is open and what disagrees.

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from forcetorque.results.terminal.options import DetailsOption, FormatOption
-from forcetorque.results.terminal.output import Format, refuse_standard_output, say, show, start_logging
+from forcetorque.results.terminal.output import Format, refuse_standard_output, show, start_logging
 
 
 def plan(
@@ -72,7 +72,12 @@ def plan(
         alone = {"-c": calibration, "--load-case": load_case, "--sensor": sensor, "--clearance-deg": clearance_deg}
         refuse_beside_jointly(alone | {"--seconds": seconds, "--output": output})
         contents = list(read_experiments(experiments, log).values())
-        show(plan_jointly(contents, recordings=recordings, progress=log.info), output_format, details=details)
+        show(
+            plan_jointly(contents, recordings=recordings, progress=log.info),
+            output_format,
+            details=details,
+            experiments=experiments,
+        )
         return
     refuse_standard_output("--output", output)
     if output is not None:
@@ -91,6 +96,4 @@ def plan(
     )
     if output is not None:
         result = write_plan(result, output)
-    show(result, output_format, details=details)
-    if output is not None:
-        say(f"written: {output}", output_format)
+    show(result, output_format, details=details, experiments=experiments)

@@ -18,7 +18,9 @@ from forcetorque.evaluation.load_cases.predicted_error import predict, predict_p
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.planning.answers import joint_plan_answer
 from forcetorque.planning.search import HELPS
+from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 
@@ -92,6 +94,15 @@ class JointPlan(Result):
     """What to record, in a sentence."""
     warnings: tuple[str, ...] = ()
     """What even all of these recordings do not tell."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say what to record next and what it brings, or that nothing helps.
+
+        Yields:
+            One answer.
+        """
+        excess = [self.steps[0].excess_before, *(step.excess_after for step in self.steps)]
+        yield joint_plan_answer(self, _useful(excess))
 
     def blocks(self) -> Iterator[Table | str]:
         """Give what people read.
@@ -220,10 +231,8 @@ def _step(number: int, chosen: Sequence[_Outcome]) -> JointPlanStep:
 
 def _advice(chosen: Sequence[_Outcome]) -> str:
     excess = [chosen[0].excess_before, *(outcome.excess for outcome in chosen)]
-    # one that helps little by itself may be needed by the next: all up to the last help
-    steps = [number for number in range(1, len(excess)) if excess[number] < (1.0 - HELPS) * excess[number - 1]]
-    names = [outcome.added for outcome in chosen]
-    useful, rest = (names[: steps[-1]], names[steps[-1] :]) if steps else ([], names)
+    names, count = [outcome.added for outcome in chosen], _useful(excess)
+    useful, rest = names[:count], names[count:]
     if not useful:
         return (
             "none of these recordings is expected to lower the errors; move more joints, or change what the feet bear"
@@ -233,3 +242,9 @@ def _advice(chosen: Sequence[_Outcome]) -> str:
     )
     words += f"{excess[len(useful)]:.2f}"
     return words + (f"; {', '.join(rest)} would add less than {100 * HELPS:.0f} %" if rest else "")
+
+
+def _useful(excess: Sequence[float]) -> int:
+    """Number of recordings that help: one that helps little by itself may be needed by the next."""
+    steps = [number for number in range(1, len(excess)) if excess[number] < (1.0 - HELPS) * excess[number - 1]]
+    return steps[-1] if steps else 0

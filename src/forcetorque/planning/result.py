@@ -196,6 +196,22 @@ def posture_tables(rows: Sequence[PlannedPosture]) -> Iterator[Table]:
         )
 
 
+def helps(row: PlannedRecording) -> bool:
+    """Tell whether a recording lowers an error that matters.
+
+    Args:
+        row: The recording.
+
+    Returns:
+        Whether the force error or the moment error, where it is limited, falls by enough.
+    """
+    gained = max(
+        1.0 - row.force_after_N / row.force_before_N if np.isfinite(row.force_allowed_N) else 0.0,
+        1.0 - row.moment_after_Nm / row.moment_before_Nm if np.isfinite(row.moment_allowed_Nm) else 0.0,
+    )
+    return gained >= HELPS
+
+
 def advice(
     rows: Sequence[PlannedRecording],
     before: Posterior,
@@ -217,11 +233,7 @@ def advice(
     """
     first = rows[0]
     left = _left(before, after, criterion, places)
-    helped = max(
-        1.0 - first.force_after_N / first.force_before_N if np.isfinite(first.force_allowed_N) else 0.0,
-        1.0 - first.moment_after_Nm / first.moment_before_Nm if np.isfinite(first.moment_allowed_Nm) else 0.0,
-    )
-    if helped < HELPS:
+    if not helps(first):
         return (
             f"nothing within these limits helps: the best recording of {first.seconds:.0f} s leaves "
             f"{first.force_after_N:.3g} of {first.force_before_N:.3g} N and {first.moment_after_Nm:.3g} of "

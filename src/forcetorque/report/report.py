@@ -11,6 +11,7 @@ from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import refuse_output, refuse_unwritable, write_bytes_atomically
+from forcetorque.evaluation.answers import CONCERN
 from forcetorque.evaluation.load_cases.verdict import Tone, UseVerdict
 from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -22,6 +23,7 @@ from forcetorque.report.decision import NextSteps, Undecided, decide_uses, next_
 from forcetorque.report.decision_page import decision_page
 from forcetorque.report.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.report.sections import report_document
+from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.document.content import Document, Section
 from forcetorque.results.document.html import html_bytes
 from forcetorque.results.document.pdf import pdf_bytes
@@ -64,6 +66,33 @@ class Report(Result):
     """Results of other commands by file, as they were given."""
     viewers: tuple[Section, ...] = Field(default=(), exclude=True, repr=False)
     """Sections of the document with a viewer."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say of every sensor whether its calibrations may be used, and what to do next.
+
+        Yields:
+            One per verdict.
+        """
+        unjudged = [row.candidate for row in self.undecided if row.candidate is not None]
+        names = short_names([*(row.candidate for row in self.uses), *unjudged])
+        steps = {(row.sensor, row.serial): next(iter(row.steps), "") for row in self.next_steps}
+        for use in self.uses:
+            yield Answer(
+                subject=f"{use.sensor} ({use.serial}), {names[use.candidate]}, {use.load_case}",
+                verdict=use.decision.upper(),
+                why=(use.reasons[0].text,),
+                step=steps.get((use.sensor, use.serial), ""),
+                concern=CONCERN[use.decision],
+            )
+        for row in self.undecided:
+            name = "no calibration" if row.candidate is None else names[row.candidate]
+            yield Answer(
+                subject=f"{row.sensor} ({row.serial}), {name}",
+                verdict="NO VERDICT",
+                why=(row.reason,),
+                step=steps.get((row.sensor, row.serial), ""),
+                concern=Concern.UNCERTAIN,
+            )
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the decision on every sensor, then what its recordings say of it.

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
@@ -12,9 +13,13 @@ from forcetorque.results.table_rendering import shortened, wrapped
 
 EXPERIMENT: Final = "{experiment}"
 """Stands in a command for the experiment files that were typed."""
+MOST_LINES: Final = 12
+"""Lines of the answer about one sensor or one thing at 80 characters, warnings included; a further one adds a line."""
 _INDENT = "  "
 _MOST_WARNINGS = 3
-"""Warnings that are shown below an answer; the others are counted."""
+"""Warnings that are shown below an answer where there is room; the others are counted."""
+_CONTINUED = " \\"
+"""Ends a line of a command that goes on in the next one; a shell reads it so too."""
 
 
 class Concern(IntEnum):
@@ -26,6 +31,18 @@ class Concern(IntEnum):
     """Something is lacking or doubtful."""
     BAD = 2
     """Who goes on would be misled."""
+
+
+def typed(*words: str) -> str:
+    """Write a command as it is typed.
+
+    Args:
+        words: Its words, without the name of the program; `EXPERIMENT` stands for the files that were typed.
+
+    Returns:
+        The words, in quotes where a shell needs them.
+    """
+    return " ".join(word if word == EXPERIMENT else shlex.quote(word) for word in words)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,7 +58,9 @@ class Answer:
     step: str = ""
     """What to do next; empty where nothing is to be done."""
     command: str = ""
-    """The command that does it, without the name of the program; `EXPERIMENT` stands for the files that were typed."""
+    """The command that does it, as `typed` writes it."""
+    written: tuple[str, ...] = ()
+    """Files that were written, and that nothing else names."""
     concern: Concern = Concern.NONE
     """How much it asks for attention."""
 
@@ -67,11 +86,14 @@ def _lines(answers: Sequence[Answer], width: int, experiment: str) -> Iterator[s
         if answer is answers[0]:
             for sentence in answer.why:
                 yield _indented(sentence, width)
+    files = dict.fromkeys(file for answer in answers for file in answer.written)
+    if files:
+        yield wrapped(f"written: {', '.join(files)}", width)
     worst = answers[0]
     if worst.step:
         yield wrapped(f"next: {worst.step}", width)
     if worst.command:
-        yield f"{_INDENT}forcetorque {worst.command.replace(EXPERIMENT, experiment)}"
+        yield _command(f"forcetorque {worst.command.replace(EXPERIMENT, experiment)}", width)
 
 
 def _headline(answer: Answer, width: int) -> str:
@@ -79,26 +101,43 @@ def _headline(answer: Answer, width: int) -> str:
     gap = width - len(answer.subject) - len(answer.verdict)
     if gap >= 2:
         return f"{answer.subject}{' ' * gap}{answer.verdict}"
-    return f"{answer.subject}\n{_INDENT}{answer.verdict}"
+    return f"{wrapped(answer.subject, width)}\n{_indented(answer.verdict, width)}"
 
 
 def _indented(sentence: str, width: int) -> str:
     return "\n".join(f"{_INDENT}{line}" for line in wrapped(sentence, width - len(_INDENT)).splitlines())
 
 
-def warnings_text(sentences: Sequence[str], width: int) -> str:
+def _command(command: str, width: int) -> str:
+    """A command that can be copied: a line that is too long goes on in the next one as a shell reads it."""
+    if len(_INDENT) + len(command) <= width:
+        return f"{_INDENT}{command}"
+    lines = [""]
+    for word in command.split(" "):
+        longer = f"{lines[-1]} {word}".lstrip()
+        if lines[-1] and len(_INDENT) * len(lines[:2]) + len(longer) + len(_CONTINUED) > width:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return f"{_CONTINUED}\n".join(f"{_INDENT * min(2, number)}{line}" for number, line in enumerate(lines, start=1))
+
+
+def warnings_text(sentences: Sequence[str], width: int, most: int = _MOST_WARNINGS) -> str:
     """Count warnings and show the first of them, each in one line.
 
     Args:
         sentences: The warnings, the worst first.
         width: Characters of a line.
+        most: Warnings to show, where there is room for as many.
 
     Returns:
         Lines, each with its end; empty without warnings.
     """
     if not sentences:
         return ""
-    shown = [f"{_INDENT}{shortened(sentence, width - len(_INDENT))}" for sentence in sentences[:_MOST_WARNINGS]]
+    count = max(0, min(most, _MOST_WARNINGS))
+    shown = [f"{_INDENT}{shortened(sentence, width - len(_INDENT))}" for sentence in sentences[:count]]
     more = len(sentences) - len(shown)
-    rest = f", {len(shown)} shown" if more else ""
-    return "\n".join([f"{len(sentences)} warning{'s' * (len(sentences) > 1)}{rest}:", *shown]) + "\n"
+    rest = f", {len(shown) or 'none'} shown" if more else ""
+    colon = ":" if shown else ""
+    return "\n".join([f"{len(sentences)} warning{'s' * (len(sentences) > 1)}{rest}{colon}", *shown]) + "\n"

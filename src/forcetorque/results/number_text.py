@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 
 from forcetorque.base.units import SI_FACTORS
 
@@ -48,6 +49,63 @@ def interval(low: float, high: float | None, *, digits: int) -> str:
         Such as `0.21 to 0.43`, or `0.21 to any`.
     """
     return f"{low:.{digits}f} to {'any' if high is None else f'{high:.{digits}f}'}"
+
+
+def amount(value: float, unit: str) -> str:
+    """Write a size with two digits that count and without a power of ten.
+
+    Args:
+        value: The size.
+        unit: Its unit.
+
+    Returns:
+        Such as `0.043 N m` or `324 N`.
+    """
+    size = abs(value)
+    if size >= 100.0 or not size:
+        return f"{value:.0f} {unit}".rstrip()
+    digits = min(max(0, 1 - math.floor(math.log10(float(f"{size:.2g}")))), _MOST_DIGITS)
+    text = f"{value:.{digits}f}"
+    return f"{text.rstrip('0').rstrip('.') if digits else text} {unit}".rstrip()
+
+
+def bounded(value: float, most: float | None, unit: str) -> str:
+    """Write a size with the upper bound of its 95 % interval.
+
+    Args:
+        value: The size.
+        most: The bound; None or infinite where there is none.
+        unit: Unit of both.
+
+    Returns:
+        Such as `0.85 N (95 %: 1.4 N)`.
+    """
+    bound = "no bound" if most is None or not math.isfinite(most) else amount(most, unit)
+    return f"{amount(value, unit)} (95 %: {bound})"
+
+
+def plus_minus(values: float | Sequence[float], half_width: float | None, unit: str) -> str:
+    """Write a number, or several, with the half-width of a 95 % interval, down to two digits of that.
+
+    Args:
+        values: The number, or several such as those of three axes.
+        half_width: The half-width, of several the largest; None or infinite where it is not known.
+        unit: Unit of all.
+
+    Returns:
+        Such as `1.237 kg (95 %: ±0.012 kg)` or `(0.1, -2.3, 4.0) N (95 %: ±0.2 N)`.
+    """
+    known = half_width is not None and math.isfinite(half_width)
+    digits = max(0, 1 - math.floor(math.log10(half_width))) if known and half_width else 3
+    digits = min(digits, _MOST_DIGITS)
+    several = isinstance(values, Sequence)
+    numbers = ", ".join(f"{value:.{digits}f}" for value in (values if isinstance(values, Sequence) else (values,)))
+    text = f"{f'({numbers})' if several else numbers} {unit}".rstrip()
+    return f"{text} (95 %: {f'±{amount(half_width, unit)}' if known and half_width is not None else 'no bound'})"
+
+
+_MOST_DIGITS = 9
+"""Digits behind the point of a size or of a number with a half-width."""
 
 
 def finite_or_none(value: float) -> float | None:
@@ -105,6 +163,8 @@ _OTHERS = (
     "dB",
     "N/m",
     "N/count",
+    "N/degC",
+    "N m/degC",
     "N m/count",
     "%",
 )

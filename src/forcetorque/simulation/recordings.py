@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import shutil
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -23,6 +24,7 @@ from forcetorque.formats.yarp.writing import StreamPort, write_ports
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.storage import write_recording
 from forcetorque.recording.stream_faults import true_runs
+from forcetorque.results.answer import Answer, typed
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.simulation.motions.movement import Movement, Phase, PhaseKind
@@ -284,6 +286,26 @@ class WrittenScenario(Result):
     """File with what is true of the sensors."""
     recordings: tuple[WrittenRecording, ...]
     """Recordings."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say what was simulated, and where it is.
+
+        Yields:
+            One answer.
+        """
+        files = [row.experiment for row in self.recordings]
+        uses = Counter(row.use for row in self.recordings)
+        yield Answer(
+            subject=self.scenario,
+            verdict=f"{len(files)} RECORDING{'S' * (len(files) != 1)} WRITTEN",
+            why=(
+                f"{', '.join(f'{count} for {use}' for use, count in uses.items())}; "
+                f"{sum(row.duration_s for row in self.recordings):.0f} s in all; the truth is in {self.truth}",
+            ),
+            step="look at a recording",
+            command=typed("inspect", files[0]) if files else "",
+            written=(self.folder,),
+        )
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table of the recordings.

@@ -24,6 +24,7 @@ from forcetorque.payload.load_on_wrist_sensor import is_wrist_load
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Stream
+from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
 from forcetorque.skin.experiment import BESIDE_M, PATCHES, is_skin_alone
@@ -280,6 +281,20 @@ class View(Result):
             video=None,
             video_frames=None,
             notes=tuple(built.scene.notes),
+        )
+
+    def answers(self) -> Iterator[Answer]:
+        """Say what is shown, and where.
+
+        Yields:
+            One answer.
+        """
+        yield Answer(
+            subject=self.experiment,
+            verdict=f"{self.samples} samples of {', '.join((*self.sensors, *self.skin))}",
+            why=self.notes[:2],
+            step="" if self.url is None else f"open {self.url}",
+            written=tuple(file for file in (self.file, self.video) if file is not None),
         )
 
     def blocks(self) -> Iterator[Table | str]:

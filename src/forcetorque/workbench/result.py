@@ -18,9 +18,11 @@ from forcetorque.calibration.summary import calibration_blocks
 from forcetorque.evaluation.acceptance.acceptance import criteria_table
 from forcetorque.evaluation.acceptance.criteria import Criterion
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import number
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, FloatOrNull, Row, Shown, ShownWrench, Table, WrenchValues, table_of
+from forcetorque.workbench.answers import workbench_answers
 from forcetorque.workbench.bench import block_findings
 from forcetorque.workbench.faults import FaultRow, FaultSearch
 from forcetorque.workbench.recording import BenchRecording
@@ -310,6 +312,14 @@ class Workbench(Result):
     def passed(self) -> bool:
         """Whether all limits are kept."""
         return all(criterion.passed for criterion in self.criteria)
+
+    def answers(self) -> Iterator[Answer]:
+        """Say of every sensor whether the bench has faults, and by how much it errs.
+
+        Yields:
+            One per sensor.
+        """
+        yield from workbench_answers(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.

@@ -192,7 +192,7 @@ def test_tare_shows_and_writes_the_offset(tmp_path: Path, run: Run) -> None:
     load = read_ft_tools(file, sensor="wrist", frame="tool")
     assert load.mass == MASS
     np.testing.assert_allclose(load.bias, -np.array(row["offset"]))
-    table = run("tare", path, "--interval", "first").out
+    table = run("tare", path, "--interval", "first", "--details").out
     assert f"{row['offset'][0]:.4f}" in table
     assert f"{row['half_width_95'][5]:.4f}" in table
     lines = run("tare", path, "--interval", "first", "--format", "csv").out.splitlines()

@@ -26,7 +26,8 @@ def test_a_sound_patch_has_no_finding() -> None:
     """It still says what it is; the CSV has its header."""
     answer = check_patch(cylinder_patch())
     assert answer.findings == ()
-    assert answer.text(200) == (
+    assert [one.verdict for one in answer.answers()] == ["NO FINDINGS"]
+    assert answer.details(200) == (
         "patch in shank: 210 taxels on 21 modules, 42 thermal pads, 252 numbers in a message; 0 findings\n"
     )
     assert answer.columns() == ["defect", "taxels", "lines", "modules", "message", "remedy"]

@@ -70,7 +70,7 @@ def test_rules_are_chosen_by_name(run: Run, shank: WarmShank) -> None:
 
 def test_a_re_tare_is_offered_on_release(run: Run, shank: WarmShank) -> None:
     """And done where that is asked for."""
-    offered = run(*HAND)
+    offered = run(*HAND, "--details")
     assert "offered" in offered.out
     assert "--re-tare takes what was left as rest" in " ".join(offered.out.split())
     assert any("heat through them, which no thermal pad measures" in line for line in offered.log)

@@ -68,7 +68,7 @@ def test_a_figure_is_drawn(run: Run, truths: list[ContactTruth], tmp_path: Path)
     """Field of pressure and forces over time."""
     png = tmp_path / "contacts.png"
     assert f"drawn to {png}" in run(
-        *WRENCH, "--figure", str(png), "--average", "20", "--taxel-area-mm2", "39"
+        *WRENCH, "--figure", str(png), "--average", "20", "--taxel-area-mm2", "39", "--details"
     ).out.replace("\n", " ")
     assert size_of(png.read_bytes())[0] == 1200
 

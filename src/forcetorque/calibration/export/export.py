@@ -21,6 +21,7 @@ from forcetorque.calibration.export.wholebodydynamics import from_calibration, w
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.formats.icub_matrix import encode_matrix, serial_number_in_name, write_matrix_file
+from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, Row, Table, WrenchValues
 
@@ -113,6 +114,20 @@ class Export(Result):
     """What becomes of the offset, in words."""
     calibrations: tuple[ExportedCalibration, ...]
     """One per calibration file."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say what was written, and what becomes of the offset.
+
+        Yields:
+            One per calibration.
+        """
+        for entry in self.calibrations:
+            yield Answer(
+                subject=f"{entry.sensor} ({entry.serial})",
+                verdict=f"WRITTEN AS {self.format.value}",
+                why=(f"offset: {self.offset_handling}", entry.fitted_text),
+                written=(self.file,),
+            )
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the matrices, and what becomes of the offset.

@@ -38,6 +38,7 @@ from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import doubts_about_choice, require_unseen_if_judged
 from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
+from forcetorque.results.number_text import amount
 from forcetorque.results.table import Row, Shown, short_names
 
 Decision = Literal["use", "do not use", "not enough data"]
@@ -398,19 +399,6 @@ class LoadCaseAssessment:
             quantity: float(np.sqrt(getattr(predicted, quantity).at_most ** 2 + slow[part].sum()))
             for quantity, _, part in _QUANTITIES
         }
-
-
-def amount(value: float, unit: str) -> str:
-    """Write a size with two digits that count and without a power of ten.
-
-    Args:
-        value: The size.
-        unit: Its unit.
-
-    Returns:
-        Such as `0.043 N m` or `324 N`.
-    """
-    return f"{value:.0f} {unit}" if value >= 100.0 else f"{float(f'{value:.2g}'):g} {unit}"
 
 
 def use_verdicts(

@@ -10,6 +10,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.evaluation.sphere.answers import sphere_answers
 from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow, SphereRow
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
@@ -20,6 +21,7 @@ from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import interval, number
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, short_names
@@ -182,6 +184,14 @@ class Spheres(Result):
     def passed(self) -> bool:
         """Whether no sensor failed."""
         return not self.failures
+
+    def answers(self) -> Iterator[Answer]:
+        """Say by how much the axes of every sensor differ.
+
+        Yields:
+            One per sensor and candidate, and one per failure.
+        """
+        yield from sphere_answers(self.rows, self.failures, self.figure)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give masses, intervals and moments of every sensor.

@@ -11,10 +11,12 @@ from pydantic import Field
 
 from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow
+from forcetorque.evaluation.trials.answers import comparison_answers
 from forcetorque.evaluation.trials.result import GroupFitRow, GroupRow, TrialRow, group_rows
 from forcetorque.evaluation.trials.trials import TrialGroup, group_trials, read_trials
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import interval
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, short_names
@@ -236,6 +238,14 @@ class Comparison(Result):
     """What could not be analysed; the exit code is 1 if there is any."""
     analyses: tuple[TrialGroup, ...] = Field(default=(), exclude=True, repr=False)
     """The trials and pooled fits behind every group, for figures."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say by how much the axes of every sensor differ.
+
+        Yields:
+            One per sensor, condition and candidate, and one per failure.
+        """
+        yield from comparison_answers(self.trials, self.groups, self.failures, self.figure)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give every trial, conditions side by side, drift and ranks.

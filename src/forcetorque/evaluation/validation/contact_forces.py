@@ -17,6 +17,7 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     known_interval,
     validation_excitation,
 )
+from forcetorque.evaluation.validation.answers import contact_answers
 from forcetorque.evaluation.validation.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -25,6 +26,7 @@ from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
 from forcetorque.experiment.validation_offset import Offset
+from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import (
@@ -220,6 +222,14 @@ class ContactForces(Result):
     """One per offset."""
     left_out: tuple[str, ...]
     """What could not be evaluated of the intervals, in words."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say of every sensor which candidate reports the least contact force where nothing touches.
+
+        Yields:
+            One per sensor.
+        """
+        yield from contact_answers(self.verdicts, self.best, ())
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor, and who is best.

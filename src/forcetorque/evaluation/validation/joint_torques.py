@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 
+from forcetorque.evaluation.validation.answers import torque_answers
 from forcetorque.evaluation.validation.joint_torque_errors import (
     TorqueErrors,
     TorqueErrorSamples,
@@ -20,6 +21,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import EvaluatedRow
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
+from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Shown, Table, table_of
 from forcetorque.robot.model import JointType
@@ -61,6 +63,14 @@ class JointTorques(Result):
     """One per candidate, offset and joint, joints from the support outwards."""
     left_out: tuple[str, ...]
     """Torques that the log does not allow to estimate, or to evaluate in an interval, in words."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say of every sensor and candidate by how much the joint torques from it are off.
+
+        Yields:
+            One per sensor, candidate and offset.
+        """
+        yield from torque_answers(self.verdicts)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor.

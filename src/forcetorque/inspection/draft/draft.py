@@ -43,6 +43,7 @@ from forcetorque.inspection.draft.streams import DraftedLog, relative
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
 from forcetorque.recording.recording import Recording
+from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.robot.model import JointType, RobotModel
@@ -81,6 +82,23 @@ class Draft(Result):
     """Findings about the log, and reasons for what is unknown."""
     content: str = Field(exclude=True, repr=False)
     """Content of the file."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say what is left to fill in.
+
+        Yields:
+            One answer.
+        """
+        count, first = len(self.questions), next(iter(self.questions), None)
+        step = "fill in what is asked, then check the file" if count else "read the file, then go on"
+        yield Answer(
+            subject=self.file,
+            verdict=f"{count} LINE{'S' * (count != 1)} TO FILL IN" if count else "COMPLETE",
+            why=self.notes[-1:] if first is None else (f"line {first.line}, {first.key}: {first.question}",),
+            step=step,
+            command=typed(*("inspect" if count else self._next).split(), self.file),
+            concern=Concern.UNCERTAIN if count else Concern.NONE,
+        )
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.

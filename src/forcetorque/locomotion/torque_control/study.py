@@ -13,6 +13,7 @@ from pydantic import Field
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.locomotion.answers import torque_loop_answers
 from forcetorque.locomotion.oscillation.oscillation import find_oscillations
 from forcetorque.locomotion.oscillation.spectrum import resampled
 from forcetorque.locomotion.torque_control.balancing import Phase, Reference, standing, switching
@@ -26,6 +27,7 @@ from forcetorque.locomotion.torque_control.closed_loop import (
 from forcetorque.locomotion.torque_control.file import PERIOD_S, TorqueLoopFile
 from forcetorque.locomotion.torque_control.linear_robot import LinearRobot, linear_robot, require_stable
 from forcetorque.locomotion.torque_control.world import SENSORS, Biped
+from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -125,6 +127,14 @@ class TorqueLoopStudy(Result):
     """One per robot, gains, kind and size of errors."""
     onsets: tuple[TorqueLoopOnsetRow, ...]
     """Where the linear loop becomes unstable."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say from which force error on the robot falls.
+
+        Yields:
+            One per robot, gains and kind of errors.
+        """
+        yield from torque_loop_answers(self, NO_ERROR)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give both tables.

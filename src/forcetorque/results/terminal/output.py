@@ -6,6 +6,7 @@ from __future__ import annotations
 import codecs
 import csv
 import logging
+import shlex
 import sys
 from collections.abc import Sequence
 from enum import StrEnum
@@ -18,7 +19,6 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs, refuse_existing
 
 if TYPE_CHECKING:
-    from forcetorque.results.answer import Answer
     from forcetorque.results.result import Result
 
 
@@ -74,33 +74,44 @@ def show(result: Result, output_format: Format, *, details: bool = False, experi
         details: Whether people read the tables below the answer, and all warnings.
         experiments: Experiment files that were typed, for the next command.
     """
-    answers = tuple(result.answers()) if output_format is Format.TABLE else ()
-    if answers:
-        _show_answers(result, answers, details=details, experiments=experiments)
+    if output_format is Format.TABLE:
+        show_table(result, details=details, experiments=experiments)
         return
     show_warnings(result)
     if output_format is Format.JSON:
         sys.stdout.write(result.json_text() + "\n")
-    elif output_format is Format.CSV:
-        columns = result.columns()
-        writer = csv.DictWriter(sys.stdout, fieldnames=columns, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(result.records())
-    else:
-        sys.stdout.write(result.text(width()))
+        return
+    columns = result.columns()
+    writer = csv.DictWriter(sys.stdout, fieldnames=columns, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(result.records())
 
 
-def _show_answers(result: Result, answers: Sequence[Answer], *, details: bool, experiments: Sequence[Path]) -> None:
-    from forcetorque.results.answer import answer_text, warnings_text
+def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) -> None:
+    """Print a result for people: the answer, then its warnings in a line each, or all details.
 
-    columns = width()
-    sys.stdout.write(answer_text(answers, columns, *([" ".join(map(str, experiments))] if experiments else ())))
+    Args:
+        result: The result.
+        details: As of `show`.
+        experiments: As of `show`.
+    """
+    from forcetorque.results.answer import MOST_LINES, answer_text, warnings_text
+
+    answers, columns = tuple(result.answers()), width()
+    if not answers:
+        show_warnings(result)
+        sys.stdout.write(result.text(columns))
+        return
+    text = answer_text(answers, columns, *([shlex.join(map(str, experiments))] if experiments else ()))
+    sys.stdout.write(text)
     if details:
         sys.stdout.write("\n" + result.details(columns))
         show_warnings(result)
         return
     sys.stdout.flush()
-    sys.stderr.write(warnings_text(tuple(result.cautions()), columns))
+    # the count of warnings and the last line have their place beside them
+    room = MOST_LINES + len(answers) - 1 - text.count("\n") - 2
+    sys.stderr.write(warnings_text(tuple(result.cautions()), columns, room))
     sys.stderr.flush()
     sys.stdout.write("details: --details\n")
 

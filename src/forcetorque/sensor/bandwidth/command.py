@@ -79,4 +79,4 @@ def response(
 
         write_bytes_atomically(figure, png_bytes(response_figure(result)))
         result = result.model_copy(update={"figure": str(figure)})
-    show(result, output_format, details=details)
+    show(result, output_format, details=details, experiments=experiments)

@@ -22,6 +22,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.frozen_and_saturated_samples import smallest_steps, white_variance
 from forcetorque.recording.recording import Interval, Use
+from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
 from forcetorque.robot.model import RobotModel
@@ -33,6 +34,7 @@ from forcetorque.sensor.gains.amplifier_gains import (
     axis_resolution,
     channel_ranges,
 )
+from forcetorque.sensor.gains.answers import gains_answers
 from forcetorque.sensor.gains.result import ResolutionRow, SensorRow, strongest_rows
 
 _STILL = 0.01
@@ -157,6 +159,14 @@ class Gains(Result):
     """Sensors in the order of the file."""
     drawn: tuple[SensorGains, ...] = Field(default=(), exclude=True, repr=False)
     """Samples and channels of each, for figures."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say of every sensor which gains to change.
+
+        Yields:
+            One per sensor.
+        """
+        yield from gains_answers(self.sensors, self.margin, self.figure)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the tables of every sensor.

@@ -20,10 +20,12 @@ from forcetorque.experiment.sensor_reading import Correction, readings_at
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval
+from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import with_error
 from forcetorque.results.result import Result
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 from forcetorque.robot.mechanics.samples import padded_samples
+from forcetorque.sensor.temperature.answers import thermal_answers
 from forcetorque.sensor.temperature.cycles import Cycles, cycles_of
 from forcetorque.sensor.temperature.drift import (
     LAG_UNTOLD_S,
@@ -165,6 +167,14 @@ class Thermal(Result):
     """File of the figure."""
     sensors: tuple[SensorThermal, ...]
     """Sensors in the order of the file."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say by how much every sensor drifts with temperature.
+
+        Yields:
+            One per sensor.
+        """
+        yield from thermal_answers(self.sensors, self.figure)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the drift of every sensor.

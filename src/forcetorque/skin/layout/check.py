@@ -9,8 +9,10 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
+from forcetorque.skin.answers import skin_check_answer
 from forcetorque.skin.layout.defects import (
     duplicates,
     gaps,
@@ -94,6 +96,14 @@ class SkinCheck(Result):
     def passed(self) -> bool:
         """Whether nothing is wrong."""
         return not self.findings
+
+    def answers(self) -> Iterator[Answer]:
+        """Say what is wrong with the layout.
+
+        Yields:
+            One answer.
+        """
+        yield skin_check_answer(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table of findings, and a sentence for each.

@@ -13,8 +13,10 @@ from forcetorque.base.errors import ExperimentError, FitError, known_names
 from forcetorque.experiment.additions import ADDED, added_to, with_recording_notes
 from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
 from forcetorque.recording.recording import Use
+from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
+from forcetorque.skin.answers import skin_calibration_answer
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
 from forcetorque.skin.taxels.fit import FittedSamples, calibrated_taxel, compare_curves, fitted_samples
@@ -78,6 +80,14 @@ class SkinCalibration(Result):
     """The curves."""
     picture: TaxelPicture = Field(exclude=True, repr=False)
     """Samples and curves, for figures."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say how many taxels have a curve, and by how much it errs.
+
+        Yields:
+            One answer.
+        """
+        yield skin_calibration_answer(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give recordings, candidates, the first taxels, and a sentence.

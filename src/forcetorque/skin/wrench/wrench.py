@@ -15,8 +15,10 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, SkinError
 from forcetorque.experiment.additions import added_to, with_recording_notes
 from forcetorque.experiment.input_files import stated_in
+from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
+from forcetorque.skin.answers import skin_wrench_answer
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import PressureFrame
 from forcetorque.skin.contact.tracking import OFFERED, ReleaseRow
@@ -141,6 +143,14 @@ class SkinWrench(Result):
     """Contacts that were let go, and what their taxels still read; none where heat was not followed."""
     picture: SkinWrenchPicture = Field(exclude=True, repr=False)
     """Forces over time and a field of pressure, for figures."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say when the patch was touched, and how hard.
+
+        Yields:
+            One answer.
+        """
+        yield skin_wrench_answer(self, offered=any(row.re_tare == OFFERED for row in self.releases))
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the first contacts, and warnings about all.

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The answer of `sphere` in a few lines: by how much the axes of a sensor differ over the same weight."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from forcetorque.evaluation.next_step import to_calibrate, to_evaluate
+from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow, SphereRow
+from forcetorque.experiment.calibrations_under_test import PRIOR
+from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.number_text import bounded
+from forcetorque.results.table import short_names
+
+MEANING = "standard deviation of the masses that the three axes measure"
+"""What the index of an ellipsoid is."""
+
+
+def sphere_answers(rows: Sequence[SphereRow], failures: Sequence[FailureRow], figure: str | None) -> Iterator[Answer]:
+    """Give the answer for every sensor and candidate: by the fit with the model where there is one.
+
+    Args:
+        rows: Spheres of sensors.
+        failures: Sensors that could not be analysed.
+        figure: File of the figure; None for none.
+
+    Yields:
+        One answer each; of a sensor its calibrations first.
+    """
+    written = () if figure is None else (figure,)
+    for sensor in dict.fromkeys(row.sensor for row in rows):
+        own = [row for row in rows if row.sensor == sensor]
+        names = short_names([row.candidate for row in own])
+        for row in sorted(own, key=lambda row: row.candidate.startswith(PRIOR)):
+            fit = row.with_reference or row.without_reference
+            step, command = _step(row, fit)
+            yield Answer(
+                subject=f"{row.sensor} ({row.serial}), {names[row.candidate]}",
+                verdict=index_verdict(fit),
+                why=tuple(_reasons(row, fit)),
+                step=step,
+                command=command,
+                written=written,
+                concern=Concern.NONE if fit.identifiable else Concern.UNCERTAIN,
+            )
+    yield from failed(failures)
+
+
+def failed(failures: Sequence[FailureRow]) -> Iterator[Answer]:
+    """Give the answer for what could not be analysed.
+
+    Args:
+        failures: What failed.
+
+    Yields:
+        One answer each.
+    """
+    for failure in failures:
+        yield Answer(
+            subject=failure.sensor or failure.file, verdict="FAILED", why=(failure.message,), concern=Concern.BAD
+        )
+
+
+def index_verdict(fit: EllipsoidRow) -> str:
+    """Say by how much axes differ, or that it is not identifiable.
+
+    Args:
+        fit: The ellipsoid.
+
+    Returns:
+        The verdict.
+    """
+    if not fit.identifiable or fit.index_kg is None:
+        return "NOT IDENTIFIABLE"
+    return f"axes differ by {bounded(fit.index_kg, fit.index_high_kg, 'kg')}"
+
+
+def _reasons(row: SphereRow, fit: EllipsoidRow) -> Iterator[str]:
+    if not fit.identifiable:
+        yield "; ".join(fit.why[:2]) or "the forces are flat to rounding"
+        return
+    yield f"{MEANING}, {row.samples} samples"
+    if fit.error_N is not None and row.model_mass_kg is not None:
+        errors = ", ".join(f"{error:+.2g}" for error in fit.error_N)
+        yield f"force of the axes x, y, z less the weight of {row.model_mass_kg:.3g} kg by the model: {errors} N"
+
+
+def _step(row: SphereRow, fit: EllipsoidRow) -> tuple[str, str]:
+    if not fit.identifiable:
+        return "turn the sensor slowly through more directions, and record again", ""
+    if row.candidate.startswith(PRIOR):
+        return to_calibrate(row.sensor)
+    return to_evaluate(row.candidate)

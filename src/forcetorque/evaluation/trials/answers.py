@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The answer of `compare` in a few lines: by how much the axes of every sensor differ, and what drifts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from forcetorque.evaluation.sphere.answers import MEANING, failed, index_verdict
+from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow
+from forcetorque.evaluation.trials.result import GroupFitRow, GroupRow, TrialRow
+from forcetorque.experiment.calibrations_under_test import PRIOR
+from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.table import short_names
+
+
+def comparison_answers(
+    trials: Sequence[TrialRow], groups: Sequence[GroupRow], failures: Sequence[FailureRow], figure: str | None
+) -> Iterator[Answer]:
+    """Give the answer for every sensor, condition and candidate.
+
+    Args:
+        trials: The trials.
+        groups: Their groups.
+        failures: What could not be analysed.
+        figure: File of the figure; None for none.
+
+    Yields:
+        One answer each, of calibrations before those of priors, and one for every failure.
+    """
+    written = () if figure is None else (figure,)
+    names = short_names([row.candidate for row in groups])
+    for group in sorted(groups, key=lambda group: group.candidate.startswith(PRIOR)):
+        fit, by = _fit(group, trials)
+        words = [f"{group.sensor} ({group.serial})", *([group.condition] if group.condition else [])]
+        rank = "" if by.rank is None or len(groups) == 1 else f", rank {by.rank}"
+        yield Answer(
+            subject=", ".join([*words, names[group.candidate]]),
+            verdict=f"{index_verdict(fit)}{rank}",
+            why=tuple(_reasons(group, fit, by)),
+            written=written,
+            concern=Concern.NONE if fit.identifiable else Concern.UNCERTAIN,
+        )
+    yield from failed(failures)
+
+
+def _fit(group: GroupRow, trials: Sequence[TrialRow]) -> tuple[EllipsoidRow, GroupFitRow]:
+    """Pooled fit, or that of the only trial, with the model where there is one."""
+    key = (group.sensor, group.serial, group.condition, group.candidate)
+    first = next(row for row in trials if (row.sensor, row.serial, row.condition, row.candidate) == key)
+    if group.with_reference is not None and first.with_reference is not None:
+        return group.with_reference.pooled or first.with_reference, group.with_reference
+    return group.without_reference.pooled or first.without_reference, group.without_reference
+
+
+def _reasons(group: GroupRow, fit: EllipsoidRow, by: GroupFitRow) -> Iterator[str]:
+    if not fit.identifiable:
+        yield "; ".join(fit.why[:2]) or "the forces are flat to rounding"
+    else:
+        yield f"{MEANING}, {group.trials} trial{'s' * (group.trials > 1)}; ranks are equal where intervals overlap"
+    if by.drift is not None and by.drift.exceeds:
+        yield f"from the first trial to the last beyond the intervals: {', '.join(by.drift.exceeds)}"

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The answer of `validate` in a few lines: the contact force where nothing touches, and who reports the least."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from forcetorque.evaluation.next_step import to_calibrate, to_evaluate
+from forcetorque.experiment.calibrations_under_test import PRIOR
+from forcetorque.experiment.validation_offset import Offset
+from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.number_text import amount, bounded
+from forcetorque.results.table import short_names
+
+if TYPE_CHECKING:
+    from forcetorque.evaluation.validation.contact_forces import BestCandidate, ContactForceErrors
+    from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors
+
+
+def contact_answers(
+    forces: Sequence[ContactForceErrors], best: Sequence[BestCandidate], torques: Sequence[JointTorqueErrors]
+) -> Iterator[Answer]:
+    """Give the answer for every sensor: of its own offset where its candidates have one.
+
+    Args:
+        forces: Contact forces where nothing touches.
+        best: Who reports the least, one per sensor and offset.
+        torques: Joint torques from the sensor; none where they are not evaluated.
+
+    Yields:
+        One answer each.
+    """
+    for sensor in dict.fromkeys(row.sensor for row in best):
+        of_sensor = [row for row in best if row.sensor == sensor]
+        choice = next((row for row in of_sensor if row.offset is Offset.FITTED), of_sensor[0])
+        rows = [row for row in forces if (row.sensor, row.offset) == (sensor, choice.offset)]
+        own = [row for row in torques if (row.sensor, row.offset) == (sensor, choice.offset)]
+        yield _answer(choice, rows, own)
+
+
+def _answer(choice: BestCandidate, rows: Sequence[ContactForceErrors], torques: Sequence[JointTorqueErrors]) -> Answer:
+    names = short_names([row.candidate for row in rows])
+    least = next(row for row in rows if row.candidate == choice.by_magnitude)
+    ordered = sorted(rows, key=lambda row: (row.candidate != choice.by_magnitude, row.force_mean_N))
+    forces = ", ".join(f"{names[row.candidate]} {_force(row)}" for row in ordered)
+    calibrations = [row.candidate for row in ordered if not _is_prior(row.candidate)]
+    step, command = to_evaluate(calibrations[0]) if calibrations else to_calibrate(least.sensor)
+    return Answer(
+        subject=f"{least.sensor} ({least.serial}), nothing touches {least.sub_model}",
+        verdict=_verdict(choice, names[choice.by_magnitude], least),
+        why=(
+            f"contact force, which should be zero, {choice.offset} offset: {forces}",
+            *_of_torques(torques, choice.by_magnitude, names),
+        ),
+        step=step,
+        command=command,
+        concern=_concern(choice),
+    )
+
+
+def _verdict(choice: BestCandidate, name: str, least: ContactForceErrors) -> str:
+    if choice.judgement is None:
+        return f"contact force {_force(least)}"
+    if choice.best is not None:
+        return f"BEST: {name}"
+    return "NONE IS BEST: NO DIFFERENCE" if choice.judgement == "no difference" else "NONE IS BEST: TOO LITTLE DATA"
+
+
+def _concern(choice: BestCandidate) -> Concern:
+    if choice.judgement is None:
+        return Concern.NONE
+    if choice.best is not None:
+        return Concern.BAD if _is_prior(choice.best) else Concern.NONE
+    return Concern.UNCERTAIN
+
+
+def _is_prior(candidate: str) -> bool:
+    return candidate == PRIOR or candidate.startswith(f"{PRIOR} of ")
+
+
+def _force(row: ContactForceErrors) -> str:
+    half = row.force_mean_half_width_95_N
+    return bounded(row.force_mean_N, None if half is None else row.force_mean_N + half, "N")
+
+
+def torque_answers(torques: Sequence[JointTorqueErrors]) -> Iterator[Answer]:
+    """Give the answer for every sensor and candidate, where joint torques alone are evaluated.
+
+    Args:
+        torques: Joint torques.
+
+    Yields:
+        One answer each.
+    """
+    names = short_names([row.candidate for row in torques])
+    for sensor, candidate, offset in dict.fromkeys((row.sensor, row.candidate, row.offset) for row in torques):
+        rows = [row for row in torques if (row.sensor, row.candidate, row.offset) == (sensor, candidate, offset)]
+        worst = max(rows, key=lambda row: row.rmse)
+        yield Answer(
+            subject=f"{sensor} ({worst.serial}), {names[candidate]}, {offset} offset",
+            verdict=f"torque error of {worst.joint} {_torque(worst)}",
+            why=(f"largest of {len(rows)} joints, root mean square of {worst.samples} samples",),
+        )
+
+
+def _of_torques(torques: Sequence[JointTorqueErrors], candidate: str, names: Mapping[str, str]) -> Iterator[str]:
+    own = [row for row in torques if row.candidate == candidate]
+    if not own:
+        return
+    worst = max(own, key=lambda row: row.rmse)
+    others = ", ".join(
+        f"{names.get(row.candidate, row.candidate)} {amount(row.rmse, row.unit)}"
+        for row in torques
+        if row.joint == worst.joint and row.candidate != candidate
+    )
+    beside = f", {others}" if others else ""
+    yield f"largest joint torque error, {worst.joint}: {names[candidate]} {_torque(worst)}{beside}"
+
+
+def _torque(row: JointTorqueErrors) -> str:
+    half = row.rmse_half_width_95
+    return bounded(row.rmse, None if half is None else row.rmse + half, row.unit)

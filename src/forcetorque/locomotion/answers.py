@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The answers of `balance`, `coherence`, `motion` and `torque-loop` in a few lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.number_text import amount, bounded, plus_minus
+from forcetorque.results.table import short_names
+
+if TYPE_CHECKING:
+    from forcetorque.locomotion.movement import Motion, OscillationRow
+    from forcetorque.locomotion.net_force.result import Coherence, CoherenceSummary
+    from forcetorque.locomotion.standing.result import SupportPhaseRow
+    from forcetorque.locomotion.standing.standing import Balance
+    from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy
+
+_NAMED = 3
+"""Phases or phenomena that are named; tables have all."""
+
+
+def balance_answer(balance: Balance) -> Answer:
+    """Say which feet bear the robot, and where.
+
+    Args:
+        balance: Phases and centres of pressure.
+
+    Returns:
+        The answer.
+    """
+    phases = sorted(balance.phases, key=lambda row: -row.duration_s)
+    whole = sum(row.duration_s for row in phases)
+    shares = ", ".join(f"{row.phase} {100.0 * row.duration_s / (whole or 1.0):.0f} %" for row in phases[:_NAMED])
+    weight = "" if balance.weight_N is None else f", weight {amount(balance.weight_N, 'N')}"
+    return Answer(
+        subject=f"{', '.join(balance.experiments)}{weight}",
+        verdict=f"DOWN: {shares} of {whole:.3g} s" if phases else "NO FOOT IS DOWN",
+        why=(*([_net_force(phases[0])] if phases else []), *_pressure(balance)),
+        concern=Concern.UNCERTAIN if balance.refused or not phases else Concern.NONE,
+    )
+
+
+def _net_force(row: SupportPhaseRow) -> str:
+    if row.net_N is None:
+        return f"net force on {row.phase}: not known"
+    less = "" if row.from_weight_N is None else f", less the weight {row.from_weight_N:+.1f} N"
+    return f"net force on {row.phase}: {plus_minus(row.net_N, row.half_width_95_N, 'N')}{less}, {row.samples} samples"
+
+
+def _pressure(balance: Balance) -> Iterator[str]:
+    """Centre of pressure of the robot, else of its feet, else why there is none."""
+    for row in balance.robot[:1]:
+        if row.x_mm is not None and row.y_mm is not None:
+            halves = [half for half in (row.half_width_x_mm, row.half_width_y_mm) if half is not None]
+            centre = plus_minus((row.x_mm, row.y_mm), max(halves, default=None), "mm")
+            yield f"centre of pressure in {row.interval}: (x, y) = {centre} on {row.frame}"
+            return
+    yield from balance.refused[:1]
+
+
+def coherence_answers(coherence: Coherence) -> Iterator[Answer]:
+    """Say by how much the net contact force misses the weight, for every candidate and offset.
+
+    Args:
+        coherence: Net contact forces.
+
+    Yields:
+        One answer each, those with less error first.
+    """
+    names = short_names([row.candidate for row in coherence.summary])
+    rows = sorted(coherence.summary, key=lambda row: (row.force_error_mean_N is None, row.force_error_mean_N or 0.0))
+    for row in rows:
+        offset = row.offset.value if row.offset_interval is None else f"{row.offset}:{row.offset_interval}"
+        yield Answer(
+            subject=f"{coherence.experiment}, {names[row.candidate]}, {offset} offset",
+            verdict=_net_error(row),
+            why=(
+                f"net contact force of {row.phases} phase{'s' * (row.phases != 1)} less the weight, "
+                f"{amount(coherence.weight_N, 'N')}: mean of the norm, and the largest",
+                "phases that gave offset or matrix are not counted; forces of one foot against the other cancel",
+            ),
+            written=() if coherence.figure is None else (coherence.figure,),
+            concern=Concern.NONE if row.phases else Concern.UNCERTAIN,
+        )
+
+
+def _net_error(row: CoherenceSummary) -> str:
+    if row.force_error_mean_N is None or row.force_error_largest_N is None:
+        return "NO EVIDENCE"
+    return f"net force error {amount(row.force_error_mean_N, 'N')} (largest {amount(row.force_error_largest_N, 'N')})"
+
+
+def motion_answers(motion: Motion) -> Iterator[Answer]:
+    """Say of every interval and column whether it oscillates.
+
+    Args:
+        motion: Oscillations, settling times and tracking errors.
+
+    Yields:
+        One answer each.
+    """
+    for interval, column in dict.fromkeys((row.interval, row.column) for row in motion.oscillations):
+        rows = [row for row in motion.oscillations if (row.interval, row.column) == (interval, column)]
+        yield Answer(
+            subject=f"{interval}: {column}",
+            verdict=_oscillation(rows[0]),
+            why=(_amplitude(rows), *_course(motion, interval, column)),
+            written=() if motion.figure is None else (motion.figure,),
+            concern=Concern.UNCERTAIN if rows[0].oscillates else Concern.NONE,
+        )
+
+
+def _oscillation(row: OscillationRow) -> str:
+    if not row.oscillates or row.frequency_hz is None:
+        return "NO OSCILLATION"
+    return f"OSCILLATES at {plus_minus(row.frequency_hz, row.frequency_half_width_95_hz, 'Hz')}"
+
+
+def _amplitude(rows: Sequence[OscillationRow]) -> str:
+    first = rows[0]
+    if not first.oscillates or first.amplitude is None:
+        return (
+            f"from {first.lowest_hz:.3g} to {first.highest_hz:.4g} Hz; an amplitude of {first.seen_amplitude:.3g} "
+            f"{first.unit} or more would be seen"
+        )
+    damping = "" if first.damping is None else f", damping {plus_minus(first.damping, first.damping_half_width_95, '')}"
+    more = f"; {len(rows) - 1} more" if len(rows) > 1 else ""
+    return f"amplitude {plus_minus(first.amplitude, first.amplitude_half_width_95, first.unit)}{damping}{more}"
+
+
+def _course(motion: Motion, interval: str, column: str) -> Iterator[str]:
+    """How it settles after its first step, and how it tracks what was wanted."""
+    words = []
+    for step in motion.settling:
+        if (step.interval, step.column) == (interval, column):
+            time = step.settling_s
+            settles = "does not settle" if time is None else f"settles in {bounded(time, step.latest_s, 's')}"
+            at, overshoot = f"{step.step_at_s:.3g} s", f"{step.overshoot_percent:.0f} %"
+            words.append(f"after the step at {at} it {settles}, overshoot {overshoot}")
+            break
+    for row in motion.tracking:
+        if (row.interval, row.column) == (interval, column):
+            words.append(f"tracking error {bounded(row.rms, row.rms_upper_95, row.unit)}, root mean square")
+    if words:
+        yield "; ".join(words)
+
+
+def torque_loop_answers(study: TorqueLoopStudy, none: str) -> Iterator[Answer]:
+    """Say from which force error on a robot falls, for every robot, gains and kind of errors.
+
+    Args:
+        study: Simulated runs.
+        none: Name of the errors of sensors that read the truth.
+
+    Yields:
+        One answer each.
+    """
+    for key in dict.fromkeys((row.tilt_deg, row.gain_factor, row.errors) for row in study.rows if row.errors != none):
+        tilt, gain, errors = key
+        rows = [row for row in study.rows if (row.tilt_deg, row.gain_factor, row.errors) == key]
+        rows.sort(key=lambda row: row.force_error_N)
+        last = rows[-1]
+        exact = [row for row in study.rows if (row.tilt_deg, row.gain_factor, row.errors) == (tilt, gain, none)]
+        beside = f", {_tracking(exact[0])} without" if exact else ""
+        own = [row for row in study.onsets if (row.tilt_deg, row.gain_factor, row.errors) == key]
+        onsets = [row.median_force_error_N for row in own if row.median_force_error_N is not None]
+        linear = f"; the linear loop is unstable from {amount(min(onsets), 'N')} on, median" if onsets else ""
+        yield Answer(
+            subject=f"soles {tilt:g} deg, gains times {gain:g}, errors {errors}",
+            verdict=_falls(rows),
+            why=(
+                f"torque tracking error {_tracking(last)} at {amount(last.force_error_N, 'N')} of force error{beside}",
+                f"{last.oscillating} of {last.runs} runs go on swinging after a push{linear}",
+            ),
+            concern=Concern.UNCERTAIN if any(row.falls for row in rows) else Concern.NONE,
+        )
+
+
+def _falls(rows: Sequence[TorqueLoopRow]) -> str:
+    first = next((row for row in rows if row.falls), None)
+    if first is None:
+        return f"NO FALL up to a force error of {amount(rows[-1].force_error_N, 'N')}"
+    share = f"{first.falls} of {first.runs} (95 %: {first.falls_least_percent:.0f} to {first.falls_most_percent:.0f} %)"
+    return f"FALLS: {share} at a force error of {amount(first.force_error_N, 'N')}"
+
+
+def _tracking(row: TorqueLoopRow) -> str:
+    half = row.tracking_half_width_95_Nm
+    return bounded(row.tracking_rms_Nm, None if half is None else row.tracking_rms_Nm + half, "N m")

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The answers of `payload` and `tare`: mass and centre of a load, and the offset that keeps its weight."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from forcetorque.base.wrench import FORCE_AND_MOMENT
+from forcetorque.payload.robot_files.formats import LoadFormat
+from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.number_text import amount, plus_minus
+from forcetorque.results.table import short_names
+
+if TYPE_CHECKING:
+    from forcetorque.payload.result import LoadRow, WeighedLoad
+    from forcetorque.payload.tare_offset import TaredSensor
+
+
+def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
+    """Give the answer for every load.
+
+    Args:
+        weighed: The loads.
+
+    Yields:
+        One answer each.
+    """
+    contradicted = [row for row in weighed.hypotheses if row.severity == "contradiction"]
+    step, command = _payload_step(weighed)
+    for load in weighed.loads:
+        name = "" if load.load == "load" else f", {load.load}"
+        doubtful = bool(contradicted or weighed.open or load.mass_kg is None)
+        yield Answer(
+            subject=f"{weighed.sensor} ({weighed.serial}){name}",
+            verdict=_load_verdict(load),
+            why=(_bias(weighed), _samples(weighed)),
+            step=step,
+            command=command,
+            concern=Concern.BAD if contradicted else Concern.UNCERTAIN if doubtful else Concern.NONE,
+        )
+
+
+def _load_verdict(load: LoadRow) -> str:
+    if load.mass_kg is None:
+        return "MASS NOT IDENTIFIABLE"
+    known = [1e3 * value for value in load.centre_of_mass_m if value is not None]
+    halves = [1e3 * value for value in load.centre_of_mass_half_width_95_m if value is not None]
+    if not load.estimated:
+        centre = f" at ({', '.join(f'{value:.4g}' for value in known)}) mm" if len(known) == len("xyz") else ""
+        return f"{load.mass_kg:.4g} kg{centre}, as stated"
+    mass = plus_minus(load.mass_kg, load.mass_half_width_95_kg, "kg")
+    if len(known) < len("xyz"):
+        return f"{mass}, centre of mass not identifiable"
+    return f"{mass} at {plus_minus(known, max(halves) if len(halves) == len(known) else None, 'mm')}"
+
+
+def _bias(weighed: WeighedLoad) -> str:
+    """The sign of a bias is what people get wrong: it is what is measured without load."""
+    last = weighed.sessions[-1]
+    parts = [
+        plus_minus(list(last.bias[part]), max(last.bias_half_width_95[part]), unit)
+        for part, unit in zip(FORCE_AND_MOMENT, ("N", "N m"), strict=True)
+        if None not in (*last.bias[part], *last.bias_half_width_95[part])
+    ]
+    of = (
+        "" if len(weighed.sessions) == 1 else f" of {last.session!r}, the last of {len(weighed.sessions)} power cycles,"
+    )
+    return f"bias{of} to be subtracted from measurements: {', '.join(parts) or 'not identifiable'}"
+
+
+def _samples(weighed: WeighedLoad) -> str:
+    disagreeing = len(weighed.disagreeing)
+    count = f"{weighed.rows} samples" + (
+        f", {disagreeing} disagree with the others and count less" if disagreeing else ""
+    )
+    return f"{count}; the loads move {weighed.spanned_directions} of 6 directions of wrench"
+
+
+def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
+    if weighed.hypotheses:
+        first = weighed.hypotheses[0]
+        return f"check for {first.name}: {first.words}", typed("inspect", EXPERIMENT)
+    if weighed.open:
+        return "record more postures, which turn the load about other axes", ""
+    return "write it to a file that the robot reads", typed(
+        "payload", EXPERIMENT, "--to", LoadFormat.FT_TOOLS.value, "-o", "load.yaml"
+    )
+
+
+def tare_answers(sensors: Sequence[TaredSensor], still: float) -> Iterator[Answer]:
+    """Give the answer for every sensor.
+
+    Args:
+        sensors: Their offsets.
+        still: Share of its weight by which the load may move at rest.
+
+    Yields:
+        One answer each.
+    """
+    for row in sensors:
+        name = short_names([row.reading])[row.reading]
+        force, moment = (
+            plus_minus(list(row.offset[part]), float(max(row.half_width_95[part])), unit)
+            for part, unit in zip(FORCE_AND_MOMENT, ("N", "N m"), strict=True)
+        )
+        weight = float((row.load[FORCE_AND_MOMENT[0]] ** 2).sum() ** 0.5)
+        moves = row.load_moves_N > still * weight
+        yield Answer(
+            subject=f"{row.sensor} ({row.serial}), {name}",
+            verdict="THE LOAD MOVES" if moves else f"force offset {force}",
+            why=(
+                f"moment offset {moment}; {'force offset ' + force + '; ' if moves else ''}to be added to measurements",
+                f"the load weighs {amount(weight, 'N')} and moves by {amount(row.load_moves_N, 'N')} in "
+                f"{row.samples} samples of {row.interval!r}",
+            ),
+            step="state an interval at rest" if moves else "",
+            command=typed("inspect", EXPERIMENT) if moves else "",
+            concern=Concern.UNCERTAIN if moves else Concern.NONE,
+        )

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The answer of `plan` in a few lines: what to record next and what it brings, or that nothing helps."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from forcetorque.planning.result import PlannedRecording, helps
+from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.number_text import amount, bounded
+
+if TYPE_CHECKING:
+    from forcetorque.planning.joint_calibration_plan import JointPlan, SensorForecast
+    from forcetorque.planning.planning import Plan
+
+
+def plan_answer(plan: Plan) -> Answer:
+    """Give the answer of a plan for one sensor.
+
+    Args:
+        plan: The plan.
+
+    Returns:
+        The answer.
+    """
+    first = plan.recordings[0]
+    subject = f"{plan.sensor} ({plan.serial}), {plan.load_case}"
+    if not helps(first):
+        return Answer(subject=subject, verdict="NOTHING HELPS", why=(plan.advice,), concern=Concern.BAD)
+    last = plan.recordings[-1]
+    several = len(plan.recordings) > 1
+    return Answer(
+        subject=subject,
+        verdict=f"RECORD {first.postures} POSTURES IN {first.seconds:.0f} s",
+        why=(
+            f"{_errors(first)}; held at {first.support}, tool: {first.tool}",
+            *([f"after all {len(plan.recordings)} recordings: {_after(last)}"] if several else []),
+        ),
+        step=(
+            "name a folder for the trajectories by --output"
+            if plan.folder is None
+            else "play every motion slowly, or in a simulator, before it is recorded; collisions were not checked"
+        ),
+        written=() if plan.folder is None else (plan.folder,),
+    )
+
+
+def _errors(row: PlannedRecording) -> str:
+    """Errors before and after a recording."""
+    force = bounded(row.force_after_N, row.force_after_at_most_N, "N")
+    moment = bounded(row.moment_after_Nm, row.moment_after_at_most_Nm, "N m")
+    return (
+        f"predicted force error falls from {amount(row.force_before_N, 'N')} to {force}, moment error from "
+        f"{amount(row.moment_before_Nm, 'N m')} to {moment}"
+    )
+
+
+def _after(row: PlannedRecording) -> str:
+    force = bounded(row.force_after_N, row.force_after_at_most_N, "N")
+    return f"{force}, {bounded(row.moment_after_Nm, row.moment_after_at_most_Nm, 'N m')}"
+
+
+def joint_plan_answer(plan: JointPlan, useful: int) -> Answer:
+    """Give the answer of a plan for all sensors of a robot.
+
+    Args:
+        plan: The plan.
+        useful: Number of its recordings that help.
+
+    Returns:
+        The answer.
+    """
+    last = [row for row in plan.sensors if row.step == len(plan.steps)]
+    sensors = len({row.sensor for row in last})
+    subject = f"{sensors} sensor{'s' * (sensors != 1)} calibrated jointly"
+    worst = f"farthest from what is allowed: {_forecast(max(last, key=lambda row: row.excess))}"
+    if not useful:
+        return Answer(subject=subject, verdict="NOTHING HELPS", why=(plan.advice, worst), concern=Concern.BAD)
+    names = [step.recording for step in plan.steps[:useful]]
+    return Answer(
+        subject=subject,
+        verdict=f"RECORD {', THEN '.join(names)}",
+        why=(
+            f"errors over what is allowed fall from {plan.steps[0].excess_before:.2f} to "
+            f"{plan.steps[useful - 1].excess_after:.2f}, geometric mean over sensors and load cases",
+            worst,
+        ),
+        step="record them, and calibrate with --jointly",
+    )
+
+
+def _forecast(row: SensorForecast) -> str:
+    force = bounded(row.force_after_N, row.force_after_at_most_N, "N")
+    moment = bounded(row.moment_after_Nm, row.moment_after_at_most_Nm, "N m")
+    return f"{row.sensor}, {row.load_case}: force error {force}, moment error {moment}"

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The answers of `skin calibrate`, `skin check` and `skin wrench` in a few lines."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.number_text import amount, bounded
+
+if TYPE_CHECKING:
+    from forcetorque.skin.layout.check import SkinCheck
+    from forcetorque.skin.taxels.calibrate import SkinCalibration
+    from forcetorque.skin.wrench.wrench import SkinWrench
+
+_TWO_SIGMA = 1.96
+"""Standard deviations of a bound that holds with 95 %, of normal noise."""
+
+
+def skin_calibration_answer(result: SkinCalibration) -> Answer:
+    """Say how many taxels have a curve, and by how much it errs where it was not fitted.
+
+    Args:
+        result: The curves.
+
+    Returns:
+        The answer.
+    """
+    kept = next((row for row in result.candidates if row.curve == result.curve and row.recording == "all"), None)
+    kept = kept or next((row for row in result.candidates if row.curve == result.curve), None)
+    better = result.least_inside not in (None, result.curve)
+    serial = "" if result.serial is None else f" ({result.serial})"
+    written = tuple(file for file in (result.file, result.figure) if file is not None)
+    return Answer(
+        subject=f"{result.patch}{serial}, curve {result.curve}",
+        verdict=f"{result.sound} OF {len(result.taxels)} TAXELS HAVE A CURVE",
+        why=(
+            "no recording was kept back, so no error is known where it was not fitted"
+            if kept is None or kept.inside_kPa is None
+            else f"error where it was not fitted: {amount(kept.inside_kPa, 'kPa')} at fitted pressures, up to "
+            f"{result.highest_kPa:.0f} kPa"
+            + ("" if kept.above_kPa is None else f", {amount(kept.above_kPa, 'kPa')} above; medians over taxels"),
+            *((f"the curve {result.least_inside} errs less there",) if better else ()),
+        ),
+        step=f"calibrate with --curve {result.least_inside}" if better else "compute contact wrenches with skin wrench",
+        written=written,
+        concern=Concern.UNCERTAIN if better or kept is None else Concern.NONE,
+    )
+
+
+def skin_check_answer(result: SkinCheck) -> Answer:
+    """Say what is wrong with a layout.
+
+    Args:
+        result: The findings.
+
+    Returns:
+        The answer.
+    """
+    findings = result.findings
+    return Answer(
+        subject=f"{result.patch} in {result.frame}, {result.taxels} taxels on {result.modules} modules",
+        verdict=f"{len(findings)} FINDING{'S' * (len(findings) > 1)}" if findings else "NO FINDINGS",
+        why=tuple(f"{row.defect}: {row.message}" for row in findings[:2]),
+        step=findings[0].remedy if findings else "",
+        written=() if result.figure is None else (result.figure,),
+        concern=Concern.BAD if findings else Concern.NONE,
+    )
+
+
+def skin_wrench_answer(result: SkinWrench, *, offered: bool) -> Answer:
+    """Say when a patch was touched, and how hard.
+
+    Args:
+        result: The contacts.
+        offered: Whether what was left after a release may be taken as rest.
+
+    Returns:
+        The answer.
+    """
+    largest = max(result.contacts, key=lambda row: row.force_N, default=None)
+    left_out = len(result.left_out)
+    return Answer(
+        subject=f"{result.patch} on {result.link}, {result.taxels - left_out} of {result.taxels} taxels",
+        verdict=f"TOUCHED in {result.touched} of {result.frames} frames" if result.touched else "NOT TOUCHED",
+        why=()
+        if largest is None
+        else (
+            f"largest contact force {bounded(largest.force_N, _most(largest.force_N, largest.force_sd_N), 'N')} at "
+            f"{largest.time_s:.2f} s; mean of all contacts together {amount(result.mean_force_N, 'N')}",
+            f"{len(result.lives)} contact{'s' * (len(result.lives) != 1)}, each from its first frame to its last; "
+            f"method {result.method}, heat: {result.temperature}",
+        ),
+        step="take what was left after a release as rest, by --re-tare" if offered else "",
+        written=() if result.figure is None else (result.figure,),
+        concern=Concern.UNCERTAIN if offered else Concern.NONE,
+    )
+
+
+def _most(force: float, deviation: float | None) -> float | None:
+    return None if deviation is None else force + _TWO_SIGMA * deviation

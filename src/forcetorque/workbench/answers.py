@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The answer of `workbench` in a few lines: faults of the bench, the error of positions that are not fitted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_UNITS
+from forcetorque.results.answer import Answer, Concern, typed
+from forcetorque.results.number_text import amount
+
+if TYPE_CHECKING:
+    from forcetorque.base.arrays import FloatArray
+    from forcetorque.workbench.result import BenchSensorRow, Workbench
+
+
+def workbench_answers(workbench: Workbench) -> Iterator[Answer]:
+    """Give the answer for every sensor.
+
+    Args:
+        workbench: The calibrations.
+
+    Yields:
+        One answer each; of a bench without measurements what to record first.
+    """
+    written = tuple(file for file in (workbench.file, workbench.figure) if file is not None)
+    for row in workbench.sensors:
+        step, command = _step(workbench, row)
+        verdict, concern = _verdict(workbench, row)
+        yield Answer(
+            subject=f"{row.sensor} ({row.serial}), {row.positions} positions",
+            verdict=verdict,
+            why=tuple(_reasons(workbench, row)),
+            step=step,
+            command=command,
+            written=written,
+            concern=concern,
+        )
+    if not workbench.sensors:
+        step, _ = _next(workbench)
+        yield Answer(subject=_serials(workbench), verdict="NOT CALIBRATED YET", step=step, written=written)
+
+
+def _serials(workbench: Workbench) -> str:
+    names = dict.fromkeys(row.serial for row in workbench.blocks_checked)
+    return f"workbench, {', '.join(names)}" if names else "workbench"
+
+
+def _verdict(workbench: Workbench, row: BenchSensorRow) -> tuple[str, Concern]:
+    faults = sum(fault.serial == row.serial for fault in workbench.faults)
+    if not row.fitted:
+        return "NO MATRIX", Concern.BAD
+    if faults:
+        return f"{faults} FAULT{'S' * (faults > 1)} OF THE BENCH", Concern.BAD
+    if any(not criterion.passed for criterion in workbench.criteria if criterion.serial == row.serial):
+        return "REJECTED", Concern.BAD
+    if row.unmoved:
+        return "FITTED, LOADS NOT EXCITED", Concern.UNCERTAIN
+    return "FITTED, NO FAULT OF THE BENCH", Concern.NONE
+
+
+def _reasons(workbench: Workbench, row: BenchSensorRow) -> Iterator[str]:
+    if row.reason:
+        yield row.reason
+    faults = [fault.sentence for fault in workbench.faults if fault.serial == row.serial]
+    failed = [one for one in workbench.criteria if one.serial == row.serial and not one.passed]
+    if faults:
+        yield "; ".join(faults[:2]) + (f"; {len(faults) - 2} more" if len(faults) > 2 else "")
+    elif failed:
+        yield f"failed: {', '.join(criterion.criterion for criterion in failed[:4])}"
+    elif row.unmoved:
+        yield f"no position loads {', '.join(row.unmoved)}: there the matrix is the prior matrix, or undetermined"
+    if row.held_out is not None:
+        beside = f", prior {_sizes(row.prior)}" if row.prior is not None else ""
+        yield f"error of positions that are left out one by one: {_sizes(row.held_out)}{beside}"
+
+
+def _sizes(error: FloatArray) -> str:
+    """Root mean square of the norms of force and moment."""
+    return " and ".join(
+        amount(float((error[part] ** 2).sum() ** 0.5), WRENCH_UNITS[part][0]) for part in FORCE_AND_MOMENT
+    )
+
+
+def _next(workbench: Workbench) -> tuple[str, bool]:
+    """What to record, and whether there is something."""
+    if workbench.next is None:
+        return "", False
+    prefix, _, setup = workbench.next.partition(": ")
+    words = {"next": f"record {setup}", "again": f"record again {setup}"}
+    return words.get(prefix, ""), prefix in words
+
+
+def _step(workbench: Workbench, row: BenchSensorRow) -> tuple[str, str]:
+    words, wanted = _next(workbench)
+    if wanted:
+        return words, ""
+    if any(fault.serial == row.serial for fault in workbench.faults):
+        return "correct the position in the workbench file, or record it again", ""
+    if not row.fitted or any(not criterion.passed for criterion in workbench.criteria):
+        return "", ""
+    if workbench.file is None:
+        return "write the calibration", typed("workbench", row.file, "-o", f"{row.serial}.json")
+    return "export the matrix to the robot", typed("export", workbench.file, "--to", "csv", "-o", f"{row.serial}.csv")

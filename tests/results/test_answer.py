@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Answers: the verdict first, the worst first, commands that can be copied, and warnings that are counted."""
+
+from __future__ import annotations
+
+import shlex
+
+import pytest
+
+from forcetorque.results.answer import (
+    EXPERIMENT,
+    MOST_LINES,
+    Answer,
+    Concern,
+    answer_text,
+    typed,
+    warnings_text,
+)
+from forcetorque.results.number_text import amount, bounded, plus_minus
+
+GOOD = Answer(
+    subject="left (L1), l.json",
+    verdict="USE",
+    why=("force error 0.5 N (95 %: 0.8 N)",),
+    step="export the matrix",
+    command=typed("export", "l.json"),
+    written=("l.png",),
+)
+BAD = Answer(
+    subject="right (R1), r.json",
+    verdict="DO NOT USE",
+    why=("force error 9 N (95 %: 12 N, allowed 2 N)",),
+    step="look for faults of the recording",
+    command=typed("inspect", EXPERIMENT),
+    written=("r.png",),
+    concern=Concern.BAD,
+)
+
+
+def test_the_worst_comes_first_with_its_reason_and_its_step() -> None:
+    """The others have a line each; files of all are named."""
+    assert answer_text([GOOD, BAD], 40, "walk.toml").splitlines() == [
+        "right (R1), r.json            DO NOT USE",
+        "  force error 9 N (95 %: 12 N, allowed",
+        "  2 N)",
+        "left (L1), l.json                    USE",
+        "written: l.png, r.png",
+        "next: look for faults of the recording",
+        "  forcetorque inspect walk.toml",
+    ]
+
+
+def test_alike_answers_keep_their_order() -> None:
+    """So that the first sensor of the file stays the first."""
+    others = [Answer(subject=name, verdict="USE") for name in ("b", "a", "c")]
+    assert [line[0] for line in answer_text(others, 20).splitlines()] == ["b", "a", "c"]
+
+
+def test_nothing_is_next_where_nothing_is_to_be_done() -> None:
+    """A line only."""
+    assert answer_text([Answer(subject="arm", verdict="USE")], 12) == "arm      USE\n"
+
+
+def test_a_verdict_without_room_goes_below() -> None:
+    """A gap of two characters at least, else a line of its own."""
+    answer = Answer(subject="arm_ft", verdict="DO NOT USE")
+    assert answer_text([answer], 18) == "arm_ft  DO NOT USE\n"
+    assert answer_text([answer], 17) == "arm_ft\n  DO NOT USE\n"
+
+
+@pytest.mark.parametrize("width", [20, 40, 60, 80])
+def test_a_command_can_be_copied_at_every_width(width: int) -> None:
+    """A shell joins its lines to the words that were given; none is wider than the terminal."""
+    words = ("accept", EXPERIMENT, "-c", "my arm.json", "--spec", "limits.toml", "--format", "json")
+    answer = Answer(subject="arm", verdict="ACCEPTED", command=typed(*words))
+    lines = answer_text([answer], width, shlex.quote("a b.toml")).splitlines()[1:]
+    expected = ["forcetorque", "accept", "a b.toml", *words[2:]]
+    assert shlex.split("\n".join(lines)) == expected
+    assert max(map(len, lines)) <= width
+
+
+def test_warnings_are_counted_and_cut_to_a_line() -> None:
+    """The first three, where there is room for as many."""
+    sentences = ("the first of the warnings is long", "second", "third", "fourth")
+    assert warnings_text(sentences, 24).splitlines() == [
+        "4 warnings, 3 shown:",
+        "  the first of the …",
+        "  second",
+        "  third",
+    ]
+    assert warnings_text(sentences, 24, 1).count("\n") == 2
+    assert warnings_text(sentences, 24, -3) == "4 warnings, none shown\n"
+    assert warnings_text(sentences[:1], 60) == "1 warning:\n  the first of the warnings is long\n"
+    assert warnings_text((), 60) == ""
+    assert MOST_LINES == 12
+
+
+def test_intervals_have_one_form() -> None:
+    """A size with its bound, a number with its half-width, both with two digits that count."""
+    assert bounded(0.8512, 1.402, "N") == "0.85 N (95 %: 1.4 N)"
+    assert bounded(0.8512, None, "N") == "0.85 N (95 %: no bound)"
+    assert plus_minus(1.23712, 0.0123, "kg") == "1.237 kg (95 %: ±0.012 kg)"
+    assert plus_minus((0.13, -2.34), 0.21, "N") == "(0.13, -2.34) N (95 %: ±0.21 N)"
+    assert plus_minus(0.5, None, "") == "0.500 (95 %: no bound)"
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(0.0, "0 N"), (324.4, "324 N"), (99.96, "100 N"), (12.34, "12 N"), (0.0432, "0.043 N"), (-0.5, "-0.5 N")],
+)
+def test_an_amount_has_two_digits_that_count(value: float, text: str) -> None:
+    """And no power of ten, however small it is."""
+    assert amount(value, "N") == text
+    assert "e" not in amount(1e-7, "N")
