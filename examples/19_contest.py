@@ -4,7 +4,7 @@
 Usage: python examples/19_contest.py FOLDER
 
 Stacks a bought sensor and two of ours on the device of thesis chapter 6, takes them through its 12 steps with 5 and
-25 kg to fit and with 10, 15, 20 and 30 kg to judge, each of these twice, and runs `forcetorque contest`.
+25 kg to fit and with 10, 15, 20 and 30 kg to judge, each of these twice, and runs `forcetorque bench contest`.
 """
 
 from __future__ import annotations
@@ -164,7 +164,7 @@ def _write_run(
 def main(folder: Path) -> None:
     """Make the data and let them meet."""
     config = write_contest(folder)
-    command = [sys.executable, "-m", "forcetorque", "contest", str(config), "--figure", str(folder / "contest.png")]
+    command = [sys.executable, "-m", "forcetorque", "bench", "contest", str(config), "--figure", str(folder / "contest.png")]
     subprocess.run(command, check=True)
 
 

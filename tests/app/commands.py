@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from typer import Typer
 
+from forcetorque.app.command_line import commands
+
 
 def typed_commands(program: Typer) -> list[str]:
     """Words of every command: its name, behind that of its group where it is in one.
@@ -24,4 +26,5 @@ def typed_commands(program: Typer) -> list[str]:
 
 def question_of(command: str) -> str:
     """Name of the question that a command asks, which its schema, snapshot and files have."""
-    return command.replace(" ", "_").replace("-", "_")
+    function = commands().get(command, command).partition(":")[2]
+    return function or command.replace(" ", "_").replace("-", "_")

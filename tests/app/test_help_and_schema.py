@@ -54,6 +54,7 @@ JSON_SCHEMAS = (
     "gains",
     "plan",
     "report",
+    "run",
     "skin_calibrate",
     "skin_check",
     "skin_wrench",
@@ -76,8 +77,8 @@ def test_there_are_commands() -> None:
 
 
 def _listed(help_text: str) -> list[str]:
-    """Names below `Commands:`, all with a line that says what they are for."""
-    return sorted(re.findall(r"^  ([\w-]+)  +[A-Z]", help_text.partition("Commands:")[2], re.MULTILINE))
+    """Names in all panels, all with a line that says what they are for."""
+    return sorted(re.findall(r"^  (\w[\w-]*)  +[A-Z]", help_text.partition("Options:")[2], re.MULTILINE))
 
 
 def test_the_help_lists_every_command(run: Run) -> None:
@@ -135,7 +136,7 @@ def test_the_example_of_a_command_can_be_typed(
 @pytest.mark.parametrize("command", COMMANDS)
 def test_the_readme_names_every_command(command: str) -> None:
     """Who reads the README learns that the command, or its group, exists."""
-    assert re.search(rf"\bforcetorque {command.split()[0]}\b", (ROOT / "README.md").read_text(encoding="utf-8"))
+    assert re.search(rf"(\bforcetorque |`){command.split()[0]}\b", (ROOT / "README.md").read_text(encoding="utf-8"))
 
 
 def test_the_version_is_that_of_the_package(run: Run) -> None:
@@ -153,7 +154,7 @@ def _names(run: Run) -> list[str]:
 def test_an_unknown_schema_leads_to_the_known_ones(run: Run) -> None:
     """The error lists files and every command that has a result; the help those files; each is printed as JSON."""
     names = _names(run)
-    assert set(names) == {*FILES, *OF_OPTIONS, *map(question_of, COMMANDS)} - {"schema"}
+    assert set(names) == {*FILES, *OF_OPTIONS, *map(question_of, COMMANDS)} - {"schema", "demo"}
     (argument,) = re.findall(r"Arguments:\n((?:.+\n)+)", run("schema", "--help").out)
     assert all(re.search(rf"\b{name}\b", argument) for name in FILES)
     for name in names:

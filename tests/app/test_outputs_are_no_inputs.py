@@ -32,47 +32,48 @@ INPUT_OPTIONS = {
 """Options with a path that is read, in every command that has them."""
 TABLE_THAT_IS_READ = ("skin wrench", "--table")
 NEW_FOLDERS = {
-    ("device", "--figures"),
-    ("device", "--output"),
+    ("bench device", "--figures"),
+    ("bench device", "--output"),
     ("plan", "--output"),
     ("simulate", "--output"),
-    ("study", "--output"),
+    ("study fits", "--output"),
 }
 """Outputs that must not be there yet, or be empty folders."""
-FOLDERS = {("calibrate", "--moments")}
+FOLDERS = {("calibrate", "--moments"), ("run", "--output")}
 """Outputs that are added to what a folder holds."""
 
 WORDS = {
-    "balance": f"{PARQUET}",
+    "robot balance": f"{PARQUET}",
     "calibrate": f"{PARQUET} -o new.json",
-    "coherence": f"{PARQUET}",
-    "compare": f"{PARQUET}",
-    "contest": f"{PARQUET}",
-    "device": f"{PARQUET}",
+    "robot coherence": f"{PARQUET}",
+    "study compare": f"{PARQUET}",
+    "bench contest": f"{PARQUET}",
+    "bench device": f"{PARQUET}",
     "estimate": f"{PARQUET} -o new.csv",
     "export": "fitted.json --to csv",
-    "gains": f"{PARQUET}",
+    "bench gains": f"{PARQUET}",
     "init": f"{PARQUET}",
-    "motion": f"{PARQUET}",
+    "robot motion": f"{PARQUET}",
     "payload": f"{PARQUET} --to ft-tools",
     "plan": f"{PARQUET}",
     "report": f"{PARQUET}",
-    "response": f"{PARQUET} -e impact",
+    "bench response": f"{PARQUET} -e impact",
+    "run": f"{PARQUET}",
     "simulate": f"{PARQUET}",
     "skin calibrate": f"{PARQUET} -o new.json",
     "skin check": f"{PARQUET}",
     "skin wrench": f"{PARQUET} --table fitted.json",
-    "sphere": f"{PARQUET}",
-    "study": f"{PARQUET}",
+    "study sphere": f"{PARQUET}",
+    "study fits": f"{PARQUET}",
     "tare": f"{PARQUET} --interval fit --to ft-tools",
-    "thermal": f"{PARQUET}",
-    "torque-loop": f"{PARQUET}",
+    "bench thermal": f"{PARQUET}",
+    "robot torque-loop": f"{PARQUET}",
     "view": f"{PARQUET}",
-    "workbench": f"{PARQUET}",
+    "bench workbench": f"{PARQUET}",
 }
 """What every command with an output is asked; its first word is read by it."""
 ENDINGS = {
-    "balance": ".csv",
+    "robot balance": ".csv",
     "estimate": ".parquet",
     "report": ".html",
     "skin calibrate": ".json",
@@ -224,7 +225,7 @@ def test_readings_of_a_bench_are_inputs(tmp_path: Path, run: Run) -> None:
     bench, _ = write_bench(tmp_path)
     before = snapshot(tmp_path)
     for name in (bench.name, "nominal.txt", "SIM001_output1.dat", "SIM001_output24.dat"):
-        assert IS_INPUT in run("workbench", bench, "-o", tmp_path / name, "--force").error(), name
+        assert IS_INPUT in run("bench", "workbench", bench, "-o", tmp_path / name, "--force").error(), name
     assert snapshot(tmp_path) == before
 
 

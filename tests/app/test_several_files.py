@@ -20,7 +20,7 @@ LIMITS = 'schema = "forcetorque/acceptance/1"\nname = "leg"\n\n[evaluate]\nforce
 COMMANDS = {
     "accept": ("--spec", "limits.toml", "-c", "arm.json"),
     "evaluate": ("-c", "arm.json"),
-    "validate": ("-c", "arm.json"),
+    "study validate": ("-c", "arm.json"),
 }
 
 
@@ -43,8 +43,11 @@ def judged(days: Path, calibrated: Calibration, monkeypatch: pytest.MonkeyPatch)
 def test_the_json_has_both_and_fits_the_schema(judged: Path, run: Run, command: str) -> None:
     """What all files show together, and each by itself; of one file there is no more than ever."""
     words = (*COMMANDS[command], "--format", "json")
-    several, one = run(command, *VALIDATION, *words).result(), run(command, VALIDATION[0], *words).result()
-    schema = run("schema", command).result()
+    several, one = (
+        run(*command.split(), *VALIDATION, *words).result(),
+        run(*command.split(), VALIDATION[0], *words).result(),
+    )
+    schema = run("schema", command.split()[-1]).result()
     assert faults(several, schema) == faults(one, schema) == []
     assert several["experiment"] == "arm day_1; arm day_2"
     assert [row["recording"] for row in several["recordings"]][:1] == ["arm day_1"]
@@ -58,7 +61,10 @@ def test_the_json_has_both_and_fits_the_schema(judged: Path, run: Run, command: 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_people_see_a_line_per_recording(judged: Path, run: Run, command: str) -> None:
     """Below what they show together; not where there is one file."""
-    several, one = run(command, *VALIDATION, *COMMANDS[command]), run(command, VALIDATION[0], *COMMANDS[command])
+    several, one = (
+        run(*command.split(), *VALIDATION, *COMMANDS[command]),
+        run(*command.split(), VALIDATION[0], *COMMANDS[command]),
+    )
     assert (several.code, one.code) == (0, 0)
     assert "each recording by itself" in several.out
     assert "arm day_2" in several.out
@@ -66,15 +72,15 @@ def test_people_see_a_line_per_recording(judged: Path, run: Run, command: str) -
     assert "arm day_2" not in one.out
 
 
-@pytest.mark.parametrize("command", ["evaluate", "validate"])
+@pytest.mark.parametrize("command", ["evaluate", "study validate"])
 def test_lines_of_csv_say_of_which_recording_they_are(judged: Path, run: Run, command: str) -> None:
     """Pooled lines of none; one file has no such column."""
     words = (*COMMANDS[command], "--format", "csv")
-    rows = run(command, *VALIDATION, *words).rows()
+    rows = run(*command.split(), *VALIDATION, *words).rows()
     names = [row["recording"] for row in rows]
     assert set(names) == {"", "arm day_1", "arm day_2"}
     assert names.count("") == names.count("arm day_1") == names.count("arm day_2")
-    assert "recording" not in run(command, VALIDATION[0], *words).rows()[0]
+    assert "recording" not in run(*command.split(), VALIDATION[0], *words).rows()[0]
 
 
 def test_the_verdict_is_that_of_all_files_together(judged: Path, run: Run) -> None:
@@ -99,7 +105,7 @@ def test_the_verdict_is_that_of_all_files_together(judged: Path, run: Run) -> No
 def test_files_of_another_sensor_are_refused(judged: Path, run: Run, command: str) -> None:
     """Another serial number under the same name; the error names the file, the numbers, and what to do."""
     edit(judged / VALIDATION[1], 'serial = "SIM001"', 'serial = "SIM002"')
-    error = run(command, *VALIDATION, *COMMANDS[command]).error()
+    error = run(*command.split(), *VALIDATION, *COMMANDS[command]).error()
     assert error.startswith(f"error: {VALIDATION[1]}: sensor 'arm_ft': expected the serial number of {VALIDATION[0]}, ")
     assert error.endswith(
         "SIM001, got SIM002; files are pooled for one sensor, mounted and read in one way: leave one of the two out"
@@ -110,7 +116,7 @@ def test_files_of_another_sensor_are_refused(judged: Path, run: Run, command: st
 def test_a_file_that_comes_twice_is_refused(judged: Path, run: Run, command: str) -> None:
     """Its samples would count twice."""
     words = COMMANDS.get(command, ("-o", "estimates.csv"))
-    error = run(command, VALIDATION[0], f"./{VALIDATION[0]}", *words).error()
+    error = run(*command.split(), VALIDATION[0], f"./{VALIDATION[0]}", *words).error()
     assert error.endswith("expected every experiment file once, it comes twice; its samples would too")
     assert not Path("estimates.csv").exists()
 

@@ -53,9 +53,9 @@ KNEE = ("--column", "robot.position.knee", "--desired", "robot.position.knee_des
 
 def _of_experiments() -> dict[str, tuple[str, ...]]:
     """Commands of experiments or their sensors, on the experiment of the small arm."""
-    analyses = {name.replace("_", "-"): named(reference) for name, reference in all_named("commands")}
+    analyses = {name: named(reference) for name, reference in commands().items()}
     return {
-        name: (name, PARQUET)
+        name: (*name.split(), PARQUET)
         for name, analysis in analyses.items()
         if command_of(analysis) and next(iter(analysis.__annotations__.values())) in ("SensorRun", "Runs", "Experiment")
     }
@@ -63,36 +63,36 @@ def _of_experiments() -> dict[str, tuple[str, ...]]:
 
 COMMANDS = _of_experiments() | {
     "accept": ("accept", PARQUET, "--spec", "limits.toml", "-c", "fitted.json"),
-    "balance": ("balance", "feet/standing.toml", "--touch", "50N", "--release", "20N"),
+    "robot balance": ("robot", "balance", "feet/standing.toml", "--touch", "50N", "--release", "20N"),
     "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
-    "coherence": ("coherence", PARQUET, "-c", "fitted.json", "--offset", "fitted", "--offset", "none"),
-    "compare": ("compare", PARQUET, "-c", "fitted.json"),
-    "device": ("device",),
-    "contest": ("contest", "wrist/contest.toml"),
+    "robot coherence": ("robot", "coherence", PARQUET, "-c", "fitted.json", "--offset", "fitted", "--offset", "none"),
+    "study compare": ("study", "compare", PARQUET, "-c", "fitted.json"),
+    "bench device": ("bench", "device"),
+    "bench contest": ("bench", "contest", "wrist/contest.toml"),
     "estimate": ("estimate", PARQUET, "-o", "contacts.parquet", "-c", "fitted.json"),
     "evaluate": ("evaluate", PARQUET, "-c", "fitted.json"),
     "export": ("export", "fitted.json", "--to", "csv", "-o", "matrix.csv"),
-    "gains": ("gains", PARQUET),
+    "bench gains": ("bench", "gains", PARQUET),
     "init": ("init", "begun/log.csv", "--urdf", "begun/robot.urdf", "-o", "begun.toml"),
     "inspect": ("inspect", "faulty.toml"),
-    "motion": ("motion", "sway/swaying.toml", *KNEE),
+    "robot motion": ("robot", "motion", "sway/swaying.toml", *KNEE),
     "plan": ("plan", PARQUET, "-c", "fitted.json", "--clearance-deg", "12", "--seconds", "20", "--recordings", "2"),
     "report": ("report", PARQUET, "fitted.json", "-o", "report.html"),
-    "response": ("response", "excited/taps.toml", "-e", "impact", "--force", "log"),
+    "bench response": ("bench", "response", "excited/taps.toml", "-e", "impact", "--force", "log"),
     "skin calibrate": ("skin", "calibrate", "fit.toml", "kept.toml", "-o", "palm.json"),
     "skin check": ("skin", "check", "patch.txt"),
     "skin wrench": ("skin", "wrench", "touched.toml", "--table", "shank.json"),
-    "sphere": ("sphere", PARQUET, "-c", "fitted.json"),
-    "study": ("study", PARQUET, "-o", "study", *SHORT),
+    "study sphere": ("study", "sphere", PARQUET, "-c", "fitted.json"),
+    "study fits": ("study", "fits", PARQUET, "-o", "study", *SHORT),
     "tare": ("tare", PARQUET, "--interval", "judge", "-c", "fitted.json"),
-    "thermal": ("thermal", "chamber/chamber.toml"),
-    "validate": ("validate", TWO, "-c", "fitted.json"),
+    "bench thermal": ("bench", "thermal", "chamber/chamber.toml"),
+    "study validate": ("study", "validate", TWO, "-c", "fitted.json"),
     "view": ("view", PARQUET, "-o", "view.html"),
-    "workbench": ("workbench", "SIM001.toml"),
+    "bench workbench": ("bench", "workbench", "SIM001.toml"),
 }
 """What is typed; of a command that only needs an experiment nothing has to be stated."""
-WITHOUT_TABLE = {"payload", "schema", "simulate", "torque-loop"}
-"""Shown elsewhere: `payload` needs a wrist, `simulate` and `torque-loop` minutes; `schema` is JSON."""
+WITHOUT_TABLE = {"demo", "payload", "robot torque-loop", "run", "schema", "simulate"}
+"""Shown elsewhere: `payload` needs a wrist, `simulate`, `torque-loop`, `run` and `demo` minutes; `schema` is JSON."""
 
 
 def _write_limits(arm: Path) -> None:

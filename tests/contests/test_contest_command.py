@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque contest` as it is typed, on files of the example, and the script of its page."""
+"""`forcetorque bench contest` as it is typed, on files of the example, and the script of its page."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_it_ranks_draws_and_goes_into_a_report(run: Run, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Table, figure, JSON and CSV; what lacks something is named; a report that is given the JSON draws it."""
     monkeypatch.chdir(folder)
-    asked = run("contest", "contest.toml", "--figure", "contest.png", "--format", "json")
+    asked = run("bench", "contest", "contest.toml", "--figure", "contest.png", "--format", "json")
     assert asked.code == 0
     result = asked.result()
     assert result["schema"] == "forcetorque/contest/1"
@@ -63,11 +63,11 @@ def test_bad_input_is_one_line(run: Run, folder: Path, monkeypatch: pytest.Monke
     monkeypatch.chdir(folder)
     text = (folder / "contest.toml").read_text(encoding="utf-8").replace("load_kg = 10.0", "load_kg = 5.0")
     (folder / "favours.toml").write_text(text, encoding="utf-8")
-    asked = run("contest", "favours.toml")
+    asked = run("bench", "contest", "favours.toml")
     assert asked.code == 2
     assert "favours.toml: judge_10kg_0.toml: expected validation loads that no contestant was fitted on" in asked.err
     assert "'ours 1, in situ' was" in asked.err
-    assert run("contest", "none.toml").code == 2
+    assert run("bench", "contest", "none.toml").code == 2
 
 
 def test_the_script_of_the_page_runs(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

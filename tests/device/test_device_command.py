@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque device` as it is typed, and its folder as other commands take it."""
+"""`forcetorque bench device` as it is typed, and its folder as other commands take it."""
 
 from __future__ import annotations
 
@@ -60,13 +60,13 @@ def folder(design: DeviceDesign, tmp_path_factory: pytest.TempPathFactory) -> Pa
 
 def test_it_draws(run: Run, tmp_path: Path) -> None:
     """The motion, what the sensor sees of it, what is swept, and errors of references."""
-    asked = run("device", "--figures", tmp_path / "figures", "--details")
+    asked = run("bench", "device", "--figures", tmp_path / "figures", "--details")
     assert asked.code == 0
     assert "12 steps, axes swapped" in asked.out
     names = {picture.name for picture in (tmp_path / "figures").iterdir()}
     assert names == {"motion.png", "space.png", "remedies.png", "envelope.png", "errors.png"}
     assert all(picture.read_bytes().startswith(b"\x89PNG") for picture in (tmp_path / "figures").iterdir())
-    assert run("device", "--figures", tmp_path / "figures").error().endswith("it is there already")
+    assert run("bench", "device", "--figures", tmp_path / "figures").error().endswith("it is there already")
 
 
 def test_it_writes_what_a_robot_and_a_calibration_need(folder: Path) -> None:
@@ -122,7 +122,7 @@ def test_with_a_prior_one_load_is_taken(run: Run, tmp_path: Path) -> None:
         'link = ["ft_1_outboard"]\naccelerometer_noise = 0.01\ngyroscope_noise = 0.001\n'
     )
     (tmp_path / "device.toml").write_text(DEFAULT_DEVICE.read_text() + simulation)
-    assert run("device", str(tmp_path / "device.toml"), "-o", str(tmp_path / "simulated")).code == 0
+    assert run("bench", "device", str(tmp_path / "device.toml"), "-o", str(tmp_path / "simulated")).code == 0
     assert "imu" in (tmp_path / "simulated/35_kg.toml").read_text()
     asked = run("calibrate", str(tmp_path / "simulated/35_kg.toml"), "-o", str(tmp_path / "new.json"))
     assert asked.code == 0
@@ -145,7 +145,7 @@ def test_a_device_that_cannot_be_is_refused(run: Run, tmp_path: Path, old: str, 
     assert old in text
     file = tmp_path / "device.toml"
     file.write_text(text.replace(old, new))
-    asked = run("device", str(file), "-o", str(tmp_path / "simulated"))
+    asked = run("bench", "device", str(file), "-o", str(tmp_path / "simulated"))
     assert asked.code == 2
     assert words in asked.err
     assert not (tmp_path / "simulated").exists()
@@ -157,9 +157,9 @@ def test_a_motion_of_ones_own(run: Run, tmp_path: Path) -> None:
     head = DEFAULT_DEVICE.read_text()
     (tmp_path / "good.toml").write_text(head + posture.format(-90.0, 0.0, "false") + posture.format(0.0, 90.0, "true"))
     (tmp_path / "bad.toml").write_text(head + posture.format(-90.0, 0.0, "false") + posture.format(-9.0, 90.0, "true"))
-    asked = run("device", str(tmp_path / "good.toml"), "--format", "json")
+    asked = run("bench", "device", str(tmp_path / "good.toml"), "--format", "json")
     assert [row["postures"] for row in asked.result()["motions"]] == [2]
-    asked = run("device", str(tmp_path / "bad.toml"))
+    asked = run("bench", "device", str(tmp_path / "bad.toml"))
     assert asked.code == 2
     assert "it hangs at 81.0 deg and does not reach it" in asked.err
 
@@ -167,7 +167,7 @@ def test_a_motion_of_ones_own(run: Run, tmp_path: Path) -> None:
 def test_the_example_with_a_third_lock_tells_all_with_one_load(run: Run, tmp_path: Path) -> None:
     """One load of 35 kg is enough, and what it tells holds for another load."""
     example = Path(__file__).parents[2] / "examples" / "20_device_third_lock.toml"
-    assert run("device", example, "-o", tmp_path / "simulated").code == 0
+    assert run("bench", "device", example, "-o", tmp_path / "simulated").code == 0
     assert run("calibrate", tmp_path / "simulated/35_kg.toml", "-o", tmp_path / "new.json").code == 0
     judged = run("evaluate", tmp_path / "simulated/25_kg.toml", "-c", tmp_path / "new.json", "--format", "json")
     assert judged.code == 0
@@ -177,5 +177,5 @@ def test_the_example_with_a_third_lock_tells_all_with_one_load(run: Run, tmp_pat
 def test_python_says_what_the_command_line_says(run: Run) -> None:
     """In one line, with a table for notebooks."""
     answer = design_device()
-    assert answer.text(120) == run("device", "--details").out
+    assert answer.text(120) == run("bench", "device", "--details").out
     assert "<table" in answer._repr_html_()

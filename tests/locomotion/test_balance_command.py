@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque balance` on vertical forces and on wrenches: tables, files, pictures, refusals."""
+"""`forcetorque robot balance` on vertical forces and on wrenches: tables, files, pictures, refusals."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def feet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_phases_samples_and_a_figure(feet: Path, run: Run) -> None:
     """Both feet, the left, both; each sample in the file; what is not told is said."""
-    words = ("balance", feet, "--touch", "50N", "--release", "20N")
+    words = ("robot", "balance", feet, "--touch", "50N", "--release", "20N")
     shown = run(*words, "-o", "samples.parquet", "--figure", "feet.png", "--format", "json")
     assert shown.code == 0
     result = shown.result()
@@ -47,7 +47,7 @@ def test_phases_samples_and_a_figure(feet: Path, run: Run) -> None:
 )
 def test_bad_input_is_one_line(feet: Path, run: Run, words: tuple[str, ...], message: str) -> None:
     """Thresholds that cross or have no unit, no phase, a file of no known form."""
-    refused = run("balance", feet, *words)
+    refused = run("robot", "balance", feet, *words)
     assert refused.code == 2
     assert message in refused.err.splitlines()[-1]
     assert not Path("samples.txt").exists()
@@ -58,6 +58,6 @@ def test_a_file_without_soles_is_told_what_to_state(feet: Path, run: Run) -> Non
     text = feet.read_text(encoding="utf-8")
     first, last = text.index("[[sole]]"), text.index("[[interval]]")
     feet.write_text(text[:first] + text[last:], encoding="utf-8")
-    refused = run("balance", feet)
+    refused = run("robot", "balance", feet)
     assert refused.code == 2
     assert "sole" in refused.err or "sensor" in refused.err

@@ -21,7 +21,7 @@ def test_a_motion_is_shown_and_drawn(log: Path, run: Run) -> None:
     """JSON has the numbers and no curves, CSV a line per row, and the figure is a PNG."""
     figure = log.parent / "motion.png"
     words = ("--column", "com_y", "--column", "robot.position.knee", "--step-at", "10")
-    outcome = run("motion", log, *words, "--figure", figure, "--format", "json")
+    outcome = run("robot", "motion", log, *words, "--figure", figure, "--format", "json")
     result = outcome.result()
     assert result["schema"] == "forcetorque/motion/1"
     assert "curves" not in result
@@ -30,8 +30,8 @@ def test_a_motion_is_shown_and_drawn(log: Path, run: Run) -> None:
     assert len(result["settling"]) == 1
     assert "no settling time: stand: com_y: step at 10.000 s: expected a signal that goes somewhere" in outcome.err
     one = ("--column", "robot.position.knee", "--desired", "robot.position.knee_desired", "--band-percent", "10")
-    assert "within 10 % of the step" in run("motion", log, *one, "--details").out
-    assert "robot.position.knee" in run("motion", log, *one, "--format", "csv").out
+    assert "within 10 % of the step" in run("robot", "motion", log, *one, "--details").out
+    assert "robot.position.knee" in run("robot", "motion", log, *one, "--format", "csv").out
 
 
 @pytest.mark.parametrize(
@@ -46,4 +46,4 @@ def test_a_motion_is_shown_and_drawn(log: Path, run: Run) -> None:
 )
 def test_what_is_not_there_is_named(log: Path, run: Run, words: tuple[str, ...], message: str) -> None:
     """One line and exit code 2."""
-    assert message in run("motion", log, *words).error()
+    assert message in run("robot", "motion", log, *words).error()

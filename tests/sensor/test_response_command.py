@@ -23,7 +23,7 @@ def taps(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_the_response_is_shown_and_drawn(taps: Path, run: Run) -> None:
     """JSON has the filter and the curve, CSV the numbers, and the figure is a PNG."""
     figure = taps.parent / "bode.png"
-    words = ("response", taps, "--excitation", "impact", "--force", "log")
+    words = ("bench", "response", taps, "--excitation", "impact", "--force", "log")
     result = run(*words, "--figure", figure, "--format", "json").result()
     assert result["schema"] == "forcetorque/response/1"
     assert len(result["inverse"]["numerator"]) == 3
@@ -49,6 +49,6 @@ def test_the_response_is_shown_and_drawn(taps: Path, run: Run) -> None:
 )
 def test_what_is_not_there_is_named(taps: Path, run: Run, words: tuple[str, ...], message: str) -> None:
     """One line and exit code 2."""
-    outcome = run("response", taps, *words)
+    outcome = run("bench", "response", taps, *words)
     assert (outcome.code, outcome.out) == (2, "")
     assert message in outcome.err

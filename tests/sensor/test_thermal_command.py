@@ -21,17 +21,17 @@ def chamber(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_drift_is_shown_and_drawn(chamber: Path, run: Run) -> None:
     """JSON has the numbers, the table the lines for an experiment file, and the figure is a PNG."""
     figure = chamber.parent / "drift.png"
-    result = run("thermal", chamber, "--figure", figure, "--format", "json").result()
+    result = run("bench", "thermal", chamber, "--figure", figure, "--format", "json").result()
     assert result["schema"] == "forcetorque/thermal/1"
     (sensor,) = result["sensors"]
     assert "curve" not in sensor
     slopes = [row["drift_per_degC"] for row in sensor["components"]]
     np.testing.assert_allclose(slopes, PER_DEGREE, rtol=0.1)
     assert figure.read_bytes().startswith(b"\x89PNG")
-    table = run("thermal", chamber, "--details").out
+    table = run("bench", "thermal", chamber, "--details").out
     assert "prior_coefficients = [" in table
     assert "heating - cooling" in table
-    lines = run("thermal", chamber, "--format", "csv").out.splitlines()
+    lines = run("bench", "thermal", chamber, "--format", "csv").out.splitlines()
     assert (len(lines), lines[0].startswith("sensor,serial,signal,unit,drift_per_degC")) == (7, True)
 
 
@@ -46,6 +46,6 @@ def test_drift_is_shown_and_drawn(chamber: Path, run: Run) -> None:
 )
 def test_what_is_not_there_is_named(chamber: Path, run: Run, words: tuple[str, ...], message: str) -> None:
     """One line and exit code 2."""
-    outcome = run("thermal", chamber, *words)
+    outcome = run("bench", "thermal", chamber, *words)
     assert (outcome.code, outcome.out) == (2, "")
     assert message in outcome.err

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque workbench` as it is typed."""
+"""`forcetorque bench workbench` as it is typed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_it_writes_a_calibration_and_a_figure_and_reports_the_fault(run: Run, bench: Path) -> None:
     """Which export then takes as any other."""
-    outcome = run("workbench", "SIM001.toml", "-o", "new.json", "--figure", "bench.png")
+    outcome = run("bench", "workbench", "SIM001.toml", "-o", "new.json", "--figure", "bench.png")
     assert outcome.code == 0
     assert "SIM001: positions 4 and 9 are swapped" in outcome.out
     assert "1 fault(s) of the bench are detected" in outcome.err
@@ -37,10 +37,10 @@ def test_it_writes_a_calibration_and_a_figure_and_reports_the_fault(run: Run, be
 
 def test_it_names_the_next_position(run: Run, bench: Path) -> None:
     """Without fitting anything; as JSON too."""
-    outcome = run("workbench", "SIM002.toml", "--next")
+    outcome = run("bench", "workbench", "SIM002.toml", "--next")
     assert (outcome.code, outcome.err) == (0, "")
     assert "\nnext: record position 3 " in outcome.out
-    result = run("workbench", "SIM002.toml", "--next", "--format", "json").result()
+    result = run("bench", "workbench", "SIM002.toml", "--next", "--format", "json").result()
     assert result["sensors"] == []
     assert len(result["blocks_checked"]) == 2
 
@@ -48,10 +48,10 @@ def test_it_names_the_next_position(run: Run, bench: Path) -> None:
 def test_several_sensors_are_compared(run: Run, bench: Path) -> None:
     """A row each; one file holds one calibration."""
     write_bench(bench, serial="SIM003", seed=3)
-    outcome = run("workbench", "SIM001.toml", "SIM003.toml", "--format", "csv")
+    outcome = run("bench", "workbench", "SIM001.toml", "SIM003.toml", "--format", "csv")
     assert outcome.code == 0
     assert len(outcome.out.splitlines()) == 3
-    refused = run("workbench", "SIM001.toml", "SIM003.toml", "-o", "new.json")
+    refused = run("bench", "workbench", "SIM001.toml", "SIM003.toml", "-o", "new.json")
     assert refused.code == 2
     assert "a file holds one calibration" in refused.err
 
@@ -61,6 +61,6 @@ def test_a_limit_that_fails_is_exit_code_1(run: Run, bench: Path) -> None:
     (bench / "limits.toml").write_text(
         'schema = "forcetorque/acceptance/1"\nname = "bench"\n[workbench]\nfaults = 0\n', encoding="utf-8"
     )
-    outcome = run("workbench", "SIM001.toml", "--spec", "limits.toml", "--details")
+    outcome = run("bench", "workbench", "SIM001.toml", "--spec", "limits.toml", "--details")
     assert outcome.code == 1
     assert "workbench.faults" in outcome.out

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque contest`: sensors and methods through one motion, on loads that were not fitted."""
+"""`forcetorque bench contest`: sensors and methods through one motion, on loads that were not fitted."""
 
 from contextlib import nullcontext
 from typing import TYPE_CHECKING, Annotated
@@ -27,7 +27,7 @@ def contest(
 ) -> "Contest":
     """Rank sensors and calibration methods on the same loads.
 
-    Example: forcetorque contest contest.toml --figure contest.png
+    Example: forcetorque bench contest contest.toml --figure contest.png
 
     Python: `forcetorque.contest("contest.toml")`
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque device`: a calibration device by computation, with its URDF, motions and simulated recordings."""
+"""`forcetorque bench device`: a calibration device by computation, with its URDF, motions and simulated recordings."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -31,7 +31,7 @@ def design_device(
 ) -> "DeviceDesign":
     """Check a calibration device by computation, and simulate what it records.
 
-    Example: forcetorque device device.toml -o simulated
+    Example: forcetorque bench device device.toml -o simulated
 
     Python: `app.design_device("device.toml")`
 

@@ -150,7 +150,7 @@ def validate(
 ) -> "Validation":
     """Evaluate calibrations by contact force and joint torques without contact.
 
-    Example: forcetorque validate experiment.toml -c right_leg.json
+    Example: forcetorque study validate experiment.toml -c right_leg.json
 
     Python: `run.validate(calibration)`
 
@@ -190,7 +190,7 @@ def compare(
 ) -> None:
     """Compare the spheres of many sensors, mountings and trials.
 
-    Example: forcetorque compare first.toml second.toml third.toml
+    Example: forcetorque study compare first.toml second.toml third.toml
 
     Python: `evaluation.compare(["first.toml", "second.toml"])`
     """
@@ -263,7 +263,7 @@ def sphere(
 ) -> "Spheres":
     """Compare how the three axes weigh a limb that is carried around.
 
-    Example: forcetorque sphere experiment.toml --interval grid
+    Example: forcetorque study sphere experiment.toml --interval grid
 
     Python: `run.sphere(calibration)`
 

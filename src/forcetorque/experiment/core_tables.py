@@ -117,7 +117,7 @@ class Sensor(Table):
     reading_deviation: SixPositive | None = None
     """Standard deviation of what a reading is off all along, such as by its offset; N, N m; for `estimate --fuse`."""
     amplifier_gain: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
-    """Gain of the amplifier of each channel while it was recorded, for `forcetorque gains`."""
+    """Gain of the amplifier of each channel while it was recorded, for `forcetorque bench gains`."""
     allowed_gains: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
     """Gains that its amplifiers can be set to."""
     variable: tuple[Variable, ...] = ()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque balance`, `coherence`, `motion` and `torque-loop`."""
+"""`forcetorque robot balance`, `coherence`, `motion` and `torque-loop`."""
 
 from collections.abc import Collection, Sequence
 from pathlib import Path
@@ -68,7 +68,7 @@ def balance(
 ) -> None:
     """Say which feet bear the robot, and where.
 
-    Example: forcetorque balance standing.toml --touch 50N --release 20N
+    Example: forcetorque robot balance standing.toml --touch 50N --release 20N
 
     Python: `experiment.balance(calibration)`; of vertical forces alone
     `locomotion.balance([locomotion.load_foot_forces("walking.toml")])`
@@ -179,7 +179,7 @@ def coherence(
 ) -> "Coherence":
     """Compare the net contact force with the weight as contacts switch.
 
-    Example: forcetorque coherence switching.toml -c calibrations
+    Example: forcetorque robot coherence switching.toml -c calibrations
 
     Python: `experiment.coherence(calibration)`
 
@@ -233,7 +233,7 @@ def motion(
 ) -> "Motion":
     """Say whether a motion oscillates, how long it settles, how well it tracks.
 
-    Example: forcetorque motion walk.toml --column com.y --column zmp.y
+    Example: forcetorque robot motion walk.toml --column com.y --column zmp.y
 
     Python: `app.motion("swaying.toml", ["com_y"])`, of arrays `app.motion_of_arrays`
 
@@ -268,7 +268,7 @@ def torque_loop(
 ) -> "TorqueLoopStudy":
     """Balance a simulated biped by torques from sensors with errors.
 
-    Example: forcetorque torque-loop loop.toml --figure loop.png
+    Example: forcetorque robot torque-loop loop.toml --figure loop.png
 
     Python: `locomotion.torque_loop(progress=print)`, ten minutes
 

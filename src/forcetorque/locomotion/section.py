@@ -21,7 +21,7 @@ from forcetorque.robot.model import RobotModel
 
 
 class SoleTable(Table):
-    """A flat sole, for `forcetorque balance`."""
+    """A flat sole, for `forcetorque robot balance`."""
 
     frame: Text
     """Link of the URDF whose z points from the ground into the foot."""
@@ -96,8 +96,8 @@ SOLES: Section[tuple[SoleTable, ...], tuple[ExperimentSole, ...]] = Section(
     key="sole",
     type=tuple[SoleTable, ...],
     default=(),
-    description="Soles that the robot stands on, for `forcetorque balance`.",
+    description="Soles that the robot stands on, for `forcetorque robot balance`.",
     read=_read,
     empty=(),
-    without_sensors=("soles only", "`forcetorque balance` reads one of vertical forces alone"),
+    without_sensors=("soles only", "`forcetorque robot balance` reads one of vertical forces alone"),
 )

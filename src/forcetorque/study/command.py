@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque study`: every estimation type, lambda and combination of data sets, and the best of them."""
+"""`forcetorque study fits`: every estimation type, lambda and combination of data sets, and the best of them."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -51,7 +51,7 @@ def study(
 ) -> "Studies":
     """Fit every estimation type, lambda and data set, and choose.
 
-    Example: forcetorque study simulated/*.toml --sphere grid -o study
+    Example: forcetorque study fits simulated/*.toml --sphere grid -o study
 
     Python: `app.study("first.toml", "second.toml", folder="study")`
 

@@ -160,7 +160,7 @@ def _spheres(
             draft.notes.append(f"sensor {sensor.name!r}, {sphere.candidate}: no ellipsoid of forces: {reason}")
     labels = ", ".join(map(repr, analyses[0].intervals))
     draft.sources.append(
-        f"{sensor.name}: sphere of the weight and ellipsoids as by `forcetorque sphere` over {labels}{every}"
+        f"{sensor.name}: sphere of the weight and ellipsoids as by `forcetorque study sphere` over {labels}{every}"
     )
     return {sphere.candidate: sphere for sphere in analyses}
 

@@ -101,5 +101,5 @@ def _step(workbench: Workbench, row: BenchSensorRow) -> tuple[str, str]:
     if not row.fitted or any(not criterion.passed for criterion in workbench.criteria):
         return "", ""
     if workbench.file is None:
-        return "write the calibration", typed("workbench", row.file, "-o", f"{row.serial}.json")
+        return "write the calibration", typed("bench", "workbench", row.file, "-o", f"{row.serial}.json")
     return "export the matrix to the robot", typed("export", workbench.file, "--to", "csv", "-o", f"{row.serial}.csv")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque workbench`: known loads to a matrix, what to hang next, and what is wrong with the bench."""
+"""`forcetorque bench workbench`: known loads to a matrix, what to hang next, and what is wrong with the bench."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -39,7 +39,7 @@ def workbench(
 ) -> "Workbench":
     """Calibrate sensors with known loads, and find faults of the workbench.
 
-    Example: forcetorque workbench SN170.toml -o SN170.json
+    Example: forcetorque bench workbench SN170.toml -o SN170.json
 
     Python: `app.workbench("SN170.toml")`
 

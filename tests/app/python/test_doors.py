@@ -135,11 +135,11 @@ def test_a_sensor_is_accepted_by_limits(experiment: Experiment, arm: Path, tmp_p
 def test_head_room_and_spheres_are_asked_of_a_run(experiment: Experiment, arm: Path, tmp_path: Path) -> None:
     """As the commands say them."""
     run = experiment["arm_ft"]
-    assert run.gains(margin=0.3).json_text() == _said("gains", arm / PARQUET, "--margin", "0.3").strip()
+    assert run.gains(margin=0.3).json_text() == _said("bench", "gains", arm / PARQUET, "--margin", "0.3").strip()
     calibration = run.calibrate()
     calibration.save(tmp_path / "calibration")
     spheres = run.sphere({str(tmp_path / "calibration"): calibration})
-    command = json.loads(_said("sphere", arm / PARQUET, "-c", tmp_path / "calibration"))
+    command = json.loads(_said("study", "sphere", arm / PARQUET, "-c", tmp_path / "calibration"))
     rows = json.loads(spheres.json_text())["rows"]
     assert rows == command["rows"] != []
 
@@ -148,7 +148,7 @@ def test_ways_to_fit_are_studied_with_a_folder_or_without(arm: Path, tmp_path: P
     """Every candidate as the command has it, and its files; no file, and a type that there is not, are refused."""
     mine = study(arm / PARQUET, kinds=["OnTdTO"], lambdas=[1000.0, 0.0, 1000.0])
     words = ("--type", "OnTdTO", "--lambda", "0", "--lambda", "1000", "-o", tmp_path / "study")
-    command = json.loads(_said("study", arm / PARQUET, *words))
+    command = json.loads(_said("study", "fits", arm / PARQUET, *words))
     (sensor,), (twin,) = json.loads(mine.json_text())["sensors"], command["sensors"]
     assert sensor | {"folder": twin["folder"], "files": twin["files"]} == twin
     assert mine.folder is None

@@ -54,7 +54,17 @@ def inside(walked: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_folder_of_calibrations_stands_beside_the_prior(inside: Path, run: Run) -> None:
     """Smaller errors than the prior's on the day that was not fitted; a picture is drawn where it is asked."""
     outcome = run(
-        "coherence", DAY, "-c", "feet", "--offset", "one-link-imu:hanging", "--figure", "a.png", "--format", "json"
+        "robot",
+        "coherence",
+        DAY,
+        "-c",
+        "feet",
+        "--offset",
+        "one-link-imu:hanging",
+        "--figure",
+        "a.png",
+        "--format",
+        "json",
     )
     result = outcome.result()
     assert result["schema"] == "forcetorque/coherence/1"
@@ -74,7 +84,7 @@ def test_files_are_one_candidate_and_a_lone_one_says_what_it_lacks(inside: Path,
     candidates = read_candidates([*files, Path("feet")])
     assert list(candidates) == ["calibrations", "feet"]
     assert list(candidates["calibrations"]) == list(candidates["feet"]) == [str(file) for file in files]
-    one = run("coherence", DAY, "-c", files[0], "--details")
+    one = run("robot", "coherence", DAY, "-c", files[0], "--details")
     assert one.code == 0
     assert "has no calibration of r_foot_ft" in one.err
     # a matrix that errs by a sixth of the weight is judged, not refused
@@ -85,9 +95,9 @@ def test_files_are_one_candidate_and_a_lone_one_says_what_it_lacks(inside: Path,
 def test_what_cannot_be_is_one_line(inside: Path, run: Run) -> None:
     """A folder without calibrations, an offset that is no way, a picture that is none."""
     (inside / "empty").mkdir(exist_ok=True)
-    assert "holds none" in run("coherence", DAY, "-c", "empty").error()
-    assert "no way is called 'imu'" in run("coherence", DAY, "--offset", "imu:hanging").error()
-    assert "ends in .png" in run("coherence", DAY, "--figure", "a.jpg").error()
+    assert "holds none" in run("robot", "coherence", DAY, "-c", "empty").error()
+    assert "no way is called 'imu'" in run("robot", "coherence", DAY, "--offset", "imu:hanging").error()
+    assert "ends in .png" in run("robot", "coherence", DAY, "--figure", "a.jpg").error()
     assert "no interval is labelled 'left'" in run("estimate", DAY, "-o", "a.csv", "--offset", "tare:left").error()
 
 

@@ -91,7 +91,7 @@ def test_it_is_typed(
         return loop
 
     monkeypatch.setattr("forcetorque.locomotion.torque_control.study.study_torque_loop", answer)
-    typed = run("torque-loop", file, "--figure", tmp_path / "loop.png", "--format", "json")
+    typed = run("robot", "torque-loop", file, "--figure", tmp_path / "loop.png", "--format", "json")
     assert asked == [read_torque_loop(file)]
     assert len(typed.result()["rows"]) == len(loop.rows)
     assert (tmp_path / "loop.png").read_bytes().startswith(b"\x89PNG")

@@ -291,7 +291,7 @@ def test_gains_sees_what_a_saturated_board_held(scenario: Path, run: Run) -> Non
     seconds = (recording.stream("arm_ft").stamp_ns - start) * 1e-9
     held = [k for first, last in truth["saturated_samples"] for k in range(first, last + 1)]
     inside = sum(0.5 <= seconds[k] < 11.5 for k in held)
-    done = run("gains", "out/fit.toml", "--format", "json")
+    done = run("bench", "gains", "out/fit.toml", "--format", "json")
     (found,) = done.result()["sensors"]
     assert found["frozen"] == inside > 100
     assert any("WARNING" in line and str(inside) in line for line in done.log)

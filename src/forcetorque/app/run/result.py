@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from enum import IntEnum
 from pathlib import Path
 from typing import Annotated, Literal
@@ -99,25 +100,17 @@ class WholeRun(Result):
             yield Answer(
                 subject=self.experiment,
                 verdict=f"STOPPED AT {stage.name.upper()}",
-                why=(stage.text, *self._written()),
+                why=(stage.text,),
                 step=stage.remedy or "",
+                written=self.files,
                 concern=Concern.BAD,
             )
             return
+        folder = Path(self.files[0]).parent if self.files else None
+        names = [Path(file).name for file in self.files]
+        written = (f"{folder}: {', '.join(names)}",) if folder is not None else ()
         for answer in self.final:
-            yield Answer(
-                subject=answer.subject,
-                verdict=answer.verdict,
-                why=(*answer.why, *self._written()),
-                step=answer.step,
-                command=answer.command,
-                concern=answer.concern,
-            )
-
-    def _written(self) -> Iterator[str]:
-        if self.files:
-            folder, names = Path(self.files[0]).parent, [Path(file).name for file in self.files]
-            yield f"written to {folder}: {', '.join(names)}"
+            yield replace(answer, written=written)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the stages, and the details of each.

@@ -126,7 +126,7 @@ class Improvement(_Limits):
 
 
 class Validate(_Limits):
-    """Contact wrench where nothing touches, as `forcetorque validate` has it; at most."""
+    """Contact wrench where nothing touches, as `forcetorque study validate` has it; at most."""
 
     settings: ClassVar[frozenset[str]] = frozenset({"offset", "other_sensors"})
     offset: _ContactOffset = "first-second"
@@ -229,7 +229,7 @@ class Learnt(_Limits):
 
 
 class WorkbenchLimits(_Limits):
-    """Known loads on a workbench (`forcetorque workbench --spec`)."""
+    """Known loads on a workbench (`forcetorque bench workbench --spec`)."""
 
     held_out: PerAxis | None = None
     """Root mean square error of positions that are left out one by one; at most."""

@@ -233,7 +233,7 @@ def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Ite
         ExperimentError: If there are limits for a workbench.
     """
     if spec.workbench is not None:
-        raise ExperimentError("[workbench] cannot be evaluated on a robot; see forcetorque workbench --spec")
+        raise ExperimentError("[workbench] cannot be evaluated on a robot; see forcetorque bench workbench --spec")
     for table, criteria in _TABLES.items():
         stated = getattr(spec, "validate_" if table == "validate" else table)
         if not stated:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque response`: what a sensor with its mounting does to fast forces."""
+"""`forcetorque bench response`: what a sensor with its mounting does to fast forces."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def response(
 ) -> None:
     """Tell bandwidth and resonance of a sensor, and a filter that undoes them.
 
-    Example: forcetorque response taps.toml -e impact --force hammer
+    Example: forcetorque bench response taps.toml -e impact --force hammer
 
     Python: `run.response("impact", calibration)`
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque gains`: how far the channels are from saturation, and which amplifier gains would suit them."""
+"""`forcetorque bench gains`: how far the channels are from saturation, and which amplifier gains would suit them."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -57,7 +57,7 @@ def gains(
 ) -> "Gains":
     """Show the head-room of raw channels and which amplifier gains suit them.
 
-    Example: forcetorque gains experiment.toml --margin 0.2
+    Example: forcetorque bench gains experiment.toml --margin 0.2
 
     Python: `run.gains()`
 

@@ -39,7 +39,7 @@ def thermal_answers(sensors: Sequence[SensorThermal], figure: str | None) -> Ite
                 f"{row.highest_degC:.1f} degC",
             ),
             step="" if row.corrected else _STATE if stated else "record it heated and cooled several times",
-            command=typed("thermal", EXPERIMENT, "--details") if stated else "",
+            command=typed("bench", "thermal", EXPERIMENT, "--details") if stated else "",
             written=() if figure is None else (figure,),
             concern=Concern.NONE if row.told_from_time else Concern.UNCERTAIN,
         )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque thermal`: what temperature does to a sensor at constant load."""
+"""`forcetorque bench thermal`: what temperature does to a sensor at constant load."""
 
 from collections.abc import Collection
 from typing import TYPE_CHECKING, Annotated
@@ -36,7 +36,7 @@ def thermal(
 ) -> "Thermal":
     """Find how a reading drifts with temperature at a constant load.
 
-    Example: forcetorque thermal cycles.toml --figure drift.png
+    Example: forcetorque bench thermal cycles.toml --figure drift.png
 
     Python: `run.thermal(calibration)`
 
