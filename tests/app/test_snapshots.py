@@ -19,9 +19,9 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 
-from forcetorque.app.command_line import whole_program
+from forcetorque.app.command_line import commands, whole_program
 from forcetorque.results.answer import MOST_LINES
-from forcetorque.results.capability import all_named, named
+from forcetorque.results.capability import named
 from forcetorque.results.command import command_of
 from forcetorque.results.result import Result
 from forcetorque.results.terminal import output

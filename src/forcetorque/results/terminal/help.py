@@ -19,7 +19,7 @@ class WholeSentences(TyperGroup):
     """A group whose help cuts nothing off."""
 
     panels: ClassVar[Mapping[str, tuple[str, ...]] | None] = None
-    """Titles, and commands in their order; None for one panel of all."""
+    """Titles, and commands in their order, the last with all others; None for one panel of all."""
 
     def format_commands(self, ctx: Context, formatter: HelpFormatter) -> None:
         """Write a section for every panel.
@@ -28,7 +28,10 @@ class WholeSentences(TyperGroup):
             ctx: The context.
             formatter: What the help is written to.
         """
-        for title, names in (self.panels or {"Commands": tuple(self.list_commands(ctx))}).items():
+        panels = {title: list(names) for title, names in (self.panels or {"Commands": ()}).items()}
+        shown = {name for names in panels.values() for name in names}
+        panels[list(panels)[-1]] += [name for name in self.list_commands(ctx) if name not in shown]
+        for title, names in panels.items():
             known = {name: command for name in names if (command := self.get_command(ctx, name)) is not None}
             with formatter.section(title):
                 formatter.write_dl(
