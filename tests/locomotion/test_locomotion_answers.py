@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The answers of `torque-loop` and `coherence`: at which error the robot falls, and by how much the weight is missed."""
+"""The answers of `torque-loop` and `coherence`: at which error the robot falls, by how much the weight is missed."""
 
 from __future__ import annotations
 

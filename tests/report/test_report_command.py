@@ -108,11 +108,11 @@ def test_evaluate_and_validate_say_what_the_report_says(result: Any, run: Run) -
     sensor = _sensor(result)
     sentences = [line["text"] for line in sensor["verdict"] if "samples that were not fitted" in line["text"]]
     assert len(sentences) == 2
-    shown = " ".join(run("evaluate", PARQUET, "-c", "fitted.json").out.split())
+    shown = " ".join(run("evaluate", PARQUET, "-c", "fitted.json", "--details").out.split())
     assert all(sentence in shown for sentence in sentences)
     assert {row["judgement"] for row in sensor["comparisons"]} == {"better"}
     assert {best["judgement"] for best in sensor["best"]} == {"better"}
-    shown = " ".join(run("validate", PARQUET, "-c", "fitted.json").out.split())
+    shown = " ".join(run("validate", PARQUET, "-c", "fitted.json", "--details").out.split())
     lines = [line for line in _words("report.html") if "best is fitted.json" in line]
     assert len(lines) == 2
     assert all(line in shown for line in lines)

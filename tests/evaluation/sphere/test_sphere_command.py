@@ -99,7 +99,7 @@ def test_a_line_per_sensor_and_candidate_as_csv(arm: Path, run: Run) -> None:
 
 def test_the_table_has_both_columns_of_the_thesis(arm: Path, run: Run) -> None:
     """Errors of three axes and two indices per candidate, and a reason wherever something is not known."""
-    out = run("sphere", PARQUET, "-c", "fitted.json", "--interval", "judge").out
+    out = run("sphere", PARQUET, "-c", "fitted.json", "--interval", "judge", "--details").out
     lines = [line.split() for line in out.splitlines()]
     (prior,) = [line for line in lines if line[:3] == ["prior", "with", "model"] and line[-1] == "yes"]
     assert len(prior) == 3 + 3 + 3 + 1 + 1
@@ -127,7 +127,7 @@ def test_a_figure_is_written_where_it_is_asked(arm: Path, run: Run) -> None:
     assert result["figure"] == "spheres.png"
     assert (arm / "spheres.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
     assert snapshot(arm).keys() - before.keys() == {"spheres.png"}
-    assert "drawn to spheres.png" in run("sphere", PARQUET, "--figure", "spheres.png").out
+    assert "drawn to spheres.png" in run("sphere", PARQUET, "--figure", "spheres.png", "--details").out
 
 
 def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -182,7 +182,7 @@ def test_files_of_one_name_are_told_apart(arm: Path, run: Run) -> None:
     for folder in ("old", "new"):
         (arm / folder).mkdir()
         shutil.copy("fitted.json", arm / folder / "leg.json")
-    out = run("sphere", PARQUET, "-c", "old/leg.json", "-c", "new/leg.json", "--interval", "judge").out
+    out = run("sphere", PARQUET, "-c", "old/leg.json", "-c", "new/leg.json", "--interval", "judge", "--details").out
     assert out.count("old/leg.json") == out.count("new/leg.json") > 4
     assert out.count("leg.json") == 2 * out.count("old/leg.json")
 
@@ -210,7 +210,7 @@ def test_a_sensor_that_fails_is_named_and_does_not_take_the_others_with_it(arm: 
     assert failure["message"].startswith(f"{TWO}: sensor 'tool_ft', prior: force: expected N, got whole numbers")
     assert f"WARNING: failed: {failure['message']}" in ended.log
     assert (arm / "spheres.png").is_file()
-    shown, rows = run("sphere", TWO), run("sphere", TWO, "--format", "csv")
+    shown, rows = run("sphere", TWO, "--details"), run("sphere", TWO, "--format", "csv")
     assert (shown.code, rows.code) == (1, 1)
     assert f"FAILED: {failure['message']}" in " ".join(shown.out.split())
     assert [row["sensor"] for row in csv.DictReader(io.StringIO(rows.out))] == ["arm_ft"]

@@ -119,7 +119,7 @@ def test_ranks_are_of_intervals(compared: Run) -> None:
         overlapping = [other for other in ends if other[0] <= high and low <= other[1]]
         assert {other[3] for other in overlapping} == {candidate}
     assert sorted(rank for _, _, rank, _ in ends) == [1, 1, 3, 3]
-    out = compared("-c", "fitted.json").out
+    out = compared("-c", "fitted.json", "--details").out
     assert "what overlaps is in no order" in out
     for group in result["groups"]:
         free = group["without_reference"]
@@ -132,7 +132,7 @@ def test_ranks_are_of_intervals(compared: Run) -> None:
 
 def test_the_table_has_the_forms_of_the_thesis(compared: Run) -> None:
     """Errors and two indices for each trial; trials down, conditions across, and the mean apart from the pooled fit."""
-    ended = compared()
+    ended = compared("--details")
     assert ended.code == 0
     lines = [line.split() for line in ended.out.splitlines()]
     result = compared("--format", "json").result()
@@ -153,7 +153,7 @@ def test_a_condition_is_shown_as_it_was_written(trials: Path, run: Run) -> None:
     for name, condition in ((FIRST, "1/2 turn"), (LOOSE, "3/2 turn")):
         path = trials / name
         path.write_text(path.read_text(encoding="utf-8").split("[trial]")[0] + f'[trial]\ncondition = "{condition}"\n')
-    out = run("compare", FIRST, LOOSE).out
+    out = run("compare", FIRST, LOOSE, "--details").out
     every = out.split("every trial")[1].split("index with the model")[0]
     assert "1/2 turn" in every
     assert "3/2 turn" in every
@@ -164,7 +164,7 @@ def test_files_of_one_name_are_told_apart(trials: Path, run: Run) -> None:
     for folder in ("old", "new"):
         (trials / folder).mkdir()
         shutil.copy(trials / "fitted.json", trials / folder / "leg.json")
-    out = run("compare", FIRST, SECOND, "-c", "old/leg.json", "-c", "new/leg.json").out
+    out = run("compare", FIRST, SECOND, "-c", "old/leg.json", "-c", "new/leg.json", "--details").out
     assert out.count("old/leg.json") == out.count("new/leg.json") > 4
     assert out.count("leg.json") == 2 * out.count("old/leg.json")
 
@@ -192,7 +192,7 @@ def test_intervals_may_be_trials(arm: Path, run: Run) -> None:
     result = run("compare", PARQUET, "--trials", "intervals", "--format", "json").result()
     assert [(trial["trial"], trial["intervals"]) for trial in result["trials"]] == [(1, ["fit"]), (2, ["judge"])]
     assert _group(result, None)["trials"] == 2
-    out = run("compare", PARQUET, "--trials", "intervals").out
+    out = run("compare", PARQUET, "--trials", "intervals", "--details").out
     assert "no condition" in out
 
 
@@ -209,7 +209,7 @@ def test_a_bad_file_does_not_cost_the_table(trials: Path, run: Run) -> None:
     assert "nowhere" in failure["message"]
     assert any(line.startswith("WARNING: failed: second.toml: ") for line in ended.log)
     assert any(line == "INFO: reading loose.toml (3 of 3)" for line in ended.log)
-    shown = run(*words)
+    shown = run(*words, "--details")
     assert shown.code == 1
     assert f"FAILED: {failure['message']}" in " ".join(shown.out.split())
     rows = list(csv.DictReader(io.StringIO(run(*words, "--format", "csv").out)))
@@ -263,7 +263,7 @@ def test_a_figure_that_could_not_be_drawn_is_not_named(trials: Path, run: Run, m
     result = _ended_with_failures(run(*words, "--format", "json"))
     assert (result["figure"], len(result["trials"])) == (None, 2)
     assert [(failure["file"], failure["message"]) for failure in result["failures"]] == [("compare.png", "no room")]
-    assert "drawn to" not in run(*words).out
+    assert "drawn to" not in run(*words, "--details").out
 
 
 def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

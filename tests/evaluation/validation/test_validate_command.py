@@ -46,7 +46,7 @@ def test_the_best_candidate_is_named_in_every_form(arm: Path, run: Run) -> None:
     for line in flat:
         row = rows[line["candidate"], line["offset"]]
         np.testing.assert_allclose([float(line[c]) for c in AXES], row["mean_absolute"], rtol=1e-12)
-    shown = run("validate", PARQUET, "-c", "fitted.json")
+    shown = run("validate", PARQUET, "-c", "fitted.json", "--details")
     assert shown.code == 0
     assert "free sub-model arm_ft" in shown.out
     assert "best is fitted.json" in shown.out
@@ -74,7 +74,7 @@ def test_joint_torques_are_in_every_form(arm: Path, run: Run) -> None:
         assert {line["force_mean_N"], line[AXES[0]], line["logged_rmse"]} == {""}
         for key in ("samples", "rmse", "rmse_error", "mean", "mean_error", "largest"):
             assert float(line[key]) == row[key]
-    shown = run("validate", PARQUET, "-c", "fitted.json").out
+    shown = run("validate", PARQUET, "-c", "fitted.json", "--details").out
     assert "joint torques estimated from it, less those of the model" in shown
     for row in rows.values():
         assert f"{row['rmse']:.3f} ±{row['rmse_half_width_95']:.3f}" in shown
@@ -86,7 +86,7 @@ def test_it_is_said_where_no_torque_depends_on_the_sensor(arm: Path, run: Run) -
     assert {row["joint"] for row in beyond["joint_torques"]} == {"elbow", "wrist"}
     options = ("--sensor", "tool_ft", "--sub-model", "arm_ft", "--contact", "hand")
     assert run("validate", TWO, *options, "--format", "json").result()["joint_torques"] == []
-    assert "tool_ft: no joint torque is estimated from it" in run("validate", TWO, *options).out
+    assert "tool_ft: no joint torque is estimated from it" in run("validate", TWO, *options, "--details").out
 
 
 def test_without_calibrations_every_sensor_is_judged_by_its_prior(arm: Path, run: Run) -> None:
@@ -108,7 +108,7 @@ def test_wrong_words_are_refused_in_one_line(arm: Path, run: Run) -> None:
 
 def test_what_is_left_out_is_warned_of_and_every_row_counts_its_own_samples(arm: Path, run: Run) -> None:
     """A short interval, and one whose first second is a gap: the title gives no count where rows differ."""
-    assert "arm_ft; per axis" not in run("validate", PARQUET).out
+    assert "arm_ft; per axis" not in run("validate", PARQUET, "--details").out
     edit(arm / PARQUET, "end_s = 23.5", "end_s = 17.0")
     for label, start_s, end_s in (("rest", 17.0, 22.0), ("blink", 22.5, 23.0)):
         interval = f'label = "{label}"\nstart_s = {start_s}\nend_s = {end_s}\nuse = "validation"\nsupport = "base"'
@@ -125,7 +125,7 @@ def test_what_is_left_out_is_warned_of_and_every_row_counts_its_own_samples(arm:
         assert f"WARNING: left out: {line}" in done.log
     counts = {(row["candidate"], row["offset"]): row["samples"] for row in done.result()["contact_forces"]}
     assert len(set(counts.values())) == 2
-    shown = run("validate", PARQUET, "-c", "fitted.json").out
+    shown = run("validate", PARQUET, "-c", "fitted.json", "--details").out
     assert "free sub-model arm_ft; force: mean norm ± half its 95 % interval; per axis" in shown
     table = shown[: shown.index("joint torques")].partition("mean contact wrench")[0].splitlines()
     rows = [line.split() for line in table if line.startswith((" prior", " fitted.json"))]
@@ -135,14 +135,14 @@ def test_what_is_left_out_is_warned_of_and_every_row_counts_its_own_samples(arm:
 
 def test_it_is_said_where_no_offset_was_removed(arm: Path, run: Run) -> None:
     """By the prior alone, in a file without an interval to fit; a calibration carries the offset of its prior."""
-    assert "no offset removed" not in run("validate", PARQUET).out
+    assert "no offset removed" not in run("validate", PARQUET, "--details").out
     edit(arm / PARQUET, 'use = "calibration"', 'use = "ignore"')
-    alone = run("validate", PARQUET)
+    alone = run("validate", PARQUET, "--details")
     assert "arm_ft, prior, offset none: read by the prior matrix_SIM001.txt, no offset removed" in alone.out
     rows = run("validate", PARQUET, "--format", "json").result()
     for row in (*rows["contact_forces"], *rows["joint_torques"]):
         assert row["offset_source"].endswith("no offset removed") == (row["offset"] == "none")
-    assert "no offset removed" not in run("validate", PARQUET, "-c", "fitted.json").out
+    assert "no offset removed" not in run("validate", PARQUET, "-c", "fitted.json", "--details").out
 
 
 def test_accept_judges_the_prior_that_no_data_gave_an_offset(arm: Path, run: Run) -> None:
