@@ -62,8 +62,8 @@ def test_the_json_has_both_and_fits_the_schema(judged: Path, run: Run, command: 
 def test_people_see_a_line_per_recording(judged: Path, run: Run, command: str) -> None:
     """Below what they show together; not where there is one file."""
     several, one = (
-        run(*command.split(), *VALIDATION, *COMMANDS[command]),
-        run(*command.split(), VALIDATION[0], *COMMANDS[command]),
+        run(*command.split(), *VALIDATION, *COMMANDS[command], "--details"),
+        run(*command.split(), VALIDATION[0], *COMMANDS[command], "--details"),
     )
     assert (several.code, one.code) == (0, 0)
     assert "each recording by itself" in several.out

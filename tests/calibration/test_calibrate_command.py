@@ -69,11 +69,14 @@ def test_the_csv_holds_the_same_numbers(arm: Path, run: Run) -> None:
 
 
 def test_the_table_is_the_default(arm: Path, run: Run) -> None:
-    """Without --format people get the matrix per 1000 counts, what was learnt and the name of the file."""
-    made = run("calibrate", PARQUET, "-o", "made.json")
+    """Without --format people get the answer, and below it the matrix per 1000 counts, what was learnt and the file."""
+    made = run("calibrate", PARQUET, "-o", "made.json", "--details")
     assert made.code == 0
-    assert made.out == run("calibrate", PARQUET, "-o", "made.json", "--format", "table").out
-    first, *_, last = made.out.splitlines()
+    assert made.out == run("calibrate", PARQUET, "-o", "made.json", "--details", "--format", "table").out
+    answer, details = made.out.split("\n\n", maxsplit=1)
+    assert run("calibrate", PARQUET, "-o", "made.json").out == f"{answer}\ndetails: --details\n"
+    assert answer.endswith("\n  forcetorque evaluate parquet.toml -c made.json")
+    first, *_, last = details.splitlines()
     fitted = read_calibration("made.json")
     assert first.startswith(
         f"arm_ft (SIM001): {fitted.provenance.samples} samples of fit, 0 left out; generative model, "
@@ -84,15 +87,15 @@ def test_the_table_is_the_default(arm: Path, run: Run) -> None:
     shown = [float(word) for word in found[1].split()]
     assert np.abs(np.array(shown[:6]) - 1000.0 * fitted.matrix[2]).max() < 0.0005001  # half of the third digit
     assert "what the recordings taught" in made.out
-    assert run("calibrate", PARQUET, "-o", "other.json", "--type", "OnTdTO").out.count(" yes ") == 6
+    assert run("calibrate", PARQUET, "-o", "other.json", "--type", "OnTdTO", "--details").out.count(" yes ") == 6
 
 
 def test_brackets_in_names_are_shown(arm: Path, run: Run) -> None:
     """What the user called things is text, never markup."""
     edit(arm / PARQUET, 'label = "fit"', 'label = "run [bold] :smile: [/x]"')
     edit(arm / PARQUET, 'name = "small arm"', 'name = "[/red] arm"')
-    assert "samples of run [bold] :smile: [/x], 0 left" in run("calibrate", PARQUET, "-o", "a.json").out
-    assert run("evaluate", PARQUET, "-c", "a.json").out.startswith("[/red] arm: arm_ft (SIM001)")
+    assert "samples of run [bold] :smile: [/x], 0 left" in run("calibrate", PARQUET, "-o", "a.json", "--details").out
+    assert "\n\n[/red] arm: arm_ft (SIM001)" in run("evaluate", PARQUET, "-c", "a.json", "--details").out
 
 
 def test_a_folder_gets_one_file_per_sensor(arm: Path, run: Run) -> None:
@@ -264,7 +267,7 @@ def test_the_temperature_is_fitted_and_shown(warm: Path, run: Run) -> None:
     rows = run(*words, "csv").rows()
     assert [float(row["temperature_per_degC"]) for row in rows] == variable.coefficients.tolist()
     assert {float(row["temperature_reference_degC"]) for row in rows} == {variable.reference_value}
-    shown = run(*words, "table").out
+    shown = run(*words, "table", "--details").out
     assert "OwTrTO, lambda 0 counts2 (given)" in shown
     # the table is too wide for a pipe and lies on its side
     table = re.search(
@@ -362,7 +365,7 @@ def test_what_was_learnt_is_drawn_where_it_is_asked(arm: Path, run: Run) -> None
 
 def test_a_type_of_the_thesis_has_nothing_to_draw(arm: Path, run: Run) -> None:
     """The calibration is written all the same; the reason is one line, and the exit code says that one was given."""
-    ended = run("calibrate", PARQUET, "-o", "a.json", "--type", "OnTdTO", "--figure", "learnt.png")
+    ended = run("calibrate", PARQUET, "-o", "a.json", "--type", "OnTdTO", "--figure", "learnt.png", "--details")
     assert ended.code == 2
     assert "error: --figure learnt.png: expected a generative fit towards a prior" in ended.err
     assert Path("a.json").exists()

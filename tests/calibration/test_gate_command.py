@@ -96,7 +96,7 @@ def test_a_wrong_model_is_refused(arm: Path, run: Run, name: str, regularisation
 @pytest.mark.usefixtures("blank_pictures")
 def test_the_intact_experiment_raises_no_doubt(arm: Path, run: Run) -> None:
     """The negative control of all the others: no warning, and a verdict "good"."""
-    made = run("calibrate", PARQUET, "-o", "made.json")
+    made = run("calibrate", PARQUET, "-o", "made.json", "--details")
     assert (made.code, [line for line in made.log if line.startswith("WARNING")]) == (0, [])
     assert read_calibration(arm / "made.json").doubts == ()
     assert "good" in {tone for tone, _ in _verdict(run)}
@@ -114,7 +114,7 @@ def test_a_doubtful_model_is_said_and_never_called_good(arm: Path, run: Run, nam
     """A warning of `calibrate`, the doubt in the file, and no verdict "good" of `report` on the same recording."""
     damage, words = DOUBTED[name]
     damage(arm)
-    made = run("calibrate", PARQUET, "-o", "made.json")
+    made = run("calibrate", PARQUET, "-o", "made.json", "--details")
     (doubt,) = read_calibration(arm / "made.json").doubts
     assert (made.code, f"WARNING: arm_ft: {doubt}" in made.log, doubt.startswith(words)) == (0, True, True)
     lines = _verdict(run)

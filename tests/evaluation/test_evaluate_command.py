@@ -104,12 +104,14 @@ def test_the_csv_holds_the_same_numbers(arm: Path, run: Run) -> None:
 
 
 def test_the_table_is_the_default(arm: Path, run: Run) -> None:
-    """Without --format people get one line per verdict, with three digits of each RMSE."""
+    """Without --format people get the verdict first, and in the details a line per candidate with digits of each RMSE."""
     verdicts = run("evaluate", PARQUET, "-c", "fitted.json", "--format", "json").result()["verdicts"]
-    shown = run("evaluate", PARQUET, "-c", "fitted.json")
+    shown = run("evaluate", PARQUET, "-c", "fitted.json", "--details")
     assert shown.code == 0
     assert shown.err.splitlines() == shown.log
-    lines = shown.out.splitlines()
+    answer, details = shown.out.split("\n\n", maxsplit=1)
+    assert answer.splitlines()[0].split() == ["arm_ft", "(SIM001),", "fitted.json", "NOT", "ENOUGH", "DATA"]
+    lines = details.splitlines()
     assert lines[0].rstrip() == f"small arm: arm_ft (SIM001), {verdicts[0]['samples']} samples that were not fitted"
     errors = lines[: lines.index("mean error, by its own offset")]
     rows = [line.split() for line in errors if line.startswith((" prior", " fitted.json"))]
@@ -130,7 +132,7 @@ def test_several_calibrations_are_compared(arm: Path, run: Run) -> None:
         ("tool_ft", "prior"),
         ("tool_ft", tool),
     ]
-    shown = " ".join(run("evaluate", TWO, "-c", "fitted.json", "-c", tool, "-c", ours).out.split())
+    shown = " ".join(run("evaluate", TWO, "-c", "fitted.json", "-c", tool, "-c", ours, "--details").out.split())
     assert f"arm_ft: {Path(ours).name} with its own offset, " in shown
     assert f"tool_ft: {Path(tool).name} with its own offset, " in shown
 
@@ -140,19 +142,19 @@ def test_the_table_tells_files_of_one_name_apart(arm: Path, run: Run) -> None:
     folder = Path("a b")
     folder.mkdir()
     assert run("calibrate", PARQUET, "-o", folder / "new.json", "--lambda", "5").code == 0
-    short = run("evaluate", PARQUET, "-c", "fitted.json", "-c", folder / "new.json").out
+    short = run("evaluate", PARQUET, "-c", "fitted.json", "-c", folder / "new.json", "--details").out
     assert " prior of fitted.json " in short
     assert "\n new.json " in short
     assert "a b" not in short
     shutil.copyfile("fitted.json", folder / "fitted.json")
-    long = run("evaluate", PARQUET, "-c", "fitted.json", "-c", folder / "fitted.json").out
+    long = run("evaluate", PARQUET, "-c", "fitted.json", "-c", folder / "fitted.json", "--details").out
     assert "\n fitted.json " in long
     assert "\n a b/fitted.json " in long
 
 
 def test_findings_of_the_log_are_warnings(arm: Path, run: Run) -> None:
     """A verdict on a log with findings says so."""
-    judged = run("evaluate", YARP, "-c", "fitted.json")
+    judged = run("evaluate", YARP, "-c", "fitted.json", "--details")
     assert [line.partition(":")[0] for line in judged.log] == ["INFO", "WARNING", "WARNING", "INFO", "WARNING"]
     assert "readings lie outside what was fitted" in judged.log[-1]
     assert judged.err.splitlines() == judged.log
@@ -280,10 +282,10 @@ def test_temperatures_that_were_not_fitted_are_named(warm: Path, run: Run) -> No
     content = json.loads(Path("warm.json").read_text(encoding="utf-8"))
     content["variables"][0] |= {"minimum": 25.0, "maximum": 40.0}
     Path("warm.json").write_text(json.dumps(content), encoding="utf-8")
-    assert not [line for line in run("evaluate", PARQUET, "-c", "warm.json").log if "fitted were" in line]
+    assert not [line for line in run("evaluate", PARQUET, "-c", "warm.json", "--details").log if "fitted were" in line]
     content["variables"][0] |= {"minimum": 10.0, "maximum": 20.0}
     Path("warm.json").write_text(json.dumps(content), encoding="utf-8")
-    (line,) = [line for line in run("evaluate", PARQUET, "-c", "warm.json").log if "fitted were" in line]
+    (line,) = [line for line in run("evaluate", PARQUET, "-c", "warm.json", "--details").log if "fitted were" in line]
     assert line.startswith("WARNING: warm.json: temperature is ")
     assert line.endswith("degC, fitted were 10 to 20")
 
@@ -291,10 +293,10 @@ def test_temperatures_that_were_not_fitted_are_named(warm: Path, run: Run) -> No
 def test_a_verdict_where_the_choice_was_made_is_said_to_flatter(arm: Path, run: Run) -> None:
     """A calibration that was chosen on the judged interval is judged, with a warning that names the interval."""
     content = json.loads(Path("fitted.json").read_text(encoding="utf-8"))
-    assert not [line for line in run("evaluate", PARQUET, "-c", "fitted.json").log if "flatters" in line]
+    assert not [line for line in run("evaluate", PARQUET, "-c", "fitted.json", "--details").log if "flatters" in line]
     judged = load_experiment(PARQUET).intervals(Use.VALIDATION)[0]
     span = {"label": "there", "start_ns": judged.end_ns - 1, "end_ns": judged.end_ns + 5}
     content["selection"]["chosen_on"] = [span]
     Path("fitted.json").write_text(json.dumps(content), encoding="utf-8")
-    (line,) = [line for line in run("evaluate", PARQUET, "-c", "fitted.json").log if "flatters" in line]
+    (line,) = [line for line in run("evaluate", PARQUET, "-c", "fitted.json", "--details").log if "flatters" in line]
     assert line == "WARNING: fitted.json was chosen among others on 'judge' too, so the verdict on it flatters"

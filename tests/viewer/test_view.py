@@ -26,14 +26,15 @@ VIEW = View(
 
 def test_a_view_says_what_is_shown_and_where() -> None:
     """A sentence for the experiment and one for every place; a line of CSV has what is single."""
-    assert VIEW.text(60).splitlines() == [
+    assert VIEW.details(60).splitlines() == [
         "arm: 1200 samples of a_ft, b_ft",
         "page of 1.5 MB written to view.html",
     ]
     assert "<p>page of 1.5 MB written to view.html</p>" in VIEW._repr_html_()
     assert len(repr(VIEW)) < 600
     served = VIEW.model_copy(update={"file": None, "url": "http://127.0.0.1/x/"})
-    assert served.text(60).splitlines()[1:] == ["open http://127.0.0.1/x/"]
+    assert served.details(60).splitlines()[1:] == ["open http://127.0.0.1/x/"]
+    assert [answer.step for answer in served.answers()] == ["open http://127.0.0.1/x/"]
     (record,) = VIEW.records()
     assert list(record) == ["experiment", "samples", "url", "file", "file_bytes", "video", "video_frames"]
 

@@ -146,7 +146,7 @@ def test_full_scales_can_be_kept(run: Run, leg: Path, tmp_path: Path) -> None:
     assert file.full_scale == (1587, 1823, 2113, 37, 38, 24)
     assert _half_lsb_excess(list(file.full_scale), file.matrix) <= 0.0
     before = output.read_bytes()
-    refused = run(leg, "--to", "icub-matrix", "-o", output, "--full-scale", "1", *given[1:], "--force")
+    refused = run(leg, "--to", "icub-matrix", "-o", output, "--full-scale", "1", *given[1:], "--force", "--details")
     assert refused.code == 2
     assert "leg.json: matrix[0, " in refused.err
     assert "smallest full scale that holds it is" in refused.err
@@ -156,7 +156,7 @@ def test_full_scales_can_be_kept(run: Run, leg: Path, tmp_path: Path) -> None:
 def test_a_matrix_file_named_after_another_sensor_is_refused(run: Run, leg: Path, tmp_path: Path) -> None:
     """matrix_SN002.txt is the factory's name for the file of sensor SN002, not SN001."""
     output = tmp_path / "matrix_SN002.txt"
-    done = run(leg, "--to", "icub-matrix", "-o", output)
+    done = run(leg, "--to", "icub-matrix", "-o", output, "--details")
     assert done.code == 2
     assert "'SN001'" in done.err
     assert "'SN002'" in done.err
@@ -192,7 +192,7 @@ def test_the_robots_name_of_a_sensor_can_be_given(run: Run, leg: Path, tmp_path:
     arguments = (leg, "--to", "wholebodydynamics", "-o", output, "--format", "json")
     assert run(*arguments, "--sensor-name", "l_leg_ft").result()["calibrations"][0]["sensor"] == "l_leg_ft"
     assert [correction.sensor for correction in read_groups(output)] == ["l_leg_ft"]
-    refused = run(*arguments, "--sensor-name", "l leg")
+    refused = run(*arguments, "--sensor-name", "l leg", "--details")
     assert refused.code == 2
     assert "leg.json: sensor: expected a name that YARP reads as one word" in refused.err
 
@@ -200,7 +200,7 @@ def test_the_robots_name_of_a_sensor_can_be_given(run: Run, leg: Path, tmp_path:
 def test_an_offset_of_six_zeros_is_warned_of(run: Run, tmp_path: Path) -> None:
     """The device would not set its offset to zero but keep its own."""
     zero = _written(tmp_path / "zero.json", make_calibration(offset=np.zeros(6)))
-    done = run(zero, "--to", "wholebodydynamics", "-o", tmp_path / "ft.xml")
+    done = run(zero, "--to", "wholebodydynamics", "-o", tmp_path / "ft.xml", "--details")
     assert "WARNING" in done.err
     assert "ignores an FT_OFFSET of six zeros" in done.err
 
@@ -295,8 +295,8 @@ def test_coefficients_that_a_matrix_file_cannot_hold_are_announced(
     assert f"warm.json: {warning}" in done.err
     (entry,) = done.result()["calibrations"]
     assert (entry["variables"], entry["variables_stored"]) == ({"temperature": COEFFICIENTS.tolist()}, False)
-    assert warning not in run(leg, "--to", "icub-matrix", "-o", output).err
-    assert warning not in run(warm, "--to", "csv", "-o", tmp_path / "table.csv").err
+    assert warning not in run(leg, "--to", "icub-matrix", "-o", output, "--details").err
+    assert warning not in run(warm, "--to", "csv", "-o", tmp_path / "table.csv", "--details").err
 
 
 @pytest.mark.parametrize(
@@ -322,7 +322,9 @@ def test_the_result_has_three_forms(
     assert ("full_scale" in rows[0]) is (to == "icub-matrix")
     coefficients = [float(row["temperature_coefficient"]) for row in rows] if name == "warm" else None
     assert coefficients == entry["variables"].get("temperature")
-    table = " ".join(run(leg, "--to", to, "-o", output, *again).out.split())  # sentences are broken at spaces
+    table = " ".join(
+        run(leg, "--to", to, "-o", output, *again, "--details").out.split()
+    )  # sentences are broken at spaces
     assert f"written to {output}" in table
     assert f"offset: {result['offset_handling']}" in table
     assert "leg_ft (SN001)" in table

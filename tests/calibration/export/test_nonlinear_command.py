@@ -116,5 +116,5 @@ def test_judging_says_where_loads_are_beyond_the_fitted_ones(arm: Path, run: Run
         )
         write_calibration(f"{name}.json", fitted.model_copy(update={"quadratic": quadratic}))
     words = "narrow.json: 100 % of the readings are of loads beyond those that its quadratic terms were fitted to"
-    assert words in run("evaluate", PARQUET, "-c", "narrow.json").err
-    assert "beyond" not in run("evaluate", PARQUET, "-c", "wide.json").err
+    assert words in run("evaluate", PARQUET, "-c", "narrow.json", "--details").err
+    assert "beyond" not in run("evaluate", PARQUET, "-c", "wide.json", "--details").err

@@ -58,7 +58,7 @@ def test_the_shared_file_is_no_calibration(arm: Path, run: Run) -> None:
 
 def test_the_table_says_what_is_left_and_what_was_found(arm: Path, run: Run) -> None:
     """Predicted errors, equations, and errors of the model; a figure of the equations where one is asked for."""
-    text = run("calibrate", PARQUET, "--jointly", "-o", "joint", "--figure", "joint.png").out
+    text = run("calibrate", PARQUET, "--jointly", "-o", "joint", "--figure", "joint.png", "--details").out
     assert "predicted error at the mean load of these recordings" in text
     assert "what is left of the equation of every part" in text
     assert Path("joint.png").read_bytes()[:4] == b"\x89PNG"

@@ -85,7 +85,7 @@ def test_one_failing_criterion_of_many_is_enough(arm: Path, run: Run) -> None:
     words = ("accept", PARQUET, "--spec", _write(), "-c", "fitted.json")
     assert run(*words).code == 0
     edit(arm / "limits.toml", "condition = 5.0", "condition = 1.01")
-    shown = run(*words)
+    shown = run(*words, "--details")
     assert shown.code == 1
     lines = [line.split() for line in shown.out.splitlines()]
     verdicts = {line[0]: line for line in lines if line and line[0].partition(".")[0] in tomllib.loads(LIMITS)}
@@ -177,15 +177,17 @@ def test_what_cannot_be_judged_is_one_line_with_the_file(arm: Path, run: Run) ->
 def test_a_choice_on_the_judged_interval_is_a_warning_on_standard_error(arm: Path, run: Run) -> None:
     """Once, and only where errors on that interval are judged."""
     words = ("accept", PARQUET, "-c", "fitted.json", "--spec")
-    assert not [line for line in run(*words, _write()).log if "flatters" in line]
+    assert not [line for line in run(*words, _write(), "--details").log if "flatters" in line]
     content = json.loads((arm / "fitted.json").read_text(encoding="utf-8"))
     (judged,) = load_experiment(arm / PARQUET).intervals(Use.VALIDATION)
     span = {"label": "day", "start_ns": judged.start_ns, "end_ns": judged.end_ns}
     content["selection"]["chosen_on"] = [span]
     (arm / "fitted.json").write_text(json.dumps(content), encoding="utf-8")
-    (line,) = [line for line in run(*words, _write()).log if "flatters" in line]
+    (line,) = [line for line in run(*words, _write(), "--details").log if "flatters" in line]
     assert line == "WARNING: fitted.json was chosen among others on 'judge' too, so the verdict on it flatters"
-    assert not [line for line in run(*words, _write("[matrix]\ncondition = 5.0\n")).log if "flatters" in line]
+    assert not [
+        line for line in run(*words, _write("[matrix]\ncondition = 5.0\n"), "--details").log if "flatters" in line
+    ]
 
 
 def test_files_fit_the_printed_schema(run: Run) -> None:

@@ -108,7 +108,7 @@ def test_estimate_takes_offsets_and_says_where_there_is_none(inside: Path, run: 
     assert all(words.endswith("offset one-link-imu:hanging") for words in taken["readings"].values())
     assert "no offset removed" not in outcome.err
     # a file of validation intervals alone gives the prior no offset
-    left = run("estimate", DAY, "-o", "a.csv").err
+    left = run("estimate", DAY, "-o", "a.csv", "--details").err
     assert all(f"{name}: no offset removed" in left for name in FEET)
     forces = {row["interval"]: row["force_mean_N"] for row in taken["contacts"] if row["contact"] == row["interval"]}
     assert set(forces) == {"l_sole", "r_sole"}

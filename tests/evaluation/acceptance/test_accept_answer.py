@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The answer of `accept`: the verdict, and the criterion that is farthest from its limit."""
+
+from __future__ import annotations
+
+import pytest
+
+from forcetorque.evaluation.acceptance.acceptance import Acceptance
+from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
+from forcetorque.results.answer import EXPERIMENT, Concern
+
+
+def _criterion(name: str, measured: float, limit: float, bound: Bound = Bound.AT_MOST, **given: str) -> Criterion:
+    return Criterion(
+        sensor=given.get("sensor", "leg"),
+        serial="SN1",
+        candidate=given.get("candidate", "old/leg.json"),
+        criterion=name,
+        measured=measured,
+        bound=bound,
+        limit=limit,
+        unit=given.get("unit", "N"),
+        count=10,
+        note=given.get("note", ""),
+    )
+
+
+def _accepted(*criteria: Criterion) -> Acceptance:
+    return Acceptance(experiment="walk", specification="feet", criteria=criteria, measured=())
+
+
+GOOD = _criterion("evaluate.force_error_mean_N", 0.9, 1.0)
+DIRECTIONS = _criterion("excitation.directions", 3.0, 6.0, Bound.AT_LEAST, unit="")
+
+
+def test_an_accepted_sensor_is_exported() -> None:
+    """The reason is the criterion that is nearest to its limit."""
+    (answer,) = _accepted(_criterion("matrix.condition", 2.0, 9.0, unit=""), GOOD).answers()
+    assert (answer.subject, answer.verdict) == ("leg (SN1), leg.json, by 'feet'", "ACCEPTED")
+    assert answer.why == (
+        "2 of 2 criteria hold; nearest to its limit: evaluate.force_error_mean_N 0.9 N, at most 1 N allowed",
+    )
+    assert answer.command == "export old/leg.json --to csv -o leg.csv"
+    assert answer.concern is Concern.NONE
+
+
+def test_the_worst_criterion_is_the_reason_of_a_rejection() -> None:
+    """In multiples of the limit, on either side of it; the others are named."""
+    small = _criterion("evaluate.rmse.fz", 0.6, 0.5)
+    (answer,) = _accepted(GOOD, small, DIRECTIONS).answers()
+    assert (answer.verdict, answer.concern) == ("REJECTED", Concern.BAD)
+    assert answer.why == (
+        "2 of 3 criteria fail; farthest from its limit: excitation.directions 3, at least 6 allowed",
+        "also failed: evaluate.rmse.fz",
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "candidate", "command"),
+    [
+        ("recording.lost_share", "leg.json", f"inspect {EXPERIMENT}"),
+        ("excitation.condition", "leg.json", f"plan {EXPERIMENT} -c leg.json"),
+        ("evaluate.rmse.fz", "leg.json", f"evaluate {EXPERIMENT} -c leg.json --details"),
+        ("evaluate.rmse.fz", "prior", f"calibrate {EXPERIMENT} --sensor leg -o leg.json"),
+    ],
+)
+def test_the_next_command_is_by_the_table_that_failed(name: str, candidate: str, command: str) -> None:
+    """A recording is inspected, information is planned, errors are evaluated, and a prior is calibrated."""
+    (answer,) = _accepted(_criterion(name, 2.0, 1.0, candidate=candidate)).answers()
+    assert answer.command == command
+
+
+def test_every_sensor_has_its_answer() -> None:
+    """Sensors of one file."""
+    answers = _accepted(GOOD, _criterion("matrix.condition", 2.0, 1.0, sensor="arm")).answers()
+    assert [answer.verdict for answer in answers] == ["ACCEPTED", "REJECTED"]

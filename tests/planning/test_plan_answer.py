@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The answer of a plan: what to record and what it brings, or that nothing helps, in the first line."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.planning.planning import Plan
+from forcetorque.planning.result import PlannedRecording, helps
+from forcetorque.results.answer import Concern
+
+
+def _recording(number: int, force_after: float, moment_after: float, **allowed: float) -> PlannedRecording:
+    return PlannedRecording(
+        recording=number,
+        support="base",
+        tool="none",
+        temperature_start_degC=None,
+        temperature_end_degC=None,
+        postures=5,
+        seconds=20.0,
+        force_before_N=4.0,
+        force_before_at_most_N=6.0,
+        force_after_N=force_after,
+        force_after_at_most_N=1.5 * force_after,
+        force_allowed_N=allowed.get("force", 1.0),
+        moment_before_Nm=0.2,
+        moment_before_at_most_Nm=0.3,
+        moment_after_Nm=moment_after,
+        moment_after_at_most_Nm=1.5 * moment_after,
+        moment_allowed_Nm=allowed.get("moment", 0.1),
+        within_allowed=0.5,
+    )
+
+
+def _plan(*recordings: PlannedRecording, folder: str | None = None) -> Plan:
+    return Plan(
+        sensor="arm_ft",
+        serial="SIM001",
+        load_case="push",
+        loads="pushes",
+        start="prior",
+        advice="nothing within these limits helps",
+        recordings=recordings,
+        postures=(),
+        limits=(),
+        folder=folder,
+    )
+
+
+def test_errors_before_and_after_are_the_reason() -> None:
+    """With the bound of what they fall to, and what all recordings come to."""
+    (answer,) = _plan(_recording(1, 2.0, 0.1), _recording(2, 1.0, 0.05), folder="next").answers()
+    assert (answer.subject, answer.verdict) == ("arm_ft (SIM001), push", "RECORD 5 POSTURES IN 20 s")
+    assert answer.why == (
+        "predicted force error falls from 4 N to 2 N (95 %: 3 N), moment error from 0.2 N m to 0.1 N m "
+        "(95 %: 0.15 N m); held at base, tool: none",
+        "after all 2 recordings: 1 N (95 %: 1.5 N), 0.05 N m (95 %: 0.075 N m)",
+    )
+    assert answer.written == ("next",)
+
+
+def test_that_nothing_helps_is_the_verdict() -> None:
+    """No step follows."""
+    plan = _plan(_recording(1, 3.999, 0.1999))
+    (answer,) = plan.answers()
+    assert (answer.verdict, answer.concern) == ("NOTHING HELPS", Concern.BAD)
+    assert (answer.why, answer.step, answer.command) == ((plan.advice,), "", "")
+
+
+@pytest.mark.parametrize(("limits", "expected"), [({}, True), ({"moment": np.inf}, False)])
+def test_what_is_not_limited_does_not_help(limits: dict[str, float], expected: bool) -> None:
+    """A moment error that falls, where only the force is limited."""
+    assert helps(_recording(1, 3.999, 0.1, **limits)) == expected
