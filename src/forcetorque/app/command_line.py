@@ -36,11 +36,11 @@ PANELS: Final[Mapping[str, tuple[str, ...]]] = {
 """Commands and groups in the order of work, as the help shows them."""
 GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
     "bench": (
-        "Known loads, temperature, frequency response, gains and offset of sensors, on a bench.",
+        "Measure sensors on a bench: loads, temperature, fast forces, gains.",
         {name: name for name in ("workbench", "thermal", "response", "gains", "device", "contest")},
     ),
     "robot": (
-        "Feet, net force, motion and torque loops of a robot.",
+        "Examine a whole robot: feet, net force, motion, torque loops.",
         {name: name for name in ("balance", "coherence", "motion", "torque-loop")},
     ),
     "study": (

@@ -56,7 +56,7 @@ def demo(
 ) -> None:
     """Calibrate a simulated sensor whose true matrix is known, and compare.
 
-    Example: forcetorque demo
+    Example: forcetorque demo build/demo
 
     Python: `forcetorque.run("demo/experiment.toml", "results")` on its files
     """

@@ -4,14 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, SensorError, SerialNumberError, ShapeError
-from forcetorque.contests.answers import contest_answer
 from forcetorque.contests.entries import Entries
 from forcetorque.contests.methods import Phases, Reader, contestant_reader, contestant_trials
 from forcetorque.contests.pairwise_comparison import (
@@ -22,7 +21,6 @@ from forcetorque.contests.pairwise_comparison import (
     rms_intervals,
 )
 from forcetorque.contests.phases import Trial, by_load, changes, common_phases, repeatability, require_same_motion
-from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
 
@@ -232,6 +230,8 @@ _RATES = (
 class Contest(Result):
     """Who errs less than whom."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.contests.answers:contest_answer"
+
     schema_name: Literal["forcetorque/contest/1"] = Field(default="forcetorque/contest/1", alias="schema")
     """Form of the result."""
     contest: str
@@ -254,14 +254,6 @@ class Contest(Result):
     """Every contestant against every other."""
     left_out: tuple[LeftOutRow, ...]
     """Those that lack what their method needs."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say who errs least, and by how much.
-
-        Yields:
-            One answer.
-        """
-        yield contest_answer(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give ranks, scores, errors by load and pairs.

@@ -5,20 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.device.answers import device_answer
 from forcetorque.device.demands import DeviceDemands, device_demands
 from forcetorque.device.description import AttachedLoad, Device, device_load
 from forcetorque.device.device_file import DeviceFile
 from forcetorque.device.expected_wrench import DeviceResponse, device_response
 from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.span import DeviceSpan, device_span
-from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.robot.motion import JointMotion
@@ -132,6 +130,8 @@ class DevicePicture:
 class DeviceDesign(Result):
     """A calibration device, checked by computation."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.device.answers:device_answer"
+
     schema_name: Literal["forcetorque/device/1"] = Field(default="forcetorque/device/1", alias="schema")
     """Form of the result."""
     device: str
@@ -158,14 +158,6 @@ class DeviceDesign(Result):
     """Motions by name: those of `motions`, then those of `span`."""
     picture: DevicePicture = Field(exclude=True, repr=False)
     """Content of the figures."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say which requirements the device meets.
-
-        Yields:
-            One answer.
-        """
-        yield device_answer(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.

@@ -11,7 +11,6 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import joined_times
-from forcetorque.evaluation.answers import evaluation_answers
 from forcetorque.evaluation.load_cases.validation_evidence import (
     PriorComparison,
     fewest_independent,
@@ -39,7 +38,6 @@ from forcetorque.experiment.validity import (
 )
 from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
-from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import (
@@ -169,6 +167,8 @@ class RecordingErrors(CandidateErrors):
 class Evaluation(Result):
     """Errors of calibrations, and of the priors that they came from, on data that was not fitted."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.evaluation.answers:evaluation_answers"
+
     of_several: ClassVar[tuple[str, ...]] = ("recordings",)
 
     interval_uses = ()
@@ -189,14 +189,6 @@ class Evaluation(Result):
     """One per calibration: how far the validation samples lie outside what it was fitted on."""
     uses: tuple[UseVerdict, ...] = ()
     """One per calibration and load case: whether it may be used."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say whether each calibration may be used, and at what error.
-
-        Yields:
-            One per calibration; of a sensor without one, of its prior.
-        """
-        yield from evaluation_answers(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor, one of its recordings where there are several, and what calibrations are worth.

@@ -59,7 +59,7 @@ def inspect(
         Option("Calibration that reads its sensor. Default: the prior, or as logged.", "--calibration", "-c"),
     ] = None,
 ) -> "Inspection":
-    """Find what is wrong with a log, its experiment file and the URDF, and the line to change.
+    """Find faults of a log, its experiment file and the URDF.
 
     Example: forcetorque inspect experiment.toml
 

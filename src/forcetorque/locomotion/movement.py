@@ -6,14 +6,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, RecordingError
 from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.locomotion.answers import motion_answers
 from forcetorque.locomotion.logged_signals import MotionSignal
 from forcetorque.locomotion.oscillation.oscillation import OscillationSearch, find_oscillations
 from forcetorque.locomotion.oscillation.settling import (
@@ -24,7 +23,6 @@ from forcetorque.locomotion.oscillation.settling import (
     tracking_error,
 )
 from forcetorque.locomotion.oscillation.spectrum import ResampledSignal, resampled
-from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, Values, table_of
 
@@ -96,6 +94,8 @@ adds to it."""
 class Motion(Result):
     """What columns of a motion do."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.locomotion.answers:motion_answers"
+
     schema_name: Literal["forcetorque/motion/1"] = Field(default="forcetorque/motion/1", alias="schema")
     """Form of the result."""
     oscillations: tuple[OscillationRow, ...]
@@ -110,14 +110,6 @@ class Motion(Result):
     """File of the figure."""
     curves: tuple[MotionCurve, ...] = Field(default=(), exclude=True, repr=False)
     """Columns with their oscillations, for the figure."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say of every interval and column whether it oscillates.
-
-        Yields:
-            One per interval and column.
-        """
-        yield from motion_answers(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give tables of oscillations, settling times and tracking errors.

@@ -11,7 +11,6 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 from pydantic import Field
 
-from forcetorque.payload.answers import payload_answers
 from forcetorque.payload.identification.load_estimates import (
     BiasRow,
     BiasTestRow,
@@ -24,7 +23,6 @@ from forcetorque.payload.identification.load_estimates import (
     three,
 )
 from forcetorque.payload.identification.parameter_vector import SECOND_MOMENTS, SIX_PLACES, six_of
-from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import finite_or_none, with_error
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, WrenchValues, table_of
@@ -284,6 +282,8 @@ def _masses(masses: Sequence[float | None]) -> str:
 class WeighedLoad(Result):
     """What hangs on a wrist sensor or on a robot, and the sensor's biases."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.payload.answers:payload_answers"
+
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "disagreements")
     interval_uses = ()
 
@@ -331,14 +331,6 @@ class WeighedLoad(Result):
     """What each of several recordings says by itself."""
     disagreements: tuple[str, ...] = ()
     """Where they differ by more than their intervals, in sentences."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say what every load weighs, and where its centre of mass is.
-
-        Yields:
-            One per load.
-        """
-        yield from payload_answers(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the loads, then biases, what is open and what disagrees.

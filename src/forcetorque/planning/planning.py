@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -20,7 +20,6 @@ from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, Assum
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.planning.answers import plan_answer
 from forcetorque.planning.information import Knowledge, Nuisance, unfitted_posterior
 from forcetorque.planning.proposal import TEMPERATURE, Demand, Effort, Proposal, proposals, supports_of, workplaces
 from forcetorque.planning.result import (
@@ -35,7 +34,6 @@ from forcetorque.planning.result import (
 )
 from forcetorque.planning.search import Criterion
 from forcetorque.planning.section import PLAN, PlanTable
-from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
 
@@ -46,6 +44,8 @@ _QUICK = Effort(postures=150, swaps=0)
 
 class Plan(Result):
     """Recordings, the most useful first, and what is expected after each."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.planning.answers:plan_answer"
 
     schema_name: Literal["forcetorque/plan/1"] = Field(default="forcetorque/plan/1", alias="schema")
     """Form of the result."""
@@ -71,14 +71,6 @@ class Plan(Result):
     """Where the trajectories were written."""
     proposals: tuple[Proposal, ...] = Field(default=(), exclude=True)
     """The recordings with their trajectories."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say what to record next and what it brings, or that nothing helps.
-
-        Yields:
-            One answer.
-        """
-        yield plan_answer(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give what people read: recordings, postures, and sentences.

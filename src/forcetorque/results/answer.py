@@ -76,20 +76,19 @@ def answer_text(answers: Sequence[Answer], width: int, experiment: str = "EXPERI
     Returns:
         Lines, each with its end.
     """
-    ordered = sorted(answers, key=lambda answer: -answer.concern)
-    return "".join(f"{line}\n" for line in _lines(ordered, width, experiment))
+    return "".join(f"{line}\n" for line in _lines(answers, width, experiment))
 
 
 def _lines(answers: Sequence[Answer], width: int, experiment: str) -> Iterator[str]:
-    for answer in answers:
+    worst, *others = sorted(answers, key=lambda answer: -answer.concern)
+    yield _headline(worst, width)
+    for sentence in worst.why:
+        yield _indented(sentence, width)
+    for answer in others:
         yield _headline(answer, width)
-        if answer is answers[0]:
-            for sentence in answer.why:
-                yield _indented(sentence, width)
     files = dict.fromkeys(file for answer in answers for file in answer.written)
     if files:
         yield wrapped(f"written: {', '.join(files)}", width)
-    worst = answers[0]
     if worst.step:
         yield wrapped(f"next: {worst.step}", width)
     if worst.command:
@@ -113,7 +112,7 @@ def _command(command: str, width: int) -> str:
     if len(_INDENT) + len(command) <= width:
         return f"{_INDENT}{command}"
     lines = [""]
-    for word in command.split(" "):
+    for word in map(shlex.quote, shlex.split(command)):
         longer = f"{lines[-1]} {word}".lstrip()
         if lines[-1] and len(_INDENT) * len(lines[:2]) + len(longer) + len(_CONTINUED) > width:
             lines.append(word)

@@ -16,6 +16,7 @@ from pydantic import Field
 
 from forcetorque.base.errors import MissingExtraError, ShapeError
 from forcetorque.results.answer import Answer, answer_text
+from forcetorque.results.capability import named
 from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.results.table_rendering import html_lines, html_table, html_text, html_warnings, table_text, wrapped
 
@@ -56,6 +57,9 @@ class Result(Row):
     """Uses of the intervals whose samples it is made from, all but ignored ones where it is empty; None for no samples,
     or where it does not count what it leaves out."""
 
+    answered_by: ClassVar[str | None] = None
+    """Function that gives the answer, or an iterable of them, as `module:name`; None where `answers` is written out."""
+
     warnings: tuple[str, ...] = Field(default=(), exclude=True)
     """Reasons to doubt the result, in sentences; messages, not part of the JSON."""
 
@@ -73,7 +77,9 @@ class Result(Row):
         Yields:
             One per sensor or thing; nothing where the tables are the answer.
         """
-        yield from ()
+        if self.answered_by is not None:
+            given = named(self.answered_by)(self)
+            yield from (given,) if isinstance(given, Answer) else given
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the details that people read, in their order; every class has its own.

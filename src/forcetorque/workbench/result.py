@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -18,11 +18,9 @@ from forcetorque.calibration.summary import calibration_blocks
 from forcetorque.evaluation.acceptance.acceptance import criteria_table
 from forcetorque.evaluation.acceptance.criteria import Criterion
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import number
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, FloatOrNull, Row, Shown, ShownWrench, Table, WrenchValues, table_of
-from forcetorque.workbench.answers import workbench_answers
 from forcetorque.workbench.bench import block_findings
 from forcetorque.workbench.faults import FaultRow, FaultSearch
 from forcetorque.workbench.recording import BenchRecording
@@ -279,6 +277,8 @@ _NEVER = 1e-6
 class Workbench(Result):
     """Calibrations of sensors on a workbench, with faults of the bench."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.workbench.answers:workbench_answers"
+
     schema_name: Literal["forcetorque/workbench/1"] = Field(default="forcetorque/workbench/1", alias="schema")
     """Form of the result."""
     sensors: tuple[BenchSensorRow, ...]
@@ -312,14 +312,6 @@ class Workbench(Result):
     def passed(self) -> bool:
         """Whether all limits are kept."""
         return all(criterion.passed for criterion in self.criteria)
-
-    def answers(self) -> Iterator[Answer]:
-        """Say of every sensor whether the bench has faults, and by how much it errs.
-
-        Yields:
-            One per sensor.
-        """
-        yield from workbench_answers(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.

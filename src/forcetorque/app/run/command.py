@@ -45,9 +45,9 @@ def run(
 ) -> None:
     """Go the whole way: inspect, check, calibrate, evaluate, report, export.
 
-    Exit codes: 0 usable, 1 not or not yet usable, 2 error, 3 stopped by a stage, 4 questions open.
-
     Example: forcetorque run experiment.toml -o results
+
+    Exit codes: 0 usable, 1 not or not yet usable, 2 error, 3 stopped by a stage, 4 questions open.
 
     Python: `experiment.run("results")`, of files `forcetorque.run("experiment.toml", "results")`
     """

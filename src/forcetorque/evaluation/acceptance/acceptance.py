@@ -11,7 +11,6 @@ from pydantic import Field, model_validator
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
-from forcetorque.evaluation.acceptance.answers import acceptance_answers
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion, RecordingCriterion, Subject, criteria_of
 from forcetorque.evaluation.acceptance.static_checks import RecordingChecks, StaticChecks, check
 from forcetorque.experiment.additions import with_recording_notes
@@ -19,7 +18,6 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.validity import ReadingsOutside, doubts_about_choice, readings_outside, sentences
 from forcetorque.recording.recording import Use
-from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, with_first_column
@@ -27,6 +25,8 @@ from forcetorque.results.table import Table, with_first_column
 
 class Acceptance(Result):
     """Which criteria sensors meet, and everything that was measured of them without one."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.evaluation.acceptance.answers:acceptance_answers"
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "recordings_measured")
 
@@ -73,14 +73,6 @@ class Acceptance(Result):
             One with the criteria of all, accepted if every one of them holds.
         """
         return cls.model_validate(dict(super().together(results)))
-
-    def answers(self) -> Iterator[Answer]:
-        """Say of every sensor whether it is accepted, and by which criterion it is not.
-
-        Yields:
-            One per sensor.
-        """
-        yield from acceptance_answers(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor, and the verdict on all.

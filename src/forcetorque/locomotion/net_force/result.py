@@ -4,13 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.locomotion.answers import coherence_answers
-from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import interval, number, with_error
 from forcetorque.results.result import Result
 from forcetorque.results.table import AxisValues, Row, Table, WrenchValues, short_names
@@ -109,6 +107,8 @@ class CoherenceSummary(Row):
 class Coherence(Result):
     """Whether the contacts together bear the weight, whichever of them touch (thesis 5.6)."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.locomotion.answers:coherence_answers"
+
     interval_uses = ()
 
     schema_name: Literal["forcetorque/coherence/1"] = Field(default="forcetorque/coherence/1", alias="schema")
@@ -127,14 +127,6 @@ class Coherence(Result):
     """One per offset and candidate."""
     figure: str | None = None
     """File of the figure, where one was drawn."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say by how much the net contact force misses the weight.
-
-        Yields:
-            One per candidate and offset.
-        """
-        yield from coherence_answers(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per offset in the form of thesis Tables 5.9 and 5.10, and what is left over all phases.

@@ -6,7 +6,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -18,7 +18,6 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.formats.sample_table import SampleSpan, write_samples
-from forcetorque.locomotion.answers import balance_answer
 from forcetorque.locomotion.standing.foot_wrenches import FootForces, balance_of_forces, balance_of_sensors
 from forcetorque.locomotion.standing.interval import BalanceOptions, IntervalBalance
 from forcetorque.locomotion.standing.result import (
@@ -32,7 +31,6 @@ from forcetorque.locomotion.standing.result import (
     robot_row,
 )
 from forcetorque.locomotion.standing.support_phases import NO_FOOT, require_support
-from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
 
@@ -45,6 +43,8 @@ _DOUBTED_SHARE = 0.1
 
 class Balance(Result):
     """How a robot stood over the intervals of experiments."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.locomotion.answers:balance_answer"
 
     interval_uses = ()
 
@@ -74,14 +74,6 @@ class Balance(Result):
     """What cannot be determined, as text."""
     intervals: tuple[IntervalBalance, ...] = Field(default=(), exclude=True, repr=False)
     """Every sample, for files and pictures."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say which feet bear the robot, and where.
-
-        Yields:
-            One answer.
-        """
-        yield balance_answer(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give tables of phases, feet, robot and pendulum.

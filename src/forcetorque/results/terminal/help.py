@@ -4,12 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import Any, ClassVar
 
 from typer.core import TyperGroup
-
-if TYPE_CHECKING:
-    from click import Context, HelpFormatter
 
 _WHOLE = 1000
 """Characters of a sentence that are shown: all."""
@@ -21,7 +18,7 @@ class WholeSentences(TyperGroup):
     panels: ClassVar[Mapping[str, tuple[str, ...]] | None] = None
     """Titles, and commands in their order, the last with all others; None for one panel of all."""
 
-    def format_commands(self, ctx: Context, formatter: HelpFormatter) -> None:
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
         """Write a section for every panel.
 
         Args:

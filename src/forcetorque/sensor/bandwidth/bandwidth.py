@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Sequence
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -17,10 +17,8 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
-from forcetorque.sensor.bandwidth.answers import response_answer
 from forcetorque.sensor.bandwidth.decays import DecayCurve, Decays, EventRow, ResponseNumber, free_decays, numbers
 from forcetorque.sensor.bandwidth.excited_records import ExcitationKind, ExcitedRecord, component_index, excited_records
 from forcetorque.sensor.bandwidth.frequency_response import (
@@ -130,6 +128,8 @@ FOLDED_SHARE = 0.35
 class Response(Result):
     """What a sensor does to fast forces."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.sensor.bandwidth.answers:response_answer"
+
     schema_name: Literal["forcetorque/response/1"] = Field(default="forcetorque/response/1", alias="schema")
     """Form of the result."""
     sensor: str
@@ -162,14 +162,6 @@ class Response(Result):
     """File of the figure."""
     decays: tuple[DecayCurve, ...] = Field(default=(), repr=False)
     """Decays and their fits, for the figure."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say at which frequency the sensor rings, and how fast it is.
-
-        Yields:
-            One answer.
-        """
-        yield response_answer(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give events, numbers and filter.

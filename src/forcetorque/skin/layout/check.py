@@ -4,15 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
-from forcetorque.skin.answers import skin_check_answer
 from forcetorque.skin.layout.defects import (
     duplicates,
     gaps,
@@ -67,6 +65,8 @@ _MOST = 6
 class SkinCheck(Result):
     """What is wrong with a layout of skin."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.skin.answers:skin_check_answer"
+
     schema_name: Literal["forcetorque/skin_check/1"] = Field(default="forcetorque/skin_check/1", alias="schema")
     """Form of the result."""
     source: str
@@ -96,14 +96,6 @@ class SkinCheck(Result):
     def passed(self) -> bool:
         """Whether nothing is wrong."""
         return not self.findings
-
-    def answers(self) -> Iterator[Answer]:
-        """Say what is wrong with the layout.
-
-        Yields:
-            One answer.
-        """
-        yield skin_check_answer(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table of findings, and a sentence for each.

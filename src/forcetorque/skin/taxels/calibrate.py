@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -13,10 +13,8 @@ from forcetorque.base.errors import ExperimentError, FitError, known_names
 from forcetorque.experiment.additions import ADDED, added_to, with_recording_notes
 from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
 from forcetorque.recording.recording import Use
-from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
-from forcetorque.skin.answers import skin_calibration_answer
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
 from forcetorque.skin.taxels.fit import FittedSamples, calibrated_taxel, compare_curves, fitted_samples
@@ -45,6 +43,8 @@ _SHOWN = 12
 
 class SkinCalibration(Result):
     """Curves of the taxels of a patch, what they are worth, and which taxels have none."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.skin.answers:skin_calibration_answer"
 
     schema_name: Literal["forcetorque/skin_calibrate/1"] = Field(default="forcetorque/skin_calibrate/1", alias="schema")
     """Form of the result."""
@@ -80,14 +80,6 @@ class SkinCalibration(Result):
     """The curves."""
     picture: TaxelPicture = Field(exclude=True, repr=False)
     """Samples and curves, for figures."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say how many taxels have a curve, and by how much it errs.
-
-        Yields:
-            One answer.
-        """
-        yield skin_calibration_answer(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give recordings, candidates, the first taxels, and a sentence.
