@@ -12,7 +12,6 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import sample_statistics
-from forcetorque.estimation.answers import estimate_answers
 from forcetorque.estimation.estimate import IntervalEstimates
 from forcetorque.estimation.samples_file import write_estimates
 from forcetorque.estimation.torque.experiment_fusion import IntervalFusion, TorqueFusion, summarise_fusion
@@ -25,6 +24,7 @@ from forcetorque.inspection.diagnosis import reversed_sensors
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Use
 from forcetorque.results.answer import Answer
+from forcetorque.results.capability import named
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -231,7 +231,7 @@ class EstimateSummary(EstimatedRecording, _EstimateSchema):
         Yields:
             One per recording.
         """
-        yield from estimate_answers(self.recordings or (self,))
+        yield from named("forcetorque.estimation.answers:estimate_answers")(self.recordings or (self,))
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table of the contacts and one of the sub-models, of one recording after the other.

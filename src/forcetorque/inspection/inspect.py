@@ -23,7 +23,6 @@ from forcetorque.formats.log_format import SketchingFormat, not_read_message
 from forcetorque.formats.prior.prior_file import PriorFile
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.formats.registry import format_named, not_recognised, recognised_format
-from forcetorque.inspection.answers import inspection_answer
 from forcetorque.inspection.draft.log import likely_quantities
 from forcetorque.inspection.file_contents import (
     ClockRow,
@@ -40,6 +39,7 @@ from forcetorque.inspection.file_contents import (
 from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
 from forcetorque.recording.recording import Finding, Recording
 from forcetorque.results.answer import Answer
+from forcetorque.results.capability import named
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Table, table_of
 from forcetorque.skin.experiment import PATCHES, PatchExperiment, load_patches
@@ -109,7 +109,7 @@ class Inspection(Result):
             One for a recording; none for columns that wait for a file, or the calibration of a maker.
         """
         if self.streams:
-            yield inspection_answer(self)
+            yield named("forcetorque.inspection.answers:inspection_answer")(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.

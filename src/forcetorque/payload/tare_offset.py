@@ -18,8 +18,8 @@ from forcetorque.experiment.calibrations_under_test import OneCalibration, one_n
 from forcetorque.experiment.offsets import sensor_offset
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
-from forcetorque.payload.answers import tare_answers
 from forcetorque.results.answer import Answer
+from forcetorque.results.capability import named
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues
 
@@ -73,7 +73,7 @@ class Tare(Result):
         Yields:
             One per sensor.
         """
-        yield from tare_answers(self.sensors, STILL)
+        yield from named("forcetorque.payload.answers:tare_answers")(self.sensors, STILL)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the offset of every sensor.

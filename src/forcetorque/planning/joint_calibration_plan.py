@@ -18,9 +18,9 @@ from forcetorque.evaluation.load_cases.predicted_error import predict, predict_p
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.planning.answers import joint_plan_answer
 from forcetorque.planning.search import HELPS
 from forcetorque.results.answer import Answer
+from forcetorque.results.capability import named
 from forcetorque.results.result import Result
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 
@@ -102,7 +102,7 @@ class JointPlan(Result):
             One answer.
         """
         excess = [self.steps[0].excess_before, *(step.excess_after for step in self.steps)]
-        yield joint_plan_answer(self, _useful(excess))
+        yield named("forcetorque.planning.answers:joint_plan_answer")(self, _useful(excess))
 
     def blocks(self) -> Iterator[Table | str]:
         """Give what people read.

@@ -12,11 +12,11 @@ from pydantic import Field
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.results.answer import Answer
+from forcetorque.results.capability import named
 from forcetorque.results.number_text import number, with_error
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues, table_of
 from forcetorque.study import thesis_tables as tables
-from forcetorque.study.answers import study_answers
 from forcetorque.study.candidate import CONVENTION
 from forcetorque.study.candidate_errors import LEVER_M, PUSH_N, PushError, push_error
 from forcetorque.study.one_sensor import WORKBENCH, Study
@@ -346,7 +346,7 @@ class Studies(Result):
         Yields:
             One per sensor.
         """
-        yield from study_answers(self.sensors, WORKBENCH, FAR_SD)
+        yield from named("forcetorque.study.answers:study_answers")(self.sensors, WORKBENCH, FAR_SD)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the choice for one sensor after the other.

@@ -17,7 +17,6 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     known_interval,
     validation_excitation,
 )
-from forcetorque.evaluation.validation.answers import contact_answers
 from forcetorque.evaluation.validation.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -27,6 +26,7 @@ from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.answer import Answer
+from forcetorque.results.capability import named
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import (
@@ -229,7 +229,7 @@ class ContactForces(Result):
         Yields:
             One per sensor.
         """
-        yield from contact_answers(self.verdicts, self.best, ())
+        yield from named("forcetorque.evaluation.validation.answers:contact_answers")(self.verdicts, self.best, ())
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor, and who is best.

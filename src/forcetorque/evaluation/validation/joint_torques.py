@@ -8,7 +8,6 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from forcetorque.evaluation.validation.answers import torque_answers
 from forcetorque.evaluation.validation.joint_torque_errors import (
     TorqueErrors,
     TorqueErrorSamples,
@@ -22,6 +21,7 @@ from forcetorque.experiment.calibrations_under_test import EvaluatedRow
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
 from forcetorque.results.answer import Answer
+from forcetorque.results.capability import named
 from forcetorque.results.result import Result
 from forcetorque.results.table import Shown, Table, table_of
 from forcetorque.robot.model import JointType
@@ -70,7 +70,7 @@ class JointTorques(Result):
         Yields:
             One per sensor, candidate and offset.
         """
-        yield from torque_answers(self.verdicts)
+        yield from named("forcetorque.evaluation.validation.answers:torque_answers")(self.verdicts)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor.

@@ -13,7 +13,6 @@ from pydantic import Field
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.locomotion.answers import torque_loop_answers
 from forcetorque.locomotion.oscillation.oscillation import find_oscillations
 from forcetorque.locomotion.oscillation.spectrum import resampled
 from forcetorque.locomotion.torque_control.balancing import Phase, Reference, standing, switching
@@ -28,6 +27,7 @@ from forcetorque.locomotion.torque_control.file import PERIOD_S, TorqueLoopFile
 from forcetorque.locomotion.torque_control.linear_robot import LinearRobot, linear_robot, require_stable
 from forcetorque.locomotion.torque_control.world import SENSORS, Biped
 from forcetorque.results.answer import Answer
+from forcetorque.results.capability import named
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -134,7 +134,7 @@ class TorqueLoopStudy(Result):
         Yields:
             One per robot, gains and kind of errors.
         """
-        yield from torque_loop_answers(self, NO_ERROR)
+        yield from named("forcetorque.locomotion.answers:torque_loop_answers")(self, NO_ERROR)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give both tables.

@@ -21,11 +21,11 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval
 from forcetorque.results.answer import Answer
+from forcetorque.results.capability import named
 from forcetorque.results.number_text import with_error
 from forcetorque.results.result import Result
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 from forcetorque.robot.mechanics.samples import padded_samples
-from forcetorque.sensor.temperature.answers import thermal_answers
 from forcetorque.sensor.temperature.cycles import Cycles, cycles_of
 from forcetorque.sensor.temperature.drift import (
     LAG_UNTOLD_S,
@@ -174,7 +174,7 @@ class Thermal(Result):
         Yields:
             One per sensor.
         """
-        yield from thermal_answers(self.sensors, self.figure)
+        yield from named("forcetorque.sensor.temperature.answers:thermal_answers")(self.sensors, self.figure)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the drift of every sensor.

@@ -16,9 +16,9 @@ from forcetorque.base.errors import ExperimentError, SkinError
 from forcetorque.experiment.additions import added_to, with_recording_notes
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.results.answer import Answer
+from forcetorque.results.capability import named
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table, table_of
-from forcetorque.skin.answers import skin_wrench_answer
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import PressureFrame
 from forcetorque.skin.contact.tracking import OFFERED, ReleaseRow
@@ -150,7 +150,9 @@ class SkinWrench(Result):
         Yields:
             One answer.
         """
-        yield skin_wrench_answer(self, offered=any(row.re_tare == OFFERED for row in self.releases))
+        yield named("forcetorque.skin.answers:skin_wrench_answer")(
+            self, offered=any(row.re_tare == OFFERED for row in self.releases)
+        )
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the first contacts, and warnings about all.
