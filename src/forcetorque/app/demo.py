@@ -58,7 +58,7 @@ def demo(
 
     Example: forcetorque demo build/demo
 
-    Python: `forcetorque.load_experiment("build/demo/experiment.toml")` reads its files
+    Python: `forcetorque.load_experiment(file)` reads what it made
     """
     from forcetorque.app.python.experiment import load_experiment
     from forcetorque.results.answer import answer_text
