@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -31,6 +32,10 @@ class Concern(IntEnum):
     """Something is lacking or doubtful."""
     BAD = 2
     """Who goes on would be misled."""
+
+
+_WORD = re.compile(r"""(?:'[^']*'|"[^"]*"|\S)+""")
+"""A word of a command, in quotes where it holds spaces."""
 
 
 def typed(*words: str) -> str:
@@ -113,7 +118,7 @@ def _command(command: str, width: int) -> str:
     if len(_INDENT) + len(command) <= width:
         return f"{_INDENT}{command}"
     lines = [""]
-    for word in command.split(" "):
+    for word in _WORD.findall(command):
         longer = f"{lines[-1]} {word}".lstrip()
         if lines[-1] and len(_INDENT) * len(lines[:2]) + len(longer) + len(_CONTINUED) > width:
             lines.append(word)

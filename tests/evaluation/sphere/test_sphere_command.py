@@ -182,7 +182,8 @@ def test_files_of_one_name_are_told_apart(arm: Path, run: Run) -> None:
     for folder in ("old", "new"):
         (arm / folder).mkdir()
         shutil.copy("fitted.json", arm / folder / "leg.json")
-    out = run("sphere", PARQUET, "-c", "old/leg.json", "-c", "new/leg.json", "--interval", "judge", "--details").out
+    words = ("-c", "old/leg.json", "-c", "new/leg.json", "--interval", "judge", "--details")
+    _, out = run("sphere", PARQUET, *words).out.split("\n\n", maxsplit=1)
     assert out.count("old/leg.json") == out.count("new/leg.json") > 4
     assert out.count("leg.json") == 2 * out.count("old/leg.json")
 
