@@ -41,10 +41,10 @@ def test_every_form_of_the_answer_has_it(run: Run, arm: Path, folder: Path) -> N
         (row,) = run(NAME, PARQUET, "--format", "json").result()["sensors"]
         assert row["samples"] == 1200
         assert [line["samples"] for line in run(NAME, PARQUET, "--format", "csv").rows()] == ["1200"]
-        _, _, heading, _, line, *_ = run(NAME, PARQUET, "--details").out.splitlines()
+        _, _, heading, _, line, *_ = run(NAME, PARQUET).out.splitlines()
         assert "readings" in heading
         assert "1200" in line
-        assert '"samples": {' in run("schema", NAME, "--details").out
+        assert '"samples": {' in run("schema", NAME).out
         content = load_experiment(arm / PARQUET)
         page = extents.sensor_extent(SensorRun(content, "arm_ft"))._repr_html_()
         assert "readings" in page

@@ -59,7 +59,7 @@ _IN_EVERY_FORM = f"""
 import sys
 from forcetorque.app.command_line import main
 for form in {_FORMS}:
-    sys.argv = ["forcetorque", *sys.argv[1:6], form]
+    sys.argv = ["forcetorque", *sys.argv[1:7], form]
     try:
         main()
     except SystemExit as ended:
@@ -71,7 +71,7 @@ for form in {_FORMS}:
 def test_a_terminal_without_letters_gets_them_spelled(arm: Path, run: Run) -> None:
     """Under `LC_ALL=C` without UTF-8 mode: numbers with their errors in plain letters, as many as elsewhere."""
     plain = {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0", "COLUMNS": "120", "PATH": os.environ["PATH"]}
-    words = ("evaluate", PARQUET, "-c", "fitted.json", "--format")
+    words = ("evaluate", PARQUET, "-c", "fitted.json", "--details", "--format")
     shown = subprocess.run(
         [sys.executable, "-c", _IN_EVERY_FORM, *words], capture_output=True, check=False, env={**plain, **_PATHS}
     )

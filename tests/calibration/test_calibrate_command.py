@@ -125,16 +125,16 @@ def test_sensors_are_chosen_by_name(arm: Path, run: Run) -> None:
     assert snapshot(arm) == before
 
 
-@pytest.mark.parametrize("words", [("--format", "json"), ("--format", "csv"), ()])
+@pytest.mark.parametrize("words", [("--format", "json"), ("--format", "csv"), ("--details",)])
 def test_a_sensor_that_cannot_be_fitted_leaves_the_others(arm: Path, run: Run, words: tuple[str, ...]) -> None:
     """The others are written and shown, the refused one is one line on standard error, and the exit code is 2."""
     alone = run("calibrate", TWO, "-o", "alone", "--sensor", "arm_ft", "--lambda", "0", *words)
-    ended = run("calibrate", TWO, "-o", "made", "--lambda", "0", *words)
+    ended = run("calibrate", TWO, "-o", "whole", "--lambda", "0", *words)
     assert (alone.code, ended.code) == (0, 2)
-    assert re.sub(r'("created": )".*"', r"\1", ended.out).replace("made/", "alone/") == re.sub(
+    assert re.sub(r'("created": )".*"', r"\1", ended.out).replace("whole/", "alone/") == re.sub(
         r'("created": )".*"', r"\1", alone.out
     )
-    assert [path.name for path in Path("made").iterdir()] == ["arm_ft_SIM001.json"]
+    assert [path.name for path in Path("whole").iterdir()] == ["arm_ft_SIM001.json"]
     *log, error = ended.err.splitlines()
     assert log == ended.log
     assert error.startswith(

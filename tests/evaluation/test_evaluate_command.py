@@ -104,7 +104,7 @@ def test_the_csv_holds_the_same_numbers(arm: Path, run: Run) -> None:
 
 
 def test_the_table_is_the_default(arm: Path, run: Run) -> None:
-    """Without --format people get the verdict first, and in the details a line per candidate with digits of each RMSE."""
+    """Without --format people get the verdict first, and in the details a line per candidate with its RMSE."""
     verdicts = run("evaluate", PARQUET, "-c", "fitted.json", "--format", "json").result()["verdicts"]
     shown = run("evaluate", PARQUET, "-c", "fitted.json", "--details")
     assert shown.code == 0

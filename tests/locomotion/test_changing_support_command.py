@@ -82,7 +82,7 @@ def test_one_sensor_is_calibrated_and_judged_over_its_known_phases(inside: Path,
     assert errors[str(fitted), "judged-mean"] < 0.2 * errors["prior", "judged-mean"]
     accepted = run("accept", "switching_day2.toml", "--spec", "limits.toml", "-c", fitted, "--format", "json")
     assert accepted.code == 0
-    rows = run("study", "fits", "validate", "switching_day2.toml", "-c", fitted, "--format", "json").result()
+    rows = run("study", "validate", "switching_day2.toml", "-c", fitted, "--format", "json").result()
     assert "l_leg_ft" in json.dumps(rows)
     assert run("export", fitted, "--to", "wholebodydynamics", "-o", tmp_path / "export").code == 0
 
@@ -132,10 +132,7 @@ def test_estimate_finds_the_feet_of_each_phase(inside: Path, tmp_path: Path, run
 
 def test_sphere_takes_one_side_of_the_sensor(inside: Path, run: Run) -> None:
     """All phases have not the same mass on it; one has, and double support is refused by name."""
-    assert (
-        "choose intervals of one side"
-        in run("study", "fits", "sphere", "switching_day1.toml", "--sensor", "l_leg_ft").err
-    )
+    assert "choose intervals of one side" in run("study", "sphere", "switching_day1.toml", "--sensor", "l_leg_ft").err
     result = run(
         "study",
         "fits",
@@ -149,9 +146,7 @@ def test_sphere_takes_one_side_of_the_sensor(inside: Path, run: Run) -> None:
         "json",
     )
     assert result.result()["rows"][0]["intervals"] == ["hanging"]
-    refused = run(
-        "study", "fits", "sphere", "switching_day1.toml", "--sensor", "l_leg_ft", "--interval", "double_support"
-    )
+    refused = run("study", "sphere", "switching_day1.toml", "--sensor", "l_leg_ft", "--interval", "double_support")
     assert refused.code == 2
     assert "by [[contact]] or touched r_sole does in every one" in refused.err
 
@@ -170,7 +165,7 @@ def test_study_plan_and_report_take_it(inside: Path, tmp_path: Path, run: Run) -
     """A study chooses between phases by kind, a plan says what is next, a report shows a calibration of it."""
     leg, days = ("--sensor", "l_leg_ft"), ("switching_day1.toml", "switching_day2.toml")
     few = ("--type", "OnTdTO", "--lambda", "0", "--data-set", "one=single_support", "-o", tmp_path / "study")
-    result = run("study", "fits", "fits", *days, *leg, *few, "--format", "json").result()
+    result = run("study", "fits", *days, *leg, *few, "--format", "json").result()
     assert "l_leg_ft" in json.dumps(result)
     assert run("plan", days[0], *leg, "-o", tmp_path / "next", "--clearance-deg", "3").code == 0
     assert run("calibrate", days[0], *leg, "-o", tmp_path / "leg.json").code == 0

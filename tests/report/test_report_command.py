@@ -92,11 +92,11 @@ def test_the_numbers_are_those_of_the_other_commands(result: Any, run: Run) -> N
     sensor = _sensor(result)
     same = ("-c", "fitted.json", "--format", "json")
     assert sensor["evaluation"] == run("evaluate", PARQUET, *same).result()["verdicts"]
-    validated = run("study", "fits", "fits", "validate", PARQUET, *same).result()
+    validated = run("study", "validate", PARQUET, *same).result()
     for key in ("contact_forces", "joint_torques", "best"):
         assert sensor[key] == validated[key]
         assert sensor[key]
-    assert sensor["spheres"] == run("study", "fits", "fits", "sphere", PARQUET, *same).result()["rows"]
+    assert sensor["spheres"] == run("study", "sphere", PARQUET, *same).result()["rows"]
     accepted = json.loads(run("accept", PARQUET, "--spec", "limits.toml", *same).out)
     assert (sensor["criteria"], sensor["static"]) == (accepted["criteria"], accepted["measured"])
     assert result["experiments"][0]["findings"] == run("inspect", PARQUET, "--format", "json").result()["findings"]
@@ -112,7 +112,7 @@ def test_evaluate_and_validate_say_what_the_report_says(result: Any, run: Run) -
     assert all(sentence in shown for sentence in sentences)
     assert {row["judgement"] for row in sensor["comparisons"]} == {"better"}
     assert {best["judgement"] for best in sensor["best"]} == {"better"}
-    shown = " ".join(run("study", "fits", "fits", "validate", PARQUET, "-c", "fitted.json", "--details").out.split())
+    shown = " ".join(run("study", "validate", PARQUET, "-c", "fitted.json", "--details").out.split())
     lines = [line for line in _words("report.html") if "best is fitted.json" in line]
     assert len(lines) == 2
     assert all(line in shown for line in lines)

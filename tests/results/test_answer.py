@@ -44,7 +44,7 @@ def test_the_worst_comes_first_with_its_reason_and_its_step() -> None:
         "  force error 9 N (95 %: 12 N, allowed",
         "  2 N)",
         "left (L1), l.json                    USE",
-        "written: l.png, r.png",
+        "written: r.png, l.png",
         "next: look for faults of the recording",
         "  forcetorque inspect walk.toml",
     ]
@@ -75,7 +75,7 @@ def test_a_command_can_be_copied_at_every_width(width: int) -> None:
     answer = Answer(subject="arm", verdict="ACCEPTED", command=typed(*words))
     lines = answer_text([answer], width, shlex.quote("a b.toml")).splitlines()[1:]
     expected = ["forcetorque", "accept", "a b.toml", *words[2:]]
-    assert shlex.split("\n".join(lines).replace("\\\n", "")) == expected  # as a shell does
+    assert shlex.split("\n".join(lines).replace("\\\n", "")) == expected  # a shell takes these two characters off
     assert max(map(len, lines)) <= width
 
 

@@ -70,7 +70,7 @@ def studied_days(recorded: Path, run: Run, tmp_path_factory: pytest.TempPathFact
     folder = Path(shutil.copytree(recorded, tmp_path_factory.mktemp("studied") / "days"))
     with pytest.MonkeyPatch.context() as patch, chdir(folder):
         patch.setattr("forcetorque.study.folder.write_figures", _undrawn)
-        printed = run("study", "fits", "fits", *FILES, *SPHERE, "-o", "out", "--format", "json")
+        printed = run("study", "fits", *FILES, *SPHERE, "-o", "out", "--format", "json")
     (folder / "printed.json").write_text(printed.out, encoding="utf-8")
     return folder
 
@@ -89,7 +89,7 @@ def quick_days(recorded: Path, run: Run, tmp_path_factory: pytest.TempPathFactor
     folder = Path(shutil.copytree(recorded, tmp_path_factory.mktemp("quick") / "days"))
     with pytest.MonkeyPatch.context() as patch, chdir(folder):
         patch.setattr("forcetorque.study.folder.write_figures", _undrawn)
-        return folder, run("study", "fits", "fits", *FILES, *QUICK, "-o", "new/er/out", "--format", "csv")
+        return folder, run("study", "fits", *FILES, *QUICK, "-o", "new/er/out", "--format", "csv")
 
 
 @pytest.fixture
@@ -110,7 +110,7 @@ def _rows(file: Path) -> list[dict[str, str]]:
 
 
 def _sensor(run: Run, *words: object) -> Any:
-    (sensor,) = run("study", "fits", "fits", *FILES, *words, "-o", "out", "--format", "json").result()["sensors"]
+    (sensor,) = run("study", "fits", *FILES, *words, "-o", "out", "--format", "json").result()["sensors"]
     return sensor
 
 
@@ -122,7 +122,7 @@ def test_from_a_scenario_to_a_calibration_that_is_better(
     Path("scenario.toml").write_text(SCENARIO, encoding="utf-8")
     assert run("simulate", "scenario.toml", "-o", "simulated").code == 0
     files = [f"simulated/{file}" for file in FILES]
-    result = run("study", "fits", "fits", *files, *SPHERE, "-o", "out", "--format", "json").result()
+    result = run("study", "fits", *files, *SPHERE, "-o", "out", "--format", "json").result()
     assert faults(result, run("schema", "study").result()) == []
     assert result["schema"] == "forcetorque/study/2"
     assert result["lambda_convention"].startswith("thesis (5.4): mean squared residual norm + lambda |C - C_prior|^2")
@@ -176,7 +176,7 @@ def test_without_the_drawing_library_the_rest_is_made(days: Path, run: Run, monk
         raise MissingExtraError("figures need matplotlib; pip install forcetorque[report]")
 
     monkeypatch.setattr("forcetorque.study.folder.write_figures", missing)
-    done = run("study", "fits", "fits", *FILES, *QUICK, "-o", "out", "--format", "json")
+    done = run("study", "fits", *FILES, *QUICK, "-o", "out", "--format", "json")
     (sensor,) = done.result()["sensors"]
     assert sensor["files"] == [*TABLES, *CALIBRATIONS]
     assert "WARNING: no figures: figures need matplotlib; pip install forcetorque[report]" in done.log
@@ -311,7 +311,7 @@ def test_data_sets_are_named_by_label_or_kind(days: Path, run: Run) -> None:
 
 def test_sphere_types_need_a_sphere(days: Path, run: Run) -> None:
     """Without one they are left out with a warning for each; named for the run they are fitted where it is."""
-    done = run("study", "fits", "fits", *FILES, "--lambda", "0", "-o", "out", "--format", "json")
+    done = run("study", "fits", *FILES, "--lambda", "0", "-o", "out", "--format", "json")
     (sensor,) = done.result()["sensors"]
     assert len(sensor["left_out"]) == 9
     assert sensor["left_out"][0] == (
@@ -322,7 +322,7 @@ def test_sphere_types_need_a_sphere(days: Path, run: Run) -> None:
         f"WARNING: left out: {line}" for line in sensor["left_out"]
     ]
     (named,) = run(
-        "study", "fits", "fits", *FILES, "--lambda", "0", "--sphere", "grid_warm", "-o", "named", "--format", "json"
+        "study", "fits", *FILES, "--lambda", "0", "--sphere", "grid_warm", "-o", "named", "--format", "json"
     ).result()["sensors"]
     assert [line.partition(":")[0] for line in named["left_out"]] == [
         f"random {name}" for name in ("SnTdTO", "SwTdTO", "SwTrTO")
@@ -333,14 +333,14 @@ def test_sphere_types_need_a_sphere(days: Path, run: Run) -> None:
 def test_every_sensor_has_a_folder_of_its_own(arm: Path, run: Run) -> None:
     """Its serial number cannot lead anywhere else; one alone can be asked for."""
     words = ("--lambda", "100", "--format", "json")
-    result = run("study", "fits", "fits", TWO, *words, "-o", "out").result()
+    result = run("study", "fits", TWO, *words, "-o", "out").result()
     assert [Path(sensor["folder"]).name for sensor in result["sensors"]] == ["arm_ft_SIM001", "tool_ft_SIM%2F002"]
     assert sorted(path.name for path in Path("out").iterdir()) == ["arm_ft_SIM001", "tool_ft_SIM%2F002"]
-    (alone,) = run("study", "fits", "fits", TWO, *words, "--sensor", "tool_ft", "-o", "tool").result()["sensors"]
+    (alone,) = run("study", "fits", TWO, *words, "--sensor", "tool_ft", "-o", "tool").result()["sensors"]
     assert alone["sensor"] == "tool_ft"
     assert alone["modes"] == result["sensors"][1]["modes"]
     assert alone["modes"][0]["across_sessions"] == []
-    rows = run("study", "fits", "fits", TWO, "--lambda", "100", "--format", "csv", "-o", "rows").rows()
+    rows = run("study", "fits", TWO, "--lambda", "100", "--format", "csv", "-o", "rows").rows()
     assert [row["sensor"] for row in rows] == [name for name in ("arm_ft", "tool_ft") for _ in range(5)]
 
 
@@ -357,7 +357,7 @@ def test_csv_has_every_candidate(quick: Outcome) -> None:
 
 def test_the_table_shows_the_choice_and_what_to_expect(days: Path, run: Run) -> None:
     """The best in both modes beside the workbench, axis by axis, and what is left on another session."""
-    done = run("study", "fits", "fits", *FILES, *QUICK, "-o", "out", "--details")
+    done = run("study", "fits", *FILES, *QUICK, "-o", "out", "--details")
     assert done.code == 0
     shown = " ".join(done.out.split())
     assert (
@@ -384,7 +384,7 @@ def test_the_table_says_which_data_leave_directions_still(days: Path, run: Run) 
     words = ("--type", "OnTdTO", "--lambda", "100", "--data-set", "piece=grid_cold", "--data-set", "all=grid,random")
     piece, every = _sensor(run, *words)["combinations"]
     assert piece["excited"] < every["excited"] == piece["channels"] == 6
-    shown = run("study", "fits", "fits", *FILES, *words, "-o", "again", "--details").out
+    shown = run("study", "fits", *FILES, *words, "-o", "again", "--details").out
     assert f"piece: loads move only {piece['excited']} of 6 raw directions\n" in shown
     assert "all: loads move" not in shown
 
@@ -410,7 +410,7 @@ def test_folders_above_the_new_one_are_made(quick: Outcome) -> None:
 
 def test_the_same_files_give_the_same_tables(days: Path, quick_days: tuple[Path, Outcome], run: Run) -> None:
     """Nothing is random: two runs write the same bytes, but for the time of the calibrations."""
-    assert run("study", "fits", "fits", *FILES, *QUICK, "-o", "out").code == 0
+    assert run("study", "fits", *FILES, *QUICK, "-o", "out").code == 0
     outputs = (quick_days[0] / "new/er/out", days / "out")
     one, two = map(snapshot, outputs)
     assert {path for path in one if path.endswith(".csv")} == {f"{FOLDER.name}/{name}" for name in TABLES}
@@ -427,9 +427,7 @@ def test_the_same_files_give_the_same_tables(days: Path, quick_days: tuple[Path,
 def test_a_lambda_is_what_calibrate_calls_so(days: Path, run: Run) -> None:
     """Typed for a study of one file or for a calibration of it, a lambda gives the same fit; a sixth does not."""
     assert (
-        run(
-            "study", "fits", "fits", "move_cold.toml", *VALIDATION, "--type", "OnTdTO", "--lambda", "6e5", "-o", "out"
-        ).code
+        run("study", "fits", "move_cold.toml", *VALIDATION, "--type", "OnTdTO", "--lambda", "6e5", "-o", "out").code
         == 0
     )
     (row,) = [row for row in _rows(FOLDER / TABLES[2]) if row["type"] == "OnTdTO"]

@@ -41,7 +41,7 @@ TABLES_AND_CALIBRATIONS = 7 + 4
 def test_options_that_are_refused(days: Path, run: Run, words: tuple[str, ...], message: str) -> None:
     """One line that says which option or name; no folder, not even those above it, and no temporary file is left."""
     before = snapshot(days)
-    assert message in run("study", "fits", "fits", *FILES, *words, "-o", "deep/down/out").error()
+    assert message in run("study", "fits", *FILES, *words, "-o", "deep/down/out").error()
     assert snapshot(days) == before
 
 
@@ -57,14 +57,14 @@ def test_options_that_are_refused(days: Path, run: Run, words: tuple[str, ...], 
 def test_files_that_are_refused(days: Path, run: Run, files: tuple[str, ...], message: str) -> None:
     """Missing, of one use only, or given twice."""
     before = snapshot(days)
-    assert message in run("study", "fits", "fits", *files, "-o", "out").error()
+    assert message in run("study", "fits", *files, "-o", "out").error()
     assert snapshot(days) == before
 
 
 def test_another_sensor_is_refused_with_both_files(days: Path, run: Run) -> None:
     """The line on standard error names the file, the first file, and the two numbers."""
     edit(days / "day_2.toml", f'serial = "{SERIAL}"', 'serial = "SIM002"')
-    error = run("study", "fits", "fits", *FILES, "-o", "out").error()
+    error = run("study", "fits", *FILES, "-o", "out").error()
     assert "day_2.toml: sensor 'arm_ft': expected the serial number of grid_cold.toml, SIM001, got SIM002" in error
 
 
@@ -75,7 +75,7 @@ def test_too_many_kinds_are_refused(arm: Path, run: Run) -> None:
         fit.replace('"fit"', f'"fit_{k}"').replace("0.5", f"{0.5 + k}").replace("14.0", f"{1.5 + k}") for k in range(7)
     ]
     edit(arm / PARQUET, fit, "[[interval]]".join(several))
-    error = run("study", "fits", "fits", PARQUET, "-o", "out").error()
+    error = run("study", "fits", PARQUET, "-o", "out").error()
     assert "at most 6 kinds of data to try every combination, got 7: fit_0, fit_1" in error
     assert "name combinations with --data-set" in error
 
@@ -84,7 +84,7 @@ def test_a_folder_that_is_there_is_refused_before_any_work(days: Path, run: Run)
     """Whatever is in it stays, and nothing is read."""
     Path("out").mkdir()
     (Path("out") / "mine.txt").write_text("mine", encoding="utf-8")
-    done = run("study", "fits", "fits", *FILES, "-o", "out")
+    done = run("study", "fits", *FILES, "-o", "out")
     assert done.error() == "error: --output out: expected a new folder, it is there already"
     assert done.log == []
     assert [path.name for path in Path("out").iterdir()] == ["mine.txt"]
@@ -102,5 +102,5 @@ def test_an_error_at_the_very_end_leaves_nothing_behind(days: Path, run: Run, mo
     before = snapshot(days)
     for output in ("out", "new/er/out", "mine/out"):
         few = ("move_cold.toml", *VALIDATION, *QUICK)
-        assert run("study", "fits", "fits", *few, "-o", output).error() == "error: the figures cannot be drawn"
+        assert run("study", "fits", *few, "-o", output).error() == "error: the figures cannot be drawn"
         assert snapshot(days) == before

@@ -74,10 +74,12 @@ def test_a_file_is_written(run: Run, arm: Path) -> None:
 
 
 def test_the_table_says_what_was_written(run: Run, arm: Path) -> None:
-    """One line for the experiment, one for the file; the notes go to the log."""
-    ended = run("view", PARQUET, "-o", "view.html")
+    """The answer names the file; in the details one line for the experiment, one for the file. Notes go to the log."""
+    ended = run("view", PARQUET, "-o", "view.html", "--details")
     assert ended.code == 0
-    lines = ended.out.splitlines()
+    answer, details = ended.out.split("\n\n", maxsplit=1)
+    assert answer.endswith("\nwritten: view.html")
+    lines = details.splitlines()
     assert re.fullmatch(r"small arm: \d+ samples of arm_ft", lines[0])
     assert re.fullmatch(r"page of \d\.\d MB written to view\.html", lines[1])
     assert "INFO: outside intervals the robot stands on the support of the nearest one" in ended.log

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -31,6 +32,10 @@ class Concern(IntEnum):
     """Something is lacking or doubtful."""
     BAD = 2
     """Who goes on would be misled."""
+
+
+_WORD = re.compile(r"""(?:'[^']*'|"[^"]*"|\S)+""")
+"""A word of a command, in quotes where it holds spaces."""
 
 
 def typed(*words: str) -> str:
@@ -76,19 +81,20 @@ def answer_text(answers: Sequence[Answer], width: int, experiment: str = "EXPERI
     Returns:
         Lines, each with its end.
     """
-    return "".join(f"{line}\n" for line in _lines(answers, width, experiment))
+    ordered = sorted(answers, key=lambda answer: -answer.concern)
+    return "".join(f"{line}\n" for line in _lines(ordered, width, experiment))
 
 
 def _lines(answers: Sequence[Answer], width: int, experiment: str) -> Iterator[str]:
-    worst, *others = sorted(answers, key=lambda answer: -answer.concern)
-    yield _headline(worst, width)
-    for sentence in worst.why:
-        yield _indented(sentence, width)
-    for answer in others:
+    for answer in answers:
         yield _headline(answer, width)
+        if answer is answers[0]:
+            for sentence in answer.why:
+                yield _indented(sentence, width)
     files = dict.fromkeys(file for answer in answers for file in answer.written)
     if files:
         yield wrapped(f"written: {', '.join(files)}", width)
+    worst = answers[0]
     if worst.step:
         yield wrapped(f"next: {worst.step}", width)
     if worst.command:
@@ -112,7 +118,7 @@ def _command(command: str, width: int) -> str:
     if len(_INDENT) + len(command) <= width:
         return f"{_INDENT}{command}"
     lines = [""]
-    for word in map(shlex.quote, shlex.split(command)):
+    for word in _WORD.findall(command):
         longer = f"{lines[-1]} {word}".lstrip()
         if lines[-1] and len(_INDENT) * len(lines[:2]) + len(longer) + len(_CONTINUED) > width:
             lines.append(word)

@@ -139,7 +139,7 @@ def test_head_room_and_spheres_are_asked_of_a_run(experiment: Experiment, arm: P
     calibration = run.calibrate()
     calibration.save(tmp_path / "calibration")
     spheres = run.sphere({str(tmp_path / "calibration"): calibration})
-    command = json.loads(_said("study", "fits", "sphere", arm / PARQUET, "-c", tmp_path / "calibration"))
+    command = json.loads(_said("study", "sphere", arm / PARQUET, "-c", tmp_path / "calibration"))
     rows = json.loads(spheres.json_text())["rows"]
     assert rows == command["rows"] != []
 
@@ -148,7 +148,7 @@ def test_ways_to_fit_are_studied_with_a_folder_or_without(arm: Path, tmp_path: P
     """Every candidate as the command has it, and its files; no file, and a type that there is not, are refused."""
     mine = study(arm / PARQUET, kinds=["OnTdTO"], lambdas=[1000.0, 0.0, 1000.0])
     words = ("--type", "OnTdTO", "--lambda", "0", "--lambda", "1000", "-o", tmp_path / "study")
-    command = json.loads(_said("study", "fits", "fits", arm / PARQUET, *words))
+    command = json.loads(_said("study", "fits", arm / PARQUET, *words))
     (sensor,), (twin,) = json.loads(mine.json_text())["sensors"], command["sensors"]
     assert sensor | {"folder": twin["folder"], "files": twin["files"]} == twin
     assert mine.folder is None

@@ -33,9 +33,7 @@ def _row(result: Any, candidate: str) -> Any:
 
 def test_the_result_is_what_the_library_finds(arm: Path, run: Run) -> None:
     """Masses, errors, index, intervals and verdicts, with the model and without; it fits its own schema."""
-    ended = run(
-        "study", "fits", "fits", "sphere", PARQUET, "-c", "fitted.json", "--interval", "judge", "--format", "json"
-    )
+    ended = run("study", "sphere", PARQUET, "-c", "fitted.json", "--interval", "judge", "--format", "json")
     result = ended.result()
     assert faults(result, run("schema", "sphere").result()) == []
     assert (result["schema"], result["experiment"]) == ("forcetorque/sphere/1", "small arm")
@@ -63,9 +61,7 @@ def test_the_result_is_what_the_library_finds(arm: Path, run: Run) -> None:
 
 def test_calibration_is_seen_to_mend(arm: Path, run: Run) -> None:
     """The three kinds of length have names of their own; what is unbounded is null."""
-    result = run(
-        "study", "fits", "fits", "sphere", PARQUET, "-c", "fitted.json", "--interval", "judge", "--format", "json"
-    ).result()
+    result = run("study", "sphere", PARQUET, "-c", "fitted.json", "--interval", "judge", "--format", "json").result()
     prior, new = _row(result, "prior"), _row(result, "fitted.json")
     assert new["with_reference"]["index_kg"] < 0.1 * prior["with_reference"]["index_kg"]
     assert prior["without_reference"]["identifiable"] is False
@@ -76,12 +72,10 @@ def test_calibration_is_seen_to_mend(arm: Path, run: Run) -> None:
 
 def test_what_was_fitted_is_warned_of(arm: Path, run: Run) -> None:
     """All intervals are taken if none is named, and those that flatter are named."""
-    ended = run("study", "fits", "fits", "sphere", PARQUET, "-c", "fitted.json", "--format", "json")
+    ended = run("study", "sphere", PARQUET, "-c", "fitted.json", "--format", "json")
     assert _row(ended.result(), "fitted.json")["fitted_on"] == ["fit"]
     assert "WARNING: fitted.json was fitted on 'fit', so the verdict on it flatters" in ended.log
-    quiet = run(
-        "study", "fits", "fits", "sphere", PARQUET, "-c", "fitted.json", "--interval", "judge", "--format", "json"
-    )
+    quiet = run("study", "sphere", PARQUET, "-c", "fitted.json", "--interval", "judge", "--format", "json")
     assert not any("flatters" in line for line in quiet.log)
 
 
@@ -105,7 +99,7 @@ def test_a_line_per_sensor_and_candidate_as_csv(arm: Path, run: Run) -> None:
 
 def test_the_table_has_both_columns_of_the_thesis(arm: Path, run: Run) -> None:
     """Errors of three axes and two indices per candidate, and a reason wherever something is not known."""
-    out = run("study", "fits", "fits", "sphere", PARQUET, "-c", "fitted.json", "--interval", "judge", "--details").out
+    out = run("study", "sphere", PARQUET, "-c", "fitted.json", "--interval", "judge", "--details").out
     lines = [line.split() for line in out.splitlines()]
     (prior,) = [line for line in lines if line[:3] == ["prior", "with", "model"] and line[-1] == "yes"]
     assert len(prior) == 3 + 3 + 3 + 1 + 1
@@ -120,25 +114,20 @@ def test_the_table_has_both_columns_of_the_thesis(arm: Path, run: Run) -> None:
 
 def test_sensors_are_chosen(arm: Path, run: Run) -> None:
     """Who names one gets one, once; a calibration of another one is then read for nothing, which is refused."""
-    named = run(
-        "study", "fits", "fits", "sphere", TWO, "--sensor", "tool_ft", "--sensor", "tool_ft", "--format", "json"
-    ).result()
+    named = run("study", "sphere", TWO, "--sensor", "tool_ft", "--sensor", "tool_ft", "--format", "json").result()
     assert [row["sensor"] for row in named["rows"]] == ["tool_ft"]
-    refused = run("study", "fits", "fits", "sphere", TWO, "--sensor", "tool_ft", "-c", "fitted.json").error()
+    refused = run("study", "sphere", TWO, "--sensor", "tool_ft", "-c", "fitted.json").error()
     assert "fitted.json: calibrates 'arm_ft', which --sensor leaves out" in refused
 
 
 def test_a_figure_is_written_where_it_is_asked(arm: Path, run: Run) -> None:
     """A PNG, named in the result; everything else stays as it is."""
     before = snapshot(arm)
-    result = run("study", "fits", "fits", "sphere", PARQUET, "--figure", "spheres.png", "--format", "json").result()
+    result = run("study", "sphere", PARQUET, "--figure", "spheres.png", "--format", "json").result()
     assert result["figure"] == "spheres.png"
     assert (arm / "spheres.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
     assert snapshot(arm).keys() - before.keys() == {"spheres.png"}
-    assert (
-        "drawn to spheres.png"
-        in run("study", "fits", "fits", "sphere", PARQUET, "--figure", "spheres.png", "--details").out
-    )
+    assert "drawn to spheres.png" in run("study", "sphere", PARQUET, "--figure", "spheres.png", "--details").out
 
 
 def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -146,11 +135,11 @@ def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkey
     for name in ("matplotlib", "matplotlib.figure", "matplotlib.backends.backend_agg"):
         monkeypatch.setitem(sys.modules, name, None)
     before = snapshot(arm)
-    refused = run("study", "fits", "fits", "sphere", PARQUET, "--figure", "spheres.png")
+    refused = run("study", "sphere", PARQUET, "--figure", "spheres.png")
     assert "pip install forcetorque[report]" in refused.error()
     assert refused.log == []
     assert snapshot(arm) == before
-    assert run("study", "fits", "fits", "sphere", PARQUET).code == 0
+    assert run("study", "sphere", PARQUET).code == 0
 
 
 @pytest.mark.parametrize(
@@ -166,14 +155,14 @@ def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkey
 def test_wrong_words_are_refused_in_one_line(arm: Path, run: Run, words: tuple[str, ...], message: str) -> None:
     """The option or the name is told, and nothing is written."""
     before = snapshot(arm)
-    assert message in run("study", "fits", "fits", "sphere", PARQUET, *words).error()
+    assert message in run("study", "sphere", PARQUET, *words).error()
     assert snapshot(arm) == before
 
 
 @pytest.mark.parametrize("figure", ["spheres.pdf", "nowhere/spheres.png"])
 def test_a_figure_is_refused_before_anything_is_read(arm: Path, run: Run, figure: str) -> None:
     """No minutes are lost to a folder that is not there."""
-    refused = run("study", "fits", "fits", "sphere", PARQUET, "--figure", figure)
+    refused = run("study", "sphere", PARQUET, "--figure", figure)
     assert f"--figure {figure}: expected" in refused.error()
     assert refused.log == []
 
@@ -205,20 +194,8 @@ def test_files_of_one_name_are_told_apart(arm: Path, run: Run) -> None:
     for folder in ("old", "new"):
         (arm / folder).mkdir()
         shutil.copy("fitted.json", arm / folder / "leg.json")
-    out = run(
-        "study",
-        "fits",
-        "fits",
-        "sphere",
-        PARQUET,
-        "-c",
-        "old/leg.json",
-        "-c",
-        "new/leg.json",
-        "--interval",
-        "judge",
-        "--details",
-    ).out
+    words = ("-c", "old/leg.json", "-c", "new/leg.json", "--interval", "judge", "--details")
+    _, out = run("study", "sphere", PARQUET, *words).out.split("\n\n", maxsplit=1)
     assert out.count("old/leg.json") == out.count("new/leg.json") > 4
     assert out.count("leg.json") == 2 * out.count("old/leg.json")
 
@@ -226,17 +203,17 @@ def test_files_of_one_name_are_told_apart(arm: Path, run: Run) -> None:
 def test_counts_are_refused_with_their_sensor(arm: Path, run: Run) -> None:
     """The message names file, sensor and candidate, what was expected and what to do."""
     edit(arm / PARQUET, 'prior = "matrix_SIM001.txt"', 'prior = "identity"')
-    error = run("study", "fits", "fits", "sphere", PARQUET).error()
+    error = run("study", "sphere", PARQUET).error()
     assert "parquet.toml: sensor 'arm_ft', prior: force: expected N, got" in error
     assert "can only be counts; multiply them by the sensor's matrix" in error
 
 
 def test_a_sensor_that_fails_is_named_and_does_not_take_the_others_with_it(arm: Path, run: Run) -> None:
     """One line in every form and on standard error; what is shown of the others is what they give alone."""
-    alone = run("study", "fits", "fits", "sphere", TWO, "--sensor", "arm_ft", "--format", "json").result()
+    alone = run("study", "sphere", TWO, "--sensor", "arm_ft", "--format", "json").result()
     assert alone["failures"] == []
     edit(arm / TWO, 'prior = "matrix_SIM002.txt"', 'prior = "identity"')
-    ended = run("study", "fits", "fits", "sphere", TWO, "--figure", "spheres.png", "--format", "json")
+    ended = run("study", "sphere", TWO, "--figure", "spheres.png", "--format", "json")
     assert ended.code == 1
     result = json.loads(ended.out)
     assert faults(result, run("schema", "sphere").result()) == []
@@ -246,10 +223,7 @@ def test_a_sensor_that_fails_is_named_and_does_not_take_the_others_with_it(arm: 
     assert failure["message"].startswith(f"{TWO}: sensor 'tool_ft', prior: force: expected N, got whole numbers")
     assert f"WARNING: failed: {failure['message']}" in ended.log
     assert (arm / "spheres.png").is_file()
-    shown, rows = (
-        run("study", "fits", "fits", "sphere", TWO, "--details"),
-        run("study", "fits", "fits", "sphere", TWO, "--format", "csv"),
-    )
+    shown, rows = run("study", "sphere", TWO, "--details"), run("study", "sphere", TWO, "--format", "csv")
     assert (shown.code, rows.code) == (1, 1)
     assert f"FAILED: {failure['message']}" in " ".join(shown.out.split())
     assert [row["sensor"] for row in csv.DictReader(io.StringIO(rows.out))] == ["arm_ft"]
@@ -260,7 +234,7 @@ def test_where_every_sensor_fails_there_is_no_result(arm: Path, run: Run) -> Non
     edit(arm / TWO, 'prior = "matrix_SIM001.txt"', 'prior = "identity"')
     edit(arm / TWO, 'prior = "matrix_SIM002.txt"', 'prior = "identity"')
     before = snapshot(arm)
-    error = run("study", "fits", "fits", "sphere", TWO, "--figure", "spheres.png", "--format", "json").error()
+    error = run("study", "sphere", TWO, "--figure", "spheres.png", "--format", "json").error()
     assert "two.toml: sensor 'arm_ft', prior: force: expected N" in error
     assert "two.toml: sensor 'tool_ft', prior: force: expected N" in error
     assert snapshot(arm) == before
@@ -272,9 +246,7 @@ def test_the_yoga_example(run: Run, data_dir: Path, tmp_path: Path) -> None:
     path = tmp_path / "yoga.toml"
     text = (EXAMPLES / "12_icub_yoga_sphere.toml").read_text(encoding="utf-8")
     path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
-    result = run(
-        "study", "fits", "fits", "sphere", path, "--figure", tmp_path / "yoga.png", "--format", "json"
-    ).result()
+    result = run("study", "sphere", path, "--figure", tmp_path / "yoga.png", "--format", "json").result()
     assert [row["form"] for row in result["rows"]] == ["cap", "cap", "plane"]
     for row in result["rows"]:
         assert row["without_reference"]["identifiable"] is False

@@ -54,7 +54,7 @@ def compared(intact: Path, run: Run, tmp_path_factory: pytest.TempPathFactory) -
     @cache
     def compare(*words: str) -> Outcome:
         with chdir(folder):
-            return run("study", "fits", "fits", "compare", FIRST, SECOND, LOOSE, *words)
+            return run("study", "compare", FIRST, SECOND, LOOSE, *words)
 
     return compare
 
@@ -79,9 +79,7 @@ def test_every_trial_is_what_sphere_finds(trials: Path, compared: Run, run: Run)
     assert result["failures"] == []
     seen = 0
     for name in (FIRST, SECOND, LOOSE):
-        for row in run("study", "fits", "fits", "sphere", name, "-c", "fitted.json", "--format", "json").result()[
-            "rows"
-        ]:
+        for row in run("study", "sphere", name, "-c", "fitted.json", "--format", "json").result()["rows"]:
             (mine,) = [
                 trial for trial in result["trials"] if (trial["file"], trial["candidate"]) == (name, row["candidate"])
             ]
@@ -155,7 +153,7 @@ def test_a_condition_is_shown_as_it_was_written(trials: Path, run: Run) -> None:
     for name, condition in ((FIRST, "1/2 turn"), (LOOSE, "3/2 turn")):
         path = trials / name
         path.write_text(path.read_text(encoding="utf-8").split("[trial]")[0] + f'[trial]\ncondition = "{condition}"\n')
-    out = run("study", "fits", "fits", "compare", FIRST, LOOSE, "--details").out
+    out = run("study", "compare", FIRST, LOOSE, "--details").out
     every = out.split("every trial")[1].split("index with the model")[0]
     assert "1/2 turn" in every
     assert "3/2 turn" in every
@@ -166,9 +164,7 @@ def test_files_of_one_name_are_told_apart(trials: Path, run: Run) -> None:
     for folder in ("old", "new"):
         (trials / folder).mkdir()
         shutil.copy(trials / "fitted.json", trials / folder / "leg.json")
-    out = run(
-        "study", "fits", "fits", "compare", FIRST, SECOND, "-c", "old/leg.json", "-c", "new/leg.json", "--details"
-    ).out
+    out = run("study", "compare", FIRST, SECOND, "-c", "old/leg.json", "-c", "new/leg.json", "--details").out
     assert out.count("old/leg.json") == out.count("new/leg.json") > 4
     assert out.count("leg.json") == 2 * out.count("old/leg.json")
 
@@ -176,8 +172,7 @@ def test_files_of_one_name_are_told_apart(trials: Path, run: Run) -> None:
 def test_the_order_of_files_is_that_of_the_trials(trials: Path, run: Run) -> None:
     """Turned round, only the drift changes, by its sign; numbers in the files rule over their order."""
     there, back = (
-        run("study", "fits", "fits", "compare", *names, "--format", "json").result()
-        for names in ((FIRST, SECOND), (SECOND, FIRST))
+        run("study", "compare", *names, "--format", "json").result() for names in ((FIRST, SECOND), (SECOND, FIRST))
     )
     one, other = (_group(result, "2 N m")["with_reference"] for result in (there, back))
     assert one["pooled"] == other["pooled"]
@@ -186,20 +181,20 @@ def test_the_order_of_files_is_that_of_the_trials(trials: Path, run: Run) -> Non
     assert one["pooled_centre_N"] == other["pooled_centre_N"][::-1]
     for name, number in ((FIRST, 2), (SECOND, 1)):
         add(trials / name, f"number = {number}\n")
-    numbered = run("study", "fits", "fits", "compare", FIRST, SECOND, "--format", "json").result()
+    numbered = run("study", "compare", FIRST, SECOND, "--format", "json").result()
     assert [trial["file"] for trial in numbered["trials"]] == [SECOND, FIRST]
     edit(trials / SECOND, "number = 1\n", "")
-    half = run("study", "fits", "fits", "compare", FIRST, SECOND, "--format", "json")
+    half = run("study", "compare", FIRST, SECOND, "--format", "json")
     assert [trial["file"] for trial in half.result()["trials"]] == [FIRST, SECOND]
     assert any("[trial] number is missing or double" in line for line in half.log)
 
 
 def test_intervals_may_be_trials(arm: Path, run: Run) -> None:
     """A file with two intervals then has two trials, which have no condition."""
-    result = run("study", "fits", "fits", "compare", PARQUET, "--trials", "intervals", "--format", "json").result()
+    result = run("study", "compare", PARQUET, "--trials", "intervals", "--format", "json").result()
     assert [(trial["trial"], trial["intervals"]) for trial in result["trials"]] == [(1, ["fit"]), (2, ["judge"])]
     assert _group(result, None)["trials"] == 2
-    out = run("study", "fits", "fits", "compare", PARQUET, "--trials", "intervals", "--details").out
+    out = run("study", "compare", PARQUET, "--trials", "intervals", "--details").out
     assert "no condition" in out
 
 
@@ -227,14 +222,12 @@ def test_a_bad_file_does_not_cost_the_table(trials: Path, run: Run) -> None:
 def test_all_bad_files_still_give_a_result(arm: Path, run: Run) -> None:
     """Nothing but failures, in every form."""
     edit(arm / PARQUET, 'path = "recording"', 'path = "nowhere"')
-    result = _ended_with_failures(
-        run("study", "fits", "fits", "compare", PARQUET, "--figure", "none.png", "--format", "json")
-    )
+    result = _ended_with_failures(run("study", "compare", PARQUET, "--figure", "none.png", "--format", "json"))
     assert (result["trials"], result["groups"], len(result["failures"])) == ([], [], 1)
     assert result["figure"] is None
     assert not (arm / "none.png").exists()
-    assert run("study", "fits", "fits", "compare", PARQUET).code == 1
-    assert run("study", "fits", "fits", "compare", PARQUET, "--format", "csv").code == 1
+    assert run("study", "compare", PARQUET).code == 1
+    assert run("study", "compare", PARQUET, "--format", "csv").code == 1
 
 
 def test_lines_of_numbers(compared: Run) -> None:
@@ -254,7 +247,7 @@ def test_lines_of_numbers(compared: Run) -> None:
 def test_a_figure_is_written_where_it_is_asked(trials: Path, run: Run) -> None:
     """A PNG, named in the result; everything else stays as it is."""
     before = snapshot(trials)
-    ended = run("study", "fits", "fits", "compare", FIRST, SECOND, "--figure", "compare.png", "--format", "json")
+    ended = run("study", "compare", FIRST, SECOND, "--figure", "compare.png", "--format", "json")
     assert ended.result()["figure"] == "compare.png"
     assert (trials / "compare.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
     assert snapshot(trials).keys() - before.keys() == {"compare.png"}
@@ -279,10 +272,10 @@ def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkey
     """Before any file is read, not after all of them."""
     for name in ("matplotlib", "matplotlib.figure", "matplotlib.backends.backend_agg"):
         monkeypatch.setitem(sys.modules, name, None)
-    refused = run("study", "fits", "fits", "compare", PARQUET, "--figure", "compare.png")
+    refused = run("study", "compare", PARQUET, "--figure", "compare.png")
     assert "pip install forcetorque[report]" in refused.error()
     assert refused.log == []
-    assert run("study", "fits", "fits", "compare", PARQUET).code == 0
+    assert run("study", "compare", PARQUET).code == 0
 
 
 @pytest.mark.parametrize(
@@ -299,7 +292,7 @@ def test_wrong_words_are_refused_before_anything_is_read(
     arm: Path, run: Run, words: tuple[str, ...], message: str
 ) -> None:
     """One line and exit code 2: no hours are lost."""
-    refused = run("study", "fits", "fits", "compare", PARQUET, *words)
+    refused = run("study", "compare", PARQUET, *words)
     assert message in refused.error()
     assert refused.log == []
 
@@ -313,7 +306,7 @@ def test_wrong_words_are_refused_before_anything_is_read(
 )
 def test_names_that_no_file_has_are_failures(arm: Path, run: Run, words: tuple[str, ...], message: str) -> None:
     """What a file may or may not have is found when it is read."""
-    result = _ended_with_failures(run("study", "fits", "fits", "compare", PARQUET, TWO, *words, "--format", "json"))
+    result = _ended_with_failures(run("study", "compare", PARQUET, TWO, *words, "--format", "json"))
     assert message in result["failures"][0]["message"]
 
 
@@ -323,7 +316,7 @@ def test_the_arms_and_the_leg_of_the_yoga(run: Run, data_dir: Path, tmp_path: Pa
     path = tmp_path / "yoga.toml"
     text = (EXAMPLES / "12_icub_yoga_sphere.toml").read_text(encoding="utf-8")
     path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
-    result = run("study", "fits", "fits", "compare", path, "--trials", "intervals", "--format", "json").result()
+    result = run("study", "compare", path, "--trials", "intervals", "--format", "json").result()
     assert len(result["trials"]) == 6
     assert len(result["groups"]) == 3
     fits = 0
@@ -346,7 +339,7 @@ def test_a_wrist_of_100_poses_and_of_7(run: Run, data_dir: Path, tmp_path: Path)
         folder = tmp_path / f"axia{suffix}"
         folder.mkdir()
         paths.append(write_axia(data_dir, folder, suffix))
-    result = _ended_with_failures(run("study", "fits", "fits", "compare", *paths, "--format", "json"))
+    result = _ended_with_failures(run("study", "compare", *paths, "--format", "json"))
     (trial,), (failure,) = result["trials"], result["failures"]
     assert trial["samples"] == 100
     assert trial["with_reference"]["identifiable"]
@@ -363,12 +356,12 @@ def test_halves_of_a_hundred_poses(run: Run, data_dir: Path, tmp_path: Path) -> 
     Its interval holds the index of all poses with one offset.
     """
     path = write_axia(data_dir, tmp_path, "_100")
-    whole = run("study", "fits", "fits", "compare", path, "--format", "json").result()["groups"][0]["with_reference"]
+    whole = run("study", "compare", path, "--format", "json").result()["groups"][0]["with_reference"]
     text = path.read_text(encoding="utf-8")
     assert text.count('label = "all"\nstart_s = 0.0\n') == 1
     halves = text.replace('label = "all"\nstart_s = 0.0\n', 'label = "a"\nstart_s = 0.0\nend_s = 50.0\n')
     path.write_text(f'{halves}[[interval]]\nlabel = "b"\nstart_s = 50.0\nuse = "calibration"\n')
-    result = run("study", "fits", "fits", "compare", path, "--trials", "intervals", "--format", "json").result()
+    result = run("study", "compare", path, "--trials", "intervals", "--format", "json").result()
     assert len(result["trials"]) == 2
     by = result["groups"][0]["with_reference"]
     assert (whole["known"], by["known"], by["rank"]) == (1, 1, None)
