@@ -211,10 +211,10 @@ def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, 
     shown = re.sub(
         r"\d", "0", re.sub(r"(?<======) (\d+) (?=details|=====)", lambda match: f" {'x' * int(match[1])} ", ended.out)
     )
-    file = FOLDER / f"{question_of(name)}.txt"
+    picture = FOLDER / f"{question_of(name)}.txt"
     if request.config.getoption("--write-snapshots"):
-        file.write_text(shown, encoding="utf-8")
-    assert shown == file.read_text(encoding="utf-8")
+        picture.write_text(shown, encoding="utf-8")
+    assert shown == picture.read_text(encoding="utf-8")
 
 
 def test_no_line_is_wider_than_its_terminal() -> None:

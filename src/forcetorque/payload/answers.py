@@ -57,13 +57,12 @@ def _load_verdict(load: LoadRow) -> str:
 
 def _bias(weighed: WeighedLoad) -> str:
     """The sign of a bias is what people get wrong: it is what is measured without load."""
-    last = weighed.sessions[-1]
-    parts = []
-    for part, unit in zip(FORCE_AND_MOMENT, ("N", "N m"), strict=True):
-        values = [value for value in last.bias[part] if value is not None]
-        halves = [value for value in last.bias_half_width_95[part] if value is not None]
-        if len(values) == len(halves) == len("xyz"):
-            parts.append(plus_minus(values, max(halves), unit))
+    last, parts = weighed.sessions[-1], []
+    for first, unit in ((0, "N"), (3, "N m")):
+        bias = [value for value in last.bias[first : first + 3] if value is not None]
+        halves = [value for value in last.bias_half_width_95[first : first + 3] if value is not None]
+        if len(bias) == len(halves) == len("xyz"):
+            parts.append(plus_minus(bias, max(halves), unit))
     of = (
         "" if len(weighed.sessions) == 1 else f" of {last.session!r}, the last of {len(weighed.sessions)} power cycles,"
     )
