@@ -134,8 +134,7 @@ def test_sphere_takes_one_side_of_the_sensor(inside: Path, run: Run) -> None:
     """All phases have not the same mass on it; one has, and double support is refused by name."""
     assert "choose intervals of one side" in run("study", "sphere", "switching_day1.toml", "--sensor", "l_leg_ft").err
     result = run(
-        "study", "fits",
-        "fits",
+        "study",
         "sphere",
         "switching_day1.toml",
         "--sensor",
