@@ -16,7 +16,7 @@ from forcetorque.evaluation.load_cases.verdict import (
     LoadCaseError,
     UseVerdict,
 )
-from forcetorque.evaluation.next_step import to_calibrate, to_export
+from forcetorque.evaluation.next_step import to_calibrate, to_export, to_plan
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, bounded
@@ -127,7 +127,7 @@ def _step(use: UseVerdict) -> tuple[str, str]:
     if remedy in (LOOK_FOR_CAUSE, KEEP_PRIOR, CORRECT_DATA):
         return remedy, typed("inspect", EXPERIMENT)
     records = any(ADVICE_BY_SOURCE[source] in remedy for source in ("matrix", "model"))
-    return remedy, typed("plan", EXPERIMENT, "-c", use.candidate) if records else ""
+    return remedy, to_plan(use.candidate) if records else ""
 
 
 def _mean(value: float, half_width: float | None, unit: str) -> str:

@@ -6,6 +6,18 @@ from __future__ import annotations
 from forcetorque.results.answer import EXPERIMENT, typed
 
 
+def to_plan(calibration: str) -> str:
+    """Give the command that says what to record next.
+
+    Args:
+        calibration: File of the calibration.
+
+    Returns:
+        The command, with a distance from joint limits, which it needs.
+    """
+    return typed("plan", EXPERIMENT, "-c", calibration, "--clearance-deg", "10")
+
+
 def to_calibrate(sensor: str) -> tuple[str, str]:
     """Give the step that follows where there is no calibration.
 

@@ -8,7 +8,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
-from forcetorque.evaluation.next_step import to_calibrate, to_export
+from forcetorque.evaluation.next_step import to_calibrate, to_export, to_plan
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.table import short_names
@@ -90,5 +90,5 @@ def _step(worst: Criterion) -> tuple[str, str]:
     if calibration == PRIOR:
         return to_calibrate(worst.sensor)
     if table in _OF_INFORMATION:
-        return "record more, and calibrate again", typed("plan", EXPERIMENT, "-c", calibration)
+        return "record more, and calibrate again", to_plan(calibration)
     return "see where the errors come from", typed("evaluate", EXPERIMENT, "-c", calibration, "--details")
