@@ -164,7 +164,16 @@ def _write_run(
 def main(folder: Path) -> None:
     """Make the data and let them meet."""
     config = write_contest(folder)
-    command = [sys.executable, "-m", "forcetorque", "bench", "contest", str(config), "--figure", str(folder / "contest.png")]
+    command = [
+        sys.executable,
+        "-m",
+        "forcetorque",
+        "bench",
+        "contest",
+        str(config),
+        "--figure",
+        str(folder / "contest.png"),
+    ]
     subprocess.run(command, check=True)
 
 
