@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
-from typing import Annotated, Final
+from typing import Annotated, Any, Final
 
 import typer
 
@@ -17,6 +17,8 @@ from forcetorque.results.terminal.help import WholeSentences
 from forcetorque.results.terminal.output import report_error, spell_missing_letters
 
 _NAME = "forcetorque"
+_CONTEXT: Final[dict[str, Any]] = {"help_option_names": ["-h", "--help"]}
+"""Of the program; commands and groups inherit it."""
 _TOP = (
     "forcetorque.app.demo:demo",
     "forcetorque.app.run.command:run",
@@ -99,7 +101,13 @@ def _program(first: list[str]) -> typer.Typer:
     name, both = next(iter(first), ""), " ".join(first[:2])
     if name not in known and both not in known:
         return whole_program()
-    one = typer.Typer(name=_NAME, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
+    one = typer.Typer(
+        name=_NAME,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        rich_markup_mode=None,
+        context_settings=_CONTEXT,
+    )
     one.callback(add_help_option=False)(_no_options)
     if name in known:
         _add(one, name, known[name])
@@ -117,6 +125,7 @@ def whole_program() -> typer.Typer:
     program = typer.Typer(
         name=_NAME,
         cls=_ByPanels,
+        context_settings=_CONTEXT,
         help="Calibrate force-torque sensors where they are mounted, and say how far to trust them.",
         no_args_is_help=True,
         pretty_exceptions_enable=False,
