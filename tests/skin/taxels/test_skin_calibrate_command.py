@@ -104,11 +104,11 @@ def test_inspect_names_broken_taxels(run: Run, palm: Path) -> None:
     "words",
     [
         ("calibrate", "fit.toml", "-o", "new.json"),
-        ("gains", "fit.toml"),
+        ("bench", "gains", "fit.toml"),
         ("payload", "fit.toml"),
         ("plan", "fit.toml"),
-        ("sphere", "fit.toml"),
-        ("study", "fit.toml", "-o", "study"),
+        ("study", "sphere", "fit.toml"),
+        ("study", "fits", "fit.toml", "-o", "study"),
         ("estimate", "fit.toml", "-o", "contacts.csv"),
     ],
 )
