@@ -175,9 +175,11 @@ class Result(Row):
             yield sentence if count == 1 else f"{sentence} ({count} times)"
 
     def __str__(self) -> str:
+        answers = tuple(self.answers())
         # the command line has standard error for warnings; a script that prints a result has no other place
         doubtful = "".join(f"{wrapped(f'warning: {sentence}', NOTEBOOK_WIDTH)}\n" for sentence in self.cautions())
-        return f"{doubtful}\n{self.text()}" if doubtful else self.text()
+        parts = (answer_text(answers, NOTEBOOK_WIDTH) if answers else "", doubtful, self.details())
+        return "\n".join(part for part in parts if part)
 
     def _repr_html_(self) -> str:
         answers = tuple(self.answers())
