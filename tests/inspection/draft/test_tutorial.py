@@ -75,7 +75,7 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert shown is not None
     assert shown[1] in error
     experiment.write_text(_answered(text), encoding="utf-8")
-    assert re.search(r"off_level", run(*inspect).out)
+    assert re.search(r"off level", run(*inspect).out)
     fitted = run(*calibrate)
     assert fitted.code == 0, fitted.err
     judged = run(*evaluate).out
