@@ -75,10 +75,10 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert shown is not None
     assert shown[1] in error
     experiment.write_text(_answered(text), encoding="utf-8")
-    assert re.search(r"off level", run(*inspect).out)
+    assert re.search(r"25\.3-29\.7 s, log: light contact up to 11 N", run(*inspect).out)
     fitted = run(*calibrate)
     assert fitted.code == 0, fitted.err
-    judged = run(*evaluate).out
+    judged = run(*evaluate, "--details").out
     for words in (
         "force error 0.13 N against 2.65 N with the prior",
         "it errs by some 0.7 N",
