@@ -96,7 +96,7 @@ def test_rows_and_table_say_the_same(arm: Path, run: Run) -> None:
     """CSV has one row per finding, the table ends with their number."""
     rows = run("inspect", arm / "log", "--format", "csv").rows()
     assert [row["kind"] for row in rows] == ["not_estimated"] * 2
-    shown = run("inspect", arm / "log")
+    shown = run("inspect", arm / "log", "--details")
     assert shown.code == 0
     assert "2 finding(s)" in shown.out
 
