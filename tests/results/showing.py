@@ -6,7 +6,8 @@ from __future__ import annotations
 import html
 from collections.abc import Iterator
 
-from forcetorque.results.result import Result
+from forcetorque.results.answer import answer_text
+from forcetorque.results.result import NOTEBOOK_WIDTH, Result
 from forcetorque.results.table import Table
 
 NARROW = 60
@@ -30,7 +31,7 @@ def folded(result: Result, width: int) -> set[str]:
 
 
 def require_shown(result: Result) -> None:
-    """Narrow text keeps its numbers, the page every table, both say the warnings; a first cell is short."""
+    """Narrow text keeps its numbers, the page every table, both say the warnings; the answer comes first."""
     assert folded(result, NARROW) == set()
     page = result._repr_html_().replace("\N{NO-BREAK SPACE}", " ")
     tables = [block for block in result.blocks() if isinstance(block, Table)]
@@ -39,7 +40,9 @@ def require_shown(result: Result) -> None:
         assert all(f">{cell}</td>" in page for cell in table.rows[0] if cell.isalnum())
     assert len(repr(result)) < FEW
     printed = str(result)
-    assert printed.endswith(result.text())
+    answers = tuple(result.answers())
+    assert printed.startswith(answer_text(answers, NOTEBOOK_WIDTH) if answers else "")
+    assert printed.endswith(result.details())
     assert (printed == result.text()) == (not result.warnings)
     for sentence in result.warnings:
         assert " ".join(sentence.split()) in " ".join(printed.split())

@@ -59,7 +59,7 @@ def test_the_worst_criterion_is_the_reason_of_a_rejection() -> None:
     ("name", "candidate", "command"),
     [
         ("recording.lost_share", "leg.json", f"inspect {EXPERIMENT}"),
-        ("excitation.condition", "leg.json", f"plan {EXPERIMENT} -c leg.json"),
+        ("excitation.condition", "leg.json", f"plan {EXPERIMENT} -c leg.json --clearance-deg 10"),
         ("evaluate.rmse.fz", "leg.json", f"evaluate {EXPERIMENT} -c leg.json --details"),
         ("evaluate.rmse.fz", "prior", f"calibrate {EXPERIMENT} --sensor leg -o leg.json"),
     ],
