@@ -67,7 +67,7 @@ def test_inspect_compares_only_where_the_reading_is_known(inside: Path, run: Run
 def test_one_sensor_is_calibrated_and_judged_over_its_known_phases(inside: Path, tmp_path: Path, run: Run) -> None:
     """Fitted on the first day it is far better than its prior on the second; others follow."""
     fitted = tmp_path / "leg.json"
-    outcome = run("calibrate", "switching_day1.toml", "--sensor", "l_leg_ft", "-o", fitted)
+    outcome = run("calibrate", "switching_day1.toml", "--sensor", "l_leg_ft", "-o", fitted, "--details")
     assert outcome.code == 0
     assert (
         sum("is left out: r_sole touches the robot beyond the sensor" in line for line in outcome.err.splitlines()) == 3
