@@ -112,7 +112,9 @@ def test_all_sensors_are_calibrated_jointly_over_all_phases(inside: Path, tmp_pa
 
 def test_one_leg_is_calibrated_jointly_where_it_hangs_or_bears_alone(inside: Path, tmp_path: Path, run: Run) -> None:
     """By itself it has no untouched part beside it on both feet: these intervals are left out by name."""
-    outcome = run("calibrate", "switching_day1.toml", "--jointly", "--sensor", "l_leg_ft", "-o", tmp_path / "joint")
+    outcome = run(
+        "calibrate", "switching_day1.toml", "--jointly", "--sensor", "l_leg_ft", "-o", tmp_path / "joint", "--details"
+    )
     assert outcome.code == 0
     for label in DOUBLE:
         assert (
@@ -132,7 +134,10 @@ def test_estimate_finds_the_feet_of_each_phase(inside: Path, tmp_path: Path, run
 
 def test_sphere_takes_one_side_of_the_sensor(inside: Path, run: Run) -> None:
     """All phases have not the same mass on it; one has, and double support is refused by name."""
-    assert "choose intervals of one side" in run("study", "sphere", "switching_day1.toml", "--sensor", "l_leg_ft").err
+    assert (
+        "choose intervals of one side"
+        in run("study", "sphere", "switching_day1.toml", "--sensor", "l_leg_ft", "--details").err
+    )
     result = run(
         "study",
         "sphere",
@@ -153,7 +158,7 @@ def test_sphere_takes_one_side_of_the_sensor(inside: Path, run: Run) -> None:
 def test_gains_and_view_take_it(inside: Path, tmp_path: Path, run: Run) -> None:
     """Head-room of the channels, and a page whose robot changes its support."""
     assert run("bench", "gains", "switching_day1.toml").code == 0
-    shown = run("view", "switching_day1.toml", "--sensor", "l_leg_ft", "-o", tmp_path / "page.html")
+    shown = run("view", "switching_day1.toml", "--sensor", "l_leg_ft", "-o", tmp_path / "page.html", "--details")
     assert shown.code == 0
     assert shown.err.count("support 'l_sole' moves") == 1
     assert "sensor 'l_leg_ft': no expected wrench in double_1, double_2, double_3, where r_sole touches" in shown.err
