@@ -8,14 +8,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, get_args
 
 from forcetorque.inspection.plausibility.hypotheses import FaultKind
-from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.answer import Answer, Concern, typed
+from forcetorque.results.number_text import amount
 
 if TYPE_CHECKING:
     from forcetorque.inspection.inspect import FindingRow, Inspection
 
 _LEADING: Final = ("contact", "light_contact")
 """Kinds that make an event by themselves; what else is found meanwhile belongs to it."""
-_FAULTS: Final = frozenset(get_args(FaultKind))
+_FAULTS: Final = frozenset((*get_args(FaultKind), "implausible"))
+"""Kinds that are about the file, the URDF or the log as a whole, and by more than a doubt."""
 _APART_S: Final = 1.0
 """Time between findings of two events."""
 _WHOLE: Final = 0.95
@@ -57,9 +59,7 @@ def _kind_text(kind: str, rows: Sequence[FindingRow]) -> str:
     for row in rows:
         if row.size and row.unit is not None:
             sizes[row.unit] = max(sizes.get(row.unit, 0.0), abs(row.size))
-    largest = " and ".join(
-        f"{value:.0f} {unit}" if value >= 100.0 else f"{value:.2g} {unit}" for unit, value in sizes.items()
-    )
+    largest = " and ".join(amount(value, unit) for unit, value in sizes.items())
     size = f" up to {largest}" if largest else ""
     return f"{kind.replace('_', ' ')}{where}{size}"
 
@@ -71,9 +71,9 @@ def faults(findings: Iterable[FindingRow]) -> tuple[FindingRow, ...]:
         findings: Findings.
 
     Returns:
-        Those of a fault that explains the measurements, and of what `calibrate` refuses or warns of.
+        Those of a fault that explains the measurements, and of what `calibrate` refuses; what it only warns of is none.
     """
-    return tuple(row for row in findings if row.kind in _FAULTS or row.kind.startswith("implausible"))
+    return tuple(row for row in findings if row.kind in _FAULTS)
 
 
 def events(findings: Iterable[FindingRow], duration_s: float) -> tuple[Event, ...]:
@@ -133,6 +133,7 @@ def inspection_answer(inspection: Inspection) -> Answer:
     grouped = events(inspection.findings, inspection.duration_s)
     notes = [row.message for row in inspection.findings if is_about_all(row, inspection.duration_s)]
     source, is_experiment = inspection.source, inspection.source.endswith(".toml")
+    begin = typed("init", source, "-o", "experiment.toml")
     subject = f"{source}: {inspection.duration_s:.1f} s, {len(inspection.streams)} stream(s)"
     if wrong := faults(inspection.findings):
         return Answer(
@@ -140,7 +141,7 @@ def inspection_answer(inspection: Inspection) -> Answer:
             verdict=f"{len(wrong)} FAULT{'S' * (len(wrong) > 1)}",
             why=tuple(f"{row.stream}: {row.message}" for row in wrong[:2]),
             step="correct it, and inspect again",
-            command=f"inspect {source}",
+            command=typed("inspect", source),
             concern=Concern.BAD,
         )
     more = (f"{len(notes)} remark(s) on the whole log: {notes[0]}",) if notes else ()
@@ -150,7 +151,7 @@ def inspection_answer(inspection: Inspection) -> Answer:
             verdict="REMARKS" if notes else "NOTHING FOUND",
             why=more,
             step=_NEXT[is_experiment],
-            command=(f"calibrate {source} -o calibrations" if is_experiment else f"init {source} -o experiment.toml"),
+            command=typed("calibrate", source, "-o", "calibrations") if is_experiment else begin,
             concern=Concern.UNCERTAIN if notes else Concern.NONE,
         )
     longest = sorted(grouped, key=lambda event: event.start_s - event.end_s)[:_MOST]
@@ -163,7 +164,7 @@ def inspection_answer(inspection: Inspection) -> Answer:
         verdict=f"{len(grouped)} EVENT{'S' * (len(grouped) > 1)}",
         why=(*shown, *((f"{rest} shorter one(s)",) if rest else ()), bar, *more),
         step="leave these events out of every [[interval]]" if is_experiment else _NEXT[False],
-        command="" if is_experiment else f"init {source} -o experiment.toml",
+        command="" if is_experiment else begin,
         concern=Concern.UNCERTAIN,
     )
 

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What `inspect` says first: events in time, faults of the file before them, and doubts that are no faults."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+from forcetorque.inspection.answers import events, faults, inspection_answer
+from forcetorque.inspection.inspect import FindingRow, Inspection
+from forcetorque.inspection.plausibility.hypotheses import FaultKind
+from forcetorque.results.answer import Concern
+from tests.app.outcome import Run
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+
+def _row(kind: str, start_s: float | None = None, end_s: float | None = None, **more: object) -> FindingRow:
+    given = {"stream": "leg", "channel": None, "count": 1, "size": None, "unit": None, "message": f"this is {kind}"}
+    return FindingRow.model_validate({**given, "kind": kind, "start_s": start_s, "end_s": end_s, **more})
+
+
+def _inspection(*rows: FindingRow, source: str = "walk.toml") -> Inspection:
+    return Inspection(source=source, streams={}, duration_s=60.0, findings=rows)
+
+
+def test_findings_of_one_contact_are_one_event() -> None:
+    """What begins within it belongs to it, what is a second away or of another stream does not."""
+    rows = (
+        _row("step", 12.0, 12.0, channel="fx", size=-25.0, unit="N"),
+        _row("step", 11.0, 11.0, channel="fy", size=6.0, unit="N"),
+        _row("contact", 10.0, 20.0, size=164.0, unit="N"),
+        _row("step", 30.0, 30.0, channel="fz", size=5.0, unit="N"),
+        _row("off_level", 30.5, 33.0, channel="fz", size=9.0, unit="N"),
+        _row("gap", 31.0, 31.5, stream="joints"),
+    )
+    assert [event.text for event in events(rows, 60.0)] == [
+        "10.0-20.0 s, leg: contact up to 164 N; step in fx, fy up to 25 N",
+        "30.0-33.0 s, leg: step in fz up to 5 N; off level in fz up to 9 N",
+        "31.0-31.5 s, joints: gap",
+    ]
+
+
+def test_the_bar_shows_the_time_without_events() -> None:
+    """A third of a minute in the middle is not usable; a finding of the whole log takes nothing from it."""
+    answer = inspection_answer(_inspection(_row("contact", 20.0, 40.0), _row("not_estimated", 0.0, 59.9)))
+    (bar,) = (line for line in answer.why if "|" in line)
+    cells = bar.split("|")[1]
+    assert answer.verdict == "1 EVENT"
+    assert cells.strip("█") == "░" * cells.count("░")
+    assert cells.count("░") == pytest.approx(len(cells) / 3, abs=2)
+    assert any(line.startswith("1 remark(s) on the whole log: this is not_estimated") for line in answer.why)
+
+
+@pytest.mark.parametrize("kind", [*get_args(FaultKind), "implausible"])
+def test_a_fault_comes_first(kind: str) -> None:
+    """Before contacts, with the command to see whether it is mended, quoted where a shell needs it."""
+    answer = inspection_answer(_inspection(_row("contact", 1.0, 2.0), _row(kind), source="my walk.toml"))
+    assert (answer.verdict, answer.concern) == ("1 FAULT", Concern.BAD)
+    assert answer.why == (f"leg: this is {kind}",)
+    assert answer.command == "inspect 'my walk.toml'"
+
+
+@pytest.mark.parametrize("kind", ["implausible_scale", "implausible_span", "implausible_delay"])
+def test_what_calibrate_only_warns_of_is_no_fault(kind: str) -> None:
+    """It is a remark."""
+    inspection = _inspection(_row(kind))
+    assert faults(inspection.findings) == ()
+    assert inspection_answer(inspection).verdict == "REMARKS"
+
+
+@pytest.mark.real_data
+def test_a_foot_of_which_the_gain_is_doubted_is_not_called_faulty(run: Run, data_dir: Path, tmp_path: Path) -> None:
+    """Its matrix bears the robot's weight within a percent: that `calibrate` doubts its gain is a remark."""
+    path = tmp_path / "contacts.toml"
+    text = (EXAMPLES / "08_icub_yoga_contacts.toml").read_text(encoding="utf-8")
+    path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
+    result = run("inspect", path, "--format", "json").result()
+    assert "implausible_scale" in {finding["kind"] for finding in result["findings"]}
+    assert "FAULT" not in run("inspect", path).out.splitlines()[0]
