@@ -40,8 +40,7 @@ def require_shown(result: Result) -> None:
         assert all(f">{cell}</td>" in page for cell in table.rows[0] if cell.isalnum())
     assert len(repr(result)) < FEW
     printed = str(result)
-    answers = tuple(result.answers())
-    assert printed.startswith(answer_text(answers, NOTEBOOK_WIDTH) if answers else "")
+    assert printed.startswith(answer_text(tuple(result.answers()), NOTEBOOK_WIDTH))
     assert printed.endswith(result.details())
     assert (printed == result.text()) == (not result.warnings)
     for sentence in result.warnings:

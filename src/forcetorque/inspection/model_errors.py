@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 
@@ -114,7 +114,7 @@ class ModelErrors(ArrayRecord):
             The rest, for slow changes; shape (n, 6); N, N m.
         """
         rows = np.flatnonzero(self.usable)
-        rows = rows[np.unique(np.linspace(0, len(rows) - 1, min(_MOST, len(rows))).round().astype(np.int64))]
+        rows = _thinned(rows)
         loads = self.expected[rows]
         middle, size = loads.mean(axis=0), np.maximum(np.ptp(loads, axis=0), np.finfo(float).tiny)
         design = _design(loads, middle, size)
@@ -131,7 +131,7 @@ class ModelErrors(ArrayRecord):
         rows = np.flatnonzero(rest)
         if len(rows) < _FEWEST:
             return None
-        rows = rows[np.unique(np.linspace(0, len(rows) - 1, min(_MOST, len(rows))).round().astype(np.int64))]
+        rows = _thinned(rows)
         loads, own = self.expected[rows], self.expected[first : last + 1]
         low, high = loads.min(axis=0), loads.max(axis=0)
         reach = _BEYOND * (high - low)
@@ -140,6 +140,11 @@ class ModelErrors(ArrayRecord):
         middle, size = loads.mean(axis=0), np.maximum(high - low, np.finfo(float).tiny)
         coefficients = _robust_fit(_design(loads, middle, size), self.residual[rows])
         return np.asarray(_design(own, middle, size) @ coefficients)
+
+
+def _thinned(rows: IntArray) -> IntArray:
+    """At most `_MOST` of them, evenly."""
+    return rows[np.unique(np.linspace(0, len(rows) - 1, min(_MOST, len(rows))).round().astype(np.int64))]
 
 
 def _tolerance(change: FloatArray, shares: tuple[float, float, float], *, is_moment: bool) -> FloatArray:

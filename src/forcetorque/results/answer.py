@@ -14,6 +14,7 @@ from forcetorque.results.table_rendering import shortened, wrapped
 
 EXPERIMENT: Final = "{experiment}"
 """Stands in a command for the experiment files that were typed."""
+_ANY = "EXPERIMENT.toml"
 MOST_LINES: Final = 12
 """Lines of the answer about one sensor or one thing at 80 characters, warnings included; a further one adds a line."""
 _INDENT = "  "
@@ -70,17 +71,19 @@ class Answer:
     """How much it asks for attention."""
 
 
-def answer_text(answers: Sequence[Answer], width: int, experiment: str = "EXPERIMENT.toml") -> str:
+def answer_text(answers: Sequence[Answer], width: int, experiment: str = "") -> str:
     """Write answers for people: a line for each, the worst first, and why and what next for the worst.
 
     Args:
-        answers: At least one.
+        answers: The answers.
         width: Characters of a line.
-        experiment: What stands for the experiment files in commands.
+        experiment: What stands for the experiment files in commands; a word for any if empty.
 
     Returns:
-        Lines, each with its end.
+        Lines, each with its end; empty without answers.
     """
+    if not answers:
+        return ""
     ordered = sorted(answers, key=lambda answer: -answer.concern)
     return "".join(f"{line}\n" for line in _lines(ordered, width, experiment))
 
@@ -98,7 +101,7 @@ def _lines(answers: Sequence[Answer], width: int, experiment: str) -> Iterator[s
     if worst.step:
         yield wrapped(f"next: {worst.step}", width)
     if worst.command:
-        yield _command(f"forcetorque {worst.command.replace(EXPERIMENT, experiment)}", width)
+        yield _command(f"forcetorque {worst.command.replace(EXPERIMENT, experiment or _ANY)}", width)
 
 
 def _headline(answer: Answer, width: int) -> str:

@@ -136,8 +136,7 @@ class Result(Row):
         Returns:
             Lines, each with its end.
         """
-        answers = tuple(self.answers())
-        return (f"{answer_text(answers, width)}\n" if answers else "") + self.details(width)
+        return "\n".join(filter(None, (self._answer(width), self.details(width))))
 
     def details(self, width: int = NOTEBOOK_WIDTH) -> str:
         """Write tables and sentences without the answer.
@@ -175,16 +174,16 @@ class Result(Row):
             yield sentence if count == 1 else f"{sentence} ({count} times)"
 
     def __str__(self) -> str:
-        answers = tuple(self.answers())
         # the command line has standard error for warnings; a script that prints a result has no other place
         doubtful = "".join(f"{wrapped(f'warning: {sentence}', NOTEBOOK_WIDTH)}\n" for sentence in self.cautions())
-        parts = (answer_text(answers, NOTEBOOK_WIDTH) if answers else "", doubtful, self.details())
-        return "\n".join(part for part in parts if part)
+        return "\n".join(filter(None, (self._answer(NOTEBOOK_WIDTH), doubtful, self.details())))
+
+    def _answer(self, width: int) -> str:
+        return answer_text(tuple(self.answers()), width)
 
     def _repr_html_(self) -> str:
-        answers = tuple(self.answers())
         return (
-            html_lines(answer_text(answers, NOTEBOOK_WIDTH) if answers else "")
+            html_lines(self._answer(NOTEBOOK_WIDTH))
             + html_warnings(self.cautions())
             + "".join(
                 f"<p>{html_text(block)}</p>" if isinstance(block, str) else html_table(block) for block in self._shown()

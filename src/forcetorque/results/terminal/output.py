@@ -102,7 +102,7 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
         show_warnings(result)
         sys.stdout.write(result.text(columns))
         return
-    text = answer_text(answers, columns, *([shlex.join(map(str, experiments))] if experiments else ()))
+    text = answer_text(answers, columns, shlex.join(map(str, experiments)))
     sys.stdout.write(text)
     if details:
         sys.stdout.write("\n" + result.details(columns))
