@@ -48,6 +48,7 @@ end_s = 119.0
 use = "validation"
 support = "base"
 """
+_FILES = ("experiment.toml", "arm.urdf", "matrix_SIM001.txt", "recording", "calibration.json", "before_and_after.png")
 _PUSH_N, _LEVER_M, _PUSHES = 50.0, 0.3, 1000
 
 
@@ -119,6 +120,7 @@ def _simulated(folder: Path) -> tuple[FloatArray, FloatArray]:
     from forcetorque.simulation.trace import simulate_recording
 
     folder.mkdir(parents=True, exist_ok=True)
+    _refuse_foreign(folder)
     factory = y_shaped_matrix(arm_m=0.02, counts_per_newton=60.0)
     mounted = distorted_by_mounting(factory, relative=0.05, rng=np.random.default_rng(7))
     model = read_urdf(ARM_URDF)
@@ -142,6 +144,16 @@ def _simulated(folder: Path) -> tuple[FloatArray, FloatArray]:
     shutil.copyfile(ARM_URDF, folder / "arm.urdf")
     write_bytes_atomically(folder / "experiment.toml", _EXPERIMENT.encode())
     return mounted, factory
+
+
+def _refuse_foreign(folder: Path) -> None:
+    """Refuse a folder with an experiment that no demonstration made: its files have the same names."""
+    from forcetorque.base.errors import OutputError
+
+    file = folder / "experiment.toml"
+    made = file.is_file() and file.read_bytes() == _EXPERIMENT.encode()
+    if not made and any((folder / name).exists() for name in _FILES):
+        raise OutputError(f"{folder}: expected a new folder, or that of an earlier demonstration; name another one")
 
 
 def _errors_of_pushes(mounted: FloatArray, matrices: dict[str, FloatArray]) -> dict[str, tuple[float, float]]:

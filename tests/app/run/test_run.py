@@ -134,6 +134,12 @@ def test_a_log_without_a_file_asks_its_questions(tmp_path: Path, run: Run, monke
     assert not answer_questions(file, answer)
     assert len(asked) == len(questions)
     assert len(open_questions(file)) == 1
+    Path("other.csv").write_text("time,fx,fy,fz,tx,ty,tz\n", encoding="utf-8")
+    before = snapshot(tmp_path)
+    assert "was begun of another log than other.csv" in run("run", "other.csv", "-o", "results", "--no-input").error()
+    assert "got both" in run("run", "log.csv", file, "-o", "results", "--no-input").error()
+    assert snapshot(tmp_path) == before
+    assert run("run", "log.csv", "-o", "results", "--no-input").code == 4
     assert answer_questions(file, lambda _: "[1, 2]")
     assert open_questions(file) == ()
     assert "[1, 2]" in file.read_text(encoding="utf-8")
@@ -165,6 +171,25 @@ def test_recordings_of_one_use_each_go_together(folder: Path, run: Run) -> None:
     lonely = run("run", "judge.toml", "-o", "other", "--no-report")
     assert 'use = "calibration"' in lonely.err + lonely.out
     assert lonely.code in (2, 3)
+
+
+def test_inputs_and_other_files_are_never_written_over(folder: Path, run: Run) -> None:
+    """The prior has the name of an exported matrix: it is refused at once, with --force too; so is a file as folder."""
+    before = snapshot(folder)
+    for more in ((), ("--force",)):
+        refused = run("run", PARQUET, "-o", ".", "--no-report", *more).error()
+        assert "matrix_SIM001.txt" in refused
+        assert "got an input of the result" in refused
+    assert "got a file" in run("run", PARQUET, "-o", PARQUET, "--no-report").error()
+    assert snapshot(folder) == before
+
+
+def test_the_demonstration_writes_over_nothing_of_others(folder: Path, run: Run) -> None:
+    """A folder with an experiment of its own is left as it is."""
+    (folder / "experiment.toml").write_text("mine", encoding="utf-8")
+    before = snapshot(folder)
+    assert "or that of an earlier demonstration" in run("demo", ".").error()
+    assert snapshot(folder) == before
 
 
 @pytest.mark.usefixtures("folder")

@@ -28,7 +28,7 @@ from forcetorque.results.table import Table
 from forcetorque.results.table_rendering import html_table, html_warnings
 
 if TYPE_CHECKING:
-    from forcetorque.app.run.result import WholeRun
+    from forcetorque.app.run import run as _run
     from forcetorque.estimation.result import EstimateSummary
     from forcetorque.inspection import inspect as _inspection
     from forcetorque.locomotion.standing.standing import Balance
@@ -43,8 +43,10 @@ class Experiment(ExperimentContent):
     coherence = _locomotion.coherence
     if TYPE_CHECKING:
         inspect = _inspection.inspected
+        run = _run.run
     else:
         inspect = LazyMethod("forcetorque.inspection.inspect:inspected")
+        run = LazyMethod("forcetorque.app.run.run:run")
 
     @classmethod
     def of(cls, content: ExperimentContent) -> Self:
@@ -170,41 +172,6 @@ class Experiment(ExperimentContent):
         file = None if output is None else Path(output)
         summary = summarise_estimates(self, corrections, spans, file=file, fusions=fusions, frictions=frictions)
         return summary.model_copy(update={"intervals": tuple(spans)})
-
-    def run(
-        self,
-        output: Path | str,
-        *,
-        sensors: Sequence[str] | None = None,
-        override: str | None = None,
-        with_report: bool = True,
-        force: bool = False,
-        progress: Callable[[str], None] = lambda _: None,
-    ) -> WholeRun:
-        """Go the whole way: inspect, check, calibrate or weigh, evaluate, report, export.
-
-        Args:
-            output: Folder for calibrations, report and exported files; made if it is not there.
-            sensors: Sensors; all if left out.
-            override: Reason to go on where a stage would stop; it is written into the calibrations and the report.
-            with_report: Whether the report is drawn, which takes longest.
-            force: Whether files of an earlier run in the folder may be replaced.
-            progress: Called with a line for people as work goes on, such as `print`.
-
-        Returns:
-            Stages, verdicts and files; `exit_code` sums them up.
-        """
-        from forcetorque.app.run.run import run
-
-        return run(
-            self,
-            output,
-            sensors=sensors,
-            override=override,
-            with_report=with_report,
-            force=force,
-            progress=progress,
-        )
 
     def view(
         self,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from forcetorque.base.errors import ExperimentError
 from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption, SensorOption
 from forcetorque.results.terminal.output import Format, refuse_standard_output, show, start_logging
 
@@ -55,7 +56,7 @@ def run(
 
     log = start_logging()
     refuse_standard_output("--output", output)
-    if any(path.suffix.lower() != ".toml" for path in files):
+    if not _state_experiments(files):
         files = [_begun(files, output, urdf, force=force)]
         if (unanswered := _unanswered(files[0], no_input=no_input)) is not None:
             _end(unanswered, output_format, details=details, files=files)
@@ -76,12 +77,27 @@ def _end(result: WholeRun, output_format: Format, *, details: bool, files: list[
     raise typer.Exit(int(result.exit_code))
 
 
+def _state_experiments(files: list[Path]) -> bool:
+    """Whether the files are experiment files; else they are logs. Some of each are refused."""
+    stated = [path.suffix.lower() == ".toml" for path in files]
+    if any(stated) and not all(stated):
+        raise ExperimentError(
+            f"{files[stated.index(False)]}: expected experiment files alone, or logs alone to begin one, got both"
+        )
+    return all(stated)
+
+
 def _begun(logs: list[Path], output: Path, urdf: Path | None, *, force: bool) -> Path:
     """The experiment file of logs, in the folder of results; one that is there already is taken up again."""
+    from forcetorque.app.run.questions import logs_of
     from forcetorque.inspection.draft.draft import draft_experiment
 
     file = output / "experiment.toml"
     if file.exists():
+        if not {log.resolve() for log in logs} <= logs_of(file):
+            raise ExperimentError(
+                f"{file}: was begun of another log than {', '.join(map(str, logs))}; name another folder by --output"
+            )
         start_logging().info("going on with %s", file)
         return file
     output.mkdir(parents=True, exist_ok=True)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from forcetorque.base.output_file import write_bytes_atomically
-from forcetorque.base.toml_file import UnansweredKey, unanswered_keys, with_answer
+from forcetorque.base.toml_file import UnansweredKey, toml_content, unanswered_keys, with_answer
 
 
 def open_questions(file: Path) -> tuple[UnansweredKey, ...]:
@@ -20,6 +20,20 @@ def open_questions(file: Path) -> tuple[UnansweredKey, ...]:
         The keys, in the order of the file.
     """
     return unanswered_keys(file.read_text(encoding="utf-8-sig"))
+
+
+def logs_of(file: Path) -> set[Path]:
+    """Name the logs that an experiment file reads, also while questions are open.
+
+    Args:
+        file: Experiment file.
+
+    Returns:
+        Folder or file of the recording, and the files of its streams; absolute.
+    """
+    recording = toml_content(file)[1].get("recording", {})
+    folder = file.parent / recording.get("path", "")
+    return {(folder / stream.get("file", "")).resolve() for stream in ({}, *recording.get("stream", ()))}
 
 
 def answer_questions(file: Path, ask: Callable[[str], str]) -> bool:

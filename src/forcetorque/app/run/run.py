@@ -11,11 +11,13 @@ from time import monotonic
 
 from forcetorque.app.run.result import Stage, StageName, WholeRun
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, OutputError
+from forcetorque.base.output_file import refuse_output
 from forcetorque.base.toml_file import toml_content
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, calibrate_for_file
 from forcetorque.calibration.export.export import export_icub_matrix, export_table
 from forcetorque.calibration.joint.calibrate import calibration_file
-from forcetorque.evaluation.evaluation import Evaluation, validation_errors
+from forcetorque.evaluation.commands import evaluate
+from forcetorque.evaluation.evaluation import Evaluation
 from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
@@ -41,6 +43,7 @@ _WORKBENCH = "forcetorque/bench/"
 """What names of the schema of workbench files begin with."""
 TABLE = "calibrations.csv"
 """Name of the file with the matrices of all sensors."""
+_PAGE, _NUMBERS = "report.html", "report.numbers.json"
 _OVERRIDE = 'correct it, or go on with --override "reason"'
 _CHANNELS = 6
 """Channels of a sensor whose matrix the icub-matrix file holds."""
@@ -139,6 +142,7 @@ def run(
 
     Raises:
         ExperimentError: If there is no file, or a reason to go on is empty.
+        OutputError: If the folder is a file, or holds an input, or files of an earlier run without `force`.
         ForceTorqueError: If a file cannot be read; the message names it.
     """
     sources = [files] if isinstance(files, Path | str | Experiment) else list(files)
@@ -149,6 +153,8 @@ def run(
         raise ExperimentError("override: expected the reason to go on, in words; got an empty one")
     refuse_a_file_twice(paths)
     way = _Way(files=paths, output=Path(output), override=override, force=force, progress=progress)
+    if way.output.exists() and not way.output.is_dir():
+        raise OutputError(f"{way.output}: expected a folder for the results, or a name for a new one, got a file")
     try:
         if not any(isinstance(one, Experiment) for one in sources) and all(map(_is_workbench, paths)):
             _by_known_loads(way)
@@ -171,7 +177,9 @@ def _by_known_loads(way: _Way) -> None:
     """Calibrate by the known loads of a workbench."""
     way.begin("workbench")
     try:
-        result = workbench([read_bench(path) for path in way.files], code_version=_version(), created=created_now())
+        result = workbench(
+            [read_bench(path) for path in way.files], code_version=version("forcetorque"), created=created_now()
+        )
     except FitError as error:
         way.stop("workbench", str(error), "correct the loads or readings", for_good=True)
         return
@@ -191,12 +199,11 @@ def _by_known_loads(way: _Way) -> None:
 def _of_experiments(
     way: _Way, experiments: Mapping[Path, Experiment], sensors: Sequence[str] | None, *, with_report: bool
 ) -> None:
-    if (table := way.output / TABLE).exists() and not way.force:
-        raise OutputError(f"{table}: an earlier run wrote it; name another folder, or replace its files by --force")
     first = next(iter(experiments.values()))
     names = [first.sensor(name).name for name in sensors] if sensors else [sensor.name for sensor in first.sensors]
     if not names:
         raise ExperimentError(f"{way.files[0]}: expected a [[sensor]] to calibrate, got none")
+    _refuse_outputs(way, experiments, names)
     wrong = _inspect(way, experiments)
     campaigns = {
         name: Campaign([SensorRun(one, name) for one in experiments.values() if name in _names(one)]) for name in names
@@ -215,6 +222,25 @@ def _of_experiments(
     if with_report:
         _report(way, experiments, saved)
     _export(way, saved)
+
+
+def _refuse_outputs(way: _Way, experiments: Mapping[Path, Experiment], names: Sequence[str]) -> None:
+    """Refuse to replace inputs, and files of an earlier run without `force`, before anything is computed."""
+    if (table := way.output / TABLE).exists() and not way.force:
+        raise OutputError(f"{table}: an earlier run wrote it; name another folder, or replace its files by --force")
+    inputs = {digest for one in experiments.values() for digest in one.inputs_sha256.values()}
+    first = next(iter(experiments.values()))
+    serials = {name: first.sensor(name).serial for name in names}
+    files = [TABLE, _PAGE, _NUMBERS]
+    files += [calibration_file(name, serial) for name, serial in serials.items()]
+    files += [_matrix_file(serial) for serial in serials.values()]
+    for file in (way.output / name for name in files):
+        if file.exists():
+            refuse_output(file, inputs_sha256=inputs, force=way.force)
+
+
+def _matrix_file(serial: str) -> str:
+    return f"matrix_{serial}.txt"
 
 
 def _names(experiment: Experiment) -> list[str]:
@@ -301,7 +327,9 @@ def _calibrate(way: _Way, campaigns: Mapping[str, Campaign]) -> SensorCalibratio
         file = way.output / calibration_file(name, campaign.sensor.serial)
         try:
             fitted_runs = Campaign(campaign.runs_with(Use.CALIBRATION))
-            results.append(calibrate_for_file(fitted_runs, file, code_version=_version(), created=created_now()))
+            results.append(
+                calibrate_for_file(fitted_runs, file, code_version=version("forcetorque"), created=created_now())
+            )
         except (FitError, ExperimentError) as error:
             failures.append(f"{name}: {error}")
     if failures:
@@ -321,9 +349,11 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
     uses: list[UseVerdict] = []
     for entry in fitted.calibrations:
         campaign, named = campaigns[entry.calibration.sensor.name], {entry.file: entry.calibration}
-        uses += (own := use_verdicts(campaign, named))
         if any(one.has(Use.VALIDATION) for one in campaign.runs):
-            evaluations.append(validation_errors(campaign, named).model_copy(update={"uses": own}))
+            evaluations.append(evaluate(campaign, named))
+            uses += evaluations[-1].uses
+        else:
+            uses += use_verdicts(campaign, named)
     way.uses = tuple(uses)
     if evaluations:
         evaluation = Evaluation.together(evaluations)
@@ -351,14 +381,14 @@ def _report(way: _Way, experiments: Mapping[Path, Experiment], saved: SensorCali
     groups: dict[str, Mapping[str, Calibration]] = {
         entry.calibration.sensor.name: {entry.file: entry.calibration} for entry in saved.calibrations
     }
-    page, numbers = way.output / "report.html", way.output / "report.numbers.json"
+    page, numbers = way.output / _PAGE, way.output / _NUMBERS
     shown = [(str(path), experiment) for path, experiment in experiments.items()]
     try:
         written = report(
             shown,
             [{name: own for name, own in groups.items() if name in _names(one)} for _, one in shown],
             created=created_now(),
-            code_version=_version(),
+            code_version=version("forcetorque"),
             progress=way.progress,
         )
         written.save(page, numbers, force=way.force)
@@ -375,14 +405,18 @@ def _export(way: _Way, saved: SensorCalibrations) -> None:
     named = {entry.file: entry.calibration for entry in saved.calibrations}
     table = way.output / TABLE
     export_table(named, table, force=way.force)
-    files = [str(table)]
+    files, refused = [str(table)], []
     for file, calibration in named.items():
         if _is_of_icub(calibration):
-            matrix = way.output / f"matrix_{calibration.sensor.serial}.txt"
-            export_icub_matrix(file, calibration, matrix, force=way.force)
-            files.append(str(matrix))
+            matrix = way.output / _matrix_file(calibration.sensor.serial)
+            try:
+                export_icub_matrix(file, calibration, matrix, force=way.force)
+            except ForceTorqueError as error:  # such as a row that no full scale holds: the table has it
+                refused.append(f"{matrix} is not written: {error}")
+            else:
+                files.append(str(matrix))
     way.written += files
-    way.end("export", ", ".join(files))
+    way.end("export", "; ".join([", ".join(files), *refused]))
 
 
 def _is_of_icub(calibration: Calibration) -> bool:
@@ -394,7 +428,3 @@ def _is_of_icub(calibration: Calibration) -> bool:
         and Path(prior.source).name.startswith("matrix_")
         and calibration.posterior is not None
     )
-
-
-def _version() -> str:
-    return version("forcetorque")
