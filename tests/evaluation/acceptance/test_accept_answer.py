@@ -7,6 +7,7 @@ import pytest
 
 from forcetorque.evaluation.acceptance.acceptance import Acceptance
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
+from forcetorque.evaluation.load_cases.verdict import UseVerdict
 from forcetorque.results.answer import EXPERIMENT, Concern
 
 
@@ -25,8 +26,8 @@ def _criterion(name: str, measured: float, limit: float, bound: Bound = Bound.AT
     )
 
 
-def _accepted(*criteria: Criterion) -> Acceptance:
-    return Acceptance(experiment="walk", specification="feet", criteria=criteria, measured=())
+def _accepted(*criteria: Criterion, uses: tuple[UseVerdict, ...] = ()) -> Acceptance:
+    return Acceptance(experiment="walk", specification="feet", criteria=criteria, measured=(), uses=uses)
 
 
 GOOD = _criterion("evaluate.force_error_mean_N", 0.9, 1.0)
@@ -42,6 +43,28 @@ def test_an_accepted_sensor_is_exported() -> None:
     )
     assert answer.command == "export old/leg.json --to csv -o leg.csv"
     assert answer.concern is Concern.NONE
+
+
+def test_an_accepted_sensor_without_enough_data_says_so() -> None:
+    """The verdict of `evaluate` stands beside that of the limits, and the next step is to record."""
+    use = UseVerdict(
+        sensor="leg",
+        serial="SN1",
+        candidate="old/leg.json",
+        load_case="push",
+        loads="pushes of 50 N",
+        offset="fitted",
+        stated=False,
+        decision="not enough data",
+        sentence="not enough data for pushes of 50 N: it errs by 9 N",
+        reasons=(),
+        within=None,
+        errors=(),
+    )
+    (answer,) = _accepted(GOOD, uses=(use,)).answers()
+    assert (answer.verdict, answer.concern) == ("ACCEPTED", Concern.UNCERTAIN)
+    assert answer.why[1:] == (use.sentence,)
+    assert answer.command == f"plan {EXPERIMENT} -c old/leg.json --clearance-deg 10"
 
 
 def test_the_worst_criterion_is_the_reason_of_a_rejection() -> None:

@@ -283,6 +283,36 @@ def test_a_choice_made_on_the_judged_interval_is_a_warning(drifting: Experiment)
         assert accept(_run(drifting), spec, (name, chosen)).warnings == (*plain.warnings, *expected)
 
 
+def test_what_evaluate_forbids_is_not_accepted(arm: Path) -> None:
+    """The verdict of `evaluate` on the same data counts, though every limit holds; a good calibration passes."""
+    experiment = load_experiment(arm / PARQUET)
+    name, good = _fitted(experiment)
+    wrong = good.model_copy(update={"matrix": 2.0 * np.asarray(good.matrix)})
+    spec = _spec(evaluate={"force_error_mean_N": 1e9})
+    for calibration, decision in ((good, None), (wrong, "do not use")):
+        accepted = accept(_run(experiment), spec, (name, calibration))
+        assert accepted.uses == evaluate(_run(experiment), {name: calibration}).uses
+        forbidden = [row for row in accepted.criteria if row.criterion.startswith("verdict.")]
+        assert [use.load_case for use in accepted.uses if use.decision == "do not use"] == [
+            row.criterion.removeprefix("verdict.") for row in forbidden
+        ]
+        assert accepted.accepted is (decision is None) is not bool(forbidden)
+
+
+def test_limits_of_the_matrix_need_no_verdict(arm: Path) -> None:
+    """Validation data that were fitted leave no verdict: a warning says so, and what is stated is judged."""
+    experiment = load_experiment(arm / PARQUET)
+    name, good = _fitted(experiment)
+    (judged,) = experiment.intervals(Use.VALIDATION)
+    span = FittedInterval(label="judge", start_ns=judged.start_ns, end_ns=judged.end_ns)
+    provenance = good.provenance.model_copy(update={"intervals": (span,)})
+    fitted = good.model_copy(update={"provenance": provenance})
+    accepted = accept(_run(experiment), _spec(matrix={"condition": 1e9}), (name, fitted))
+    assert accepted.accepted
+    assert accepted.uses == ()
+    assert ["no verdict on its use" in words for words in accepted.warnings] == [True]
+
+
 def test_together_every_sensor_must_pass(arm: Path) -> None:
     """One sensor that fails is enough, in either order; nobody can state another verdict than the criteria give."""
     experiment = load_experiment(arm / TWO)
@@ -316,7 +346,7 @@ def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
     assert len(repr(result)) < 600
     assert result.records()[0]["passed"] is True
     assert list(json.loads(result.json_text())) == [
-        "schema", "experiment", "specification", "accepted", "criteria", "measured", "validity"
+        "schema", "experiment", "specification", "accepted", "criteria", "measured", "validity", "uses"
     ]  # fmt: skip
 
 

@@ -10,9 +10,11 @@ from typing import ClassVar, Literal, Self
 from pydantic import Field, model_validator
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion, RecordingCriterion, Subject, criteria_of
 from forcetorque.evaluation.acceptance.static_checks import RecordingChecks, StaticChecks, check
+from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign, Runs
@@ -50,6 +52,8 @@ class Acceptance(Result):
     """One per sensor and recording; none where there is one recording."""
     validity: tuple[ReadingsOutside, ...] = ()
     """One per calibration whose errors were judged: how far the readings lie outside what it was fitted on."""
+    uses: tuple[UseVerdict, ...] = ()
+    """One per calibration and load case: whether it may be used, as `evaluate` says."""
 
     @model_validator(mode="after")
     def _accept_what_passes(self) -> Self:
@@ -145,19 +149,21 @@ def accept(
         population: Matrices of other sensors by serial number.
 
     Returns:
-        Criteria in the order of `AcceptanceFile`, and static checks.
+        Criteria in the order of `AcceptanceFile`, the verdicts of `evaluate`, and static checks. A sensor that
+        `evaluate` forbids to use ("do not use") is not accepted, whatever the limits.
 
     Raises:
         ForceTorqueError: If a limit is stated for what cannot be measured; the message names its table.
     """
     campaign = Campaign.of(runs)
     several = len(campaign.runs) > 1
+    uses, without = _uses(campaign, spec, calibration)
     subjects = []
     for run in campaign.runs:
         with campaign.stated(run):
             checks = check(run, calibration, population=population)
         subjects.append(
-            Subject(campaign=campaign, run=run, calibration=calibration, others=others or {}, checks=checks)
+            Subject(campaign=campaign, run=run, calibration=calibration, others=others or {}, checks=checks, uses=uses)
         )
     judges_errors = spec.evaluate is not None or spec.improvement is not None or spec.validate_ is not None
     judged = campaign.runs_with(Use.VALIDATION) if calibration and judges_errors else ()
@@ -175,11 +181,27 @@ def accept(
             for subject in (subjects if several else ())
         ),
         validity=validity,
+        uses=uses,
         warnings=(
+            *without,
             *sentences(validity),
             *(words for run in judged if calibration for words in doubts_about_choice(run, *calibration)),
         ),
     )
+
+
+def _uses(
+    campaign: Campaign, spec: AcceptanceFile, calibration: tuple[str, Calibration] | None
+) -> tuple[tuple[UseVerdict, ...], tuple[str, ...]]:
+    """Give the verdicts of `evaluate`; where it has none and no limit needs one, a warning that says why."""
+    if calibration is None:
+        return (), ()
+    try:
+        return use_verdicts(campaign, dict([calibration]), spec.load_case), ()
+    except ForceTorqueError as error:
+        if spec.load_case:
+            raise type(error)(f"sensor {campaign.sensor.name!r}: [load_case] cannot be evaluated: {error}") from error
+        return (), (f"sensor {campaign.sensor.name!r}: no verdict on its use: {error}",)
 
 
 def _apart(subject: Subject, spec: AcceptanceFile) -> Iterator[RecordingCriterion]:
@@ -187,7 +209,7 @@ def _apart(subject: Subject, spec: AcceptanceFile) -> Iterator[RecordingCriterio
     absent: dict[str, object] = {"uncertainty": None, "excitation": None, "load_case": ()}
     if not subject.run.has(Use.VALIDATION):
         absent |= {"evaluate": None, "improvement": None, "validate_": None}
-    alone = replace(subject, campaign=Campaign(subject.run))
+    alone = replace(subject, campaign=Campaign(subject.run), uses=())
     for criterion in criteria_of([alone], spec.model_copy(update=absent)):
         stated = criterion.model_dump(exclude={"passed"})
         yield RecordingCriterion(recording=subject.campaign.recording(subject.run), **stated)

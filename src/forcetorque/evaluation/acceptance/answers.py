@@ -15,11 +15,13 @@ from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
     from forcetorque.evaluation.acceptance.acceptance import Acceptance
+    from forcetorque.evaluation.load_cases.verdict import UseVerdict
 
 _OF_RECORDINGS = frozenset({"recording", "offset"})
 """Tables of an acceptance file that limit the recording, not the calibration."""
 _OF_INFORMATION = frozenset({"uncertainty", "excitation", "learnt", "load_case"})
 """Tables whose limits further recordings can meet."""
+_RECORD_MORE = "record more, and calibrate again"
 _NAMED = 4
 """Failed criteria that are named; the others are counted."""
 
@@ -39,14 +41,15 @@ def acceptance_answers(acceptance: Acceptance) -> Iterator[Answer]:
         failed = [criterion for criterion in ordered if not criterion.passed]
         worst = ordered[0]
         name = short_names([worst.candidate])[worst.candidate]
-        step, command = _step(worst) if failed else _after_acceptance(worst)
+        unsure = [use for use in acceptance.uses if use.sensor == sensor and use.decision == "not enough data"]
+        step, command = _step(worst) if failed else _after_acceptance(worst, unsure)
         yield Answer(
             subject=f"{worst.sensor} ({worst.serial}), {name}, by {acceptance.specification!r}",
             verdict="REJECTED" if failed else "ACCEPTED",
-            why=tuple(_reasons(worst, failed, len(criteria))),
+            why=(*_reasons(worst, failed, len(criteria)), *(use.sentence for use in unsure[:1])),
             step=step,
             command=command,
-            concern=Concern.BAD if failed else Concern.NONE,
+            concern=Concern.BAD if failed else Concern.UNCERTAIN if unsure else Concern.NONE,
         )
 
 
@@ -76,9 +79,11 @@ def _compared(criterion: Criterion) -> str:
     return f"{criterion.criterion} {criterion.measured:.3g}{unit}, {allowed} {criterion.limit:.4g}{unit} allowed{where}"
 
 
-def _after_acceptance(criterion: Criterion) -> tuple[str, str]:
+def _after_acceptance(criterion: Criterion, unsure: Sequence[UseVerdict]) -> tuple[str, str]:
     if criterion.candidate == PRIOR:
         return "", ""
+    if unsure:
+        return _RECORD_MORE, to_plan(criterion.candidate)
     return to_export(criterion.candidate, criterion.sensor)
 
 
@@ -90,5 +95,5 @@ def _step(worst: Criterion) -> tuple[str, str]:
     if calibration == PRIOR:
         return to_calibrate(worst.sensor)
     if table in _OF_INFORMATION:
-        return "record more, and calibrate again", to_plan(calibration)
+        return _RECORD_MORE, to_plan(calibration)
     return "see where the errors come from", typed("evaluate", EXPERIMENT, "-c", calibration, "--details")

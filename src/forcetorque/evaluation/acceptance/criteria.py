@@ -19,7 +19,7 @@ from forcetorque.evaluation.acceptance import acceptance_file as limits
 from forcetorque.evaluation.acceptance.acceptance_file import Component
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
 from forcetorque.evaluation.evaluation import CandidateErrors, validation_errors
-from forcetorque.evaluation.load_cases.verdict import use_verdicts
+from forcetorque.evaluation.load_cases.verdict import UseVerdict
 from forcetorque.evaluation.matrix_checks import most_unusual
 from forcetorque.evaluation.section import LoadCaseTable
 from forcetorque.evaluation.validation.contact_forces import ContactForceErrors, contact_forces
@@ -214,10 +214,12 @@ class Subject(Judged):
     """The sensor in one of them."""
     others: Mapping[str, Calibration]
     """Calibrations of the other sensors by name."""
+    uses: tuple[UseVerdict, ...] = ()
+    """Verdicts of `evaluate` on the calibration, of all recordings."""
 
 
 def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Iterator[Criterion]:
-    """Hold what is evaluated to every limit of an acceptance file.
+    """Hold what is evaluated to every limit of an acceptance file, and to the verdicts of `evaluate`.
 
     Errors of all recordings are pooled; of what is measured in every recording by itself the worst counts.
 
@@ -226,7 +228,8 @@ def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Ite
         spec: Content of the acceptance file.
 
     Yields:
-        One criterion per limit, in the order of `AcceptanceFile`.
+        One criterion per limit, in the order of `AcceptanceFile`, and one that fails for every verdict "do not use" on
+        a load case that the file does not state.
 
     Raises:
         ForceTorqueError: If a limit is stated for what cannot be measured; the message names its table.
@@ -246,6 +249,8 @@ def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Ite
         except ForceTorqueError as error:
             name = subjects[0].run.sensor.name
             raise type(error)(f"sensor {name!r}: [{table}] cannot be evaluated: {error}") from error
+    stated_cases = {table.name for table in spec.load_case}
+    yield from _forbidden(subjects[0], [use for use in subjects[0].uses if use.load_case not in stated_cases])
 
 
 def _worst(
@@ -426,19 +431,29 @@ def _learnt(subject: Judged, stated: limits.Learnt) -> Iterator[Criterion]:
 
 
 def _load_case(subject: Subject, stated: Sequence[LoadCaseTable]) -> Iterator[Criterion]:
-    name, fitted = subject.fitted()
+    subject.fitted()
     tables = {table.name for table in stated}
-    for verdict in use_verdicts(subject.campaign, {name: fitted}, stated):
+    for verdict in subject.uses:
         if verdict.load_case not in tables:
-            continue  # one of the experiment, which decides nothing here
+            continue
         start = f"load_case.{verdict.load_case}"
         for error in verdict.errors:
             key, note = f"{start}.{error.quantity}_error", "predicted, at most with 95 %"
             yield from subject.at_limit(key, error.after_at_most, error.allowed, error.unit, note=note)
-        note = "" if verdict.decision == "use" else verdict.reasons[0].text
-        yield from subject.at_limit(
-            f"{start}.use", float(verdict.decision == "use"), 1.0, bound=Bound.AT_LEAST, note=note
-        )
+        yield from _use(subject, f"{start}.use", verdict)
+
+
+def _forbidden(subject: Subject, uses: Sequence[UseVerdict]) -> Iterator[Criterion]:
+    """Fail for load cases of the experiment, or the default ones, that data contradict."""
+    for verdict in uses:
+        if verdict.decision == "do not use":
+            yield from _use(subject, f"verdict.{verdict.load_case}", verdict)
+
+
+def _use(subject: Subject, name: str, verdict: UseVerdict) -> Iterator[Criterion]:
+    used = verdict.decision == "use"
+    note = "" if used else verdict.reasons[0].text
+    yield from subject.at_limit(name, float(used), 1.0, bound=Bound.AT_LEAST, note=note)
 
 
 _TABLES: dict[str, Callable[..., Iterable[Criterion]]] = {
