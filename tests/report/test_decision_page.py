@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 from forcetorque.evaluation.load_cases.verdict import Reason
+from forcetorque.report.all_sensors_page import all_sensors_page
 from forcetorque.report.assessment import VerdictLine
-from forcetorque.report.decision import NextSteps
+from forcetorque.report.decision import NextSteps, Undecided
 from forcetorque.report.decision_page import decision_page
 from forcetorque.results.document.content import Block, List, Verdict
+from forcetorque.results.table import Table
 from tests.report.drawing import use_of
 from tests.scenes.calibrations import make_calibration
 
@@ -51,3 +53,24 @@ def test_nothing_is_said_against_a_number_that_nothing_contradicts() -> None:
     """Negative control: a measured error within what is predicted, or none."""
     for measured in (3.9, None):
         assert len(_page(BETTER, measured=measured)) == 1
+
+
+def test_page_one_of_several_sensors_has_all_of_them() -> None:
+    """Those that must not be used come first, each with its error before and after and what to do next."""
+    remedy = Reason(against="use", text="it errs too much", remedy="look for the cause")
+    good = use_of("leg.json", force=2.0, reasons=(Reason(against=None, text="fine"),)).model_copy(
+        update={"sensor": "leg_ft", "serial": "SN1"}
+    )
+    bad = use_of("arm.json", force=8.0, reasons=(remedy,)).model_copy(update={"sensor": "arm_ft", "serial": "SN2"})
+    without = Undecided(sensor="foot_ft", serial="SN3", candidate=None, reason="no calibration was given")
+    steps = (NextSteps(sensor="leg_ft", serial="SN1", steps=("put it on the robot",)),)
+    page = all_sensors_page([good, bad], [without], steps)
+    assert _words(page.blocks) == ["1: arm_ft.", "1: leg_ft.", "1: foot_ft."]
+    (table,) = (block for block in page.blocks if isinstance(block, Table))
+    assert [(row[0], row[2]) for row in table.rows] == [
+        ("arm_ft (SN2)", "do not use"),
+        ("leg_ft (SN1)", "use"),
+        ("foot_ft (SN3)", "no verdict"),
+    ]
+    assert [row[4] for row in table.rows] == ["20 → 8 N (16; 8)", "20 → 2 N (4; 8)", ""]
+    assert [row[-1] for row in table.rows] == ["look for the cause", "put it on the robot", "no calibration was given"]

@@ -18,6 +18,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.report.all_sensors_page import all_sensors_page
 from forcetorque.report.assessment import Demands
 from forcetorque.report.decision import NextSteps, Undecided, decide_uses, next_steps, sensor_key, sensor_keys
 from forcetorque.report.decision_page import decision_page
@@ -156,13 +157,17 @@ class Report(Result):
         """The document, drawn anew."""
         return report_document(
             self.experiments,
-            [self._page(steps) for steps in self.next_steps],
+            [*self._first_page(), *(self._page(steps) for steps in self.next_steps)],
             title=self.title,
             created=self.created,
             code_version=self.code_version,
             results=self.results,
             viewers=self.viewers,
         )
+
+    def _first_page(self) -> Iterator[Section]:
+        if len(self.next_steps) > 1:
+            yield all_sensors_page(self.uses, self.undecided, self.next_steps)
 
     def _page(self, steps: NextSteps) -> Section:
         def own(row: UseVerdict | Undecided) -> bool:
