@@ -19,6 +19,7 @@ def _rates(judged: list[Outcome]) -> tuple[float, float, float]:
     )
 
 
+@pytest.mark.long
 def test_a_sensor_that_is_called_good_is_good() -> None:
     """Of 24 uses of two sensors none is called good that is not."""
     judged = list(outcomes(range(801, 802)))

@@ -18,6 +18,7 @@ EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "10_icub_yoga_study
 pytestmark = pytest.mark.real_data
 
 
+@pytest.mark.long
 def test_a_choice_on_one_block_halves_the_force_on_the_other(data_dir: Path, tmp_path: Path) -> None:
     """For both sensors; without temperature there are three types, and only sets with the grid have the S."""
     copy = tmp_path / EXAMPLE.name

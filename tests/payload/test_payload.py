@@ -99,6 +99,7 @@ def test_as_two_sessions_they_say_one_mass(axia: dict[str, SensorRun]) -> None:
 
 
 @pytest.mark.real_data
+@pytest.mark.long
 def test_recordings_that_disagree_are_named(axia: dict[str, SensorRun]) -> None:
     """Seven poses have another load by more than their intervals; of the run, the lag of the reading is named."""
     weighed = weigh_load([axia["halves"], axia["seven"], axia["run"]])

@@ -227,6 +227,7 @@ def _followed(planned: Plan, sensor: str, specimen: Specimen, seed: int) -> list
 
 
 @pytest.mark.parametrize("seeds", [range(601, 602), pytest.param(range(602, 608), marks=pytest.mark.long)], ids=len)
+@pytest.mark.long
 def test_two_tools_teach_what_a_stiff_arm_does_not(tmp_path: Path, seeds: range) -> None:
     """Three recordings of 40 s; what is expected after each is not less than what is true."""
     errors = arm_errors(tmp_path, seeds)

@@ -305,6 +305,7 @@ clearance_deg = {clearance}
 
 
 @pytest.mark.usefixtures("blank_pictures")
+@pytest.mark.long
 def test_what_to_record_first_is_said_where_limits_are_stated(arm: Path, run: Run) -> None:
     """Of a use whose predicted error is too large: postures, and the error to expect; else why it is not known."""
     text = (arm / PARQUET).read_text(encoding="utf-8")
@@ -395,6 +396,7 @@ def test_no_file_to_read_is_written_over(arm: Path, run: Run, outputs: list[str]
 
 
 @pytest.mark.real_data
+@pytest.mark.long
 def test_a_real_leg(data_dir: Path, run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The verdict on the yoga log: errors fall, but the recording is too short to call that better."""
     monkeypatch.chdir(tmp_path)

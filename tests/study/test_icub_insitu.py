@@ -171,6 +171,7 @@ def _shares(study: Study, source: Offset) -> list[float]:
 
 
 @pytest.mark.parametrize("seeds", SEEDS, ids=len)
+@pytest.mark.long
 def test_a_choice_on_one_day_leaves_a_third_of_the_force_on_the_other(seeds: range) -> None:
     """Over all sensors, median and worst: far less than a third of what the workbench matrix gives."""
     shares, workbench = [], []

@@ -99,6 +99,7 @@ def test_too_many_kinds_or_none_are_refused(data: StudyData) -> None:
         combinations_of([])
 
 
+@pytest.mark.long
 def test_data_sets_are_named_by_labels_and_kinds(data: StudyData) -> None:
     """Together and in any order of the words; the intervals keep the order of the files."""
     named = {"mixed": ["random", "grid_warm"], "two": ["move_warm", "grid_cold"], "grid": ["grid"]}
@@ -332,6 +333,7 @@ def test_a_sensor_without_a_prior_is_studied_at_lambda_zero(days: Path) -> None:
     assert all(found.study.candidates[k].determined for c in found.study.choices.values() for k in c.by_axis)
 
 
+@pytest.mark.long
 def test_the_sphere_of_the_files_is_taken_unless_another_is_named(days: Path) -> None:
     """And one that is no calibration interval is refused."""
     edit(days / "grid_warm.toml", "[recording]", '[calibration]\nsphere_intervals = ["grid_warm"]\n\n[recording]')

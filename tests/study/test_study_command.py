@@ -147,6 +147,7 @@ def test_the_files_are_those_that_are_listed(recorded: Path, studied_days: Path,
     assert after == snapshot(recorded)
 
 
+@pytest.mark.long
 def test_figures_are_drawn(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """Figures 5.2 to 5.7 and 5.9, as PNG, listed with the other files."""
     monkeypatch.setattr("forcetorque.study.folder.write_figures", study_figures.write_figures)
@@ -157,6 +158,7 @@ def test_figures_are_drawn(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch
 
 
 @pytest.mark.usefixtures("blank_pictures")
+@pytest.mark.long
 def test_figures_over_lambda_need_lambdas_and_a_prior(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """With lambda 0 alone, or without a matrix to differ from, the others are made; pixels are looked at above."""
     monkeypatch.setattr("forcetorque.study.folder.write_figures", study_figures.write_figures)
@@ -169,6 +171,7 @@ def test_figures_over_lambda_need_lambdas_and_a_prior(days: Path, run: Run, monk
     assert {row["workbench"] for mode in sensor["modes"] for row in mode["by_axis"]} == {None}
 
 
+@pytest.mark.long
 def test_without_the_drawing_library_the_rest_is_made(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """A warning says what is missing."""
 
@@ -309,6 +312,7 @@ def test_data_sets_are_named_by_label_or_kind(days: Path, run: Run) -> None:
     assert sensor["candidates"] == 2 * 2 * 2
 
 
+@pytest.mark.long
 def test_sphere_types_need_a_sphere(days: Path, run: Run) -> None:
     """Without one they are left out with a warning for each; named for the run they are fitted where it is."""
     done = run("study", "fits", *FILES, "--lambda", "0", "-o", "out", "--format", "json")

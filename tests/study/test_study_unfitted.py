@@ -63,6 +63,7 @@ def _short(folder: Path) -> SensorStudy:
     return _study(data, "OnTdTO")
 
 
+@pytest.mark.long
 def test_the_generative_fit_of_a_data_set_is_that_of_calibrate(recorded: Path) -> None:
     """Matrix, offsets of the sessions and posterior, for every combination."""
     data = _data(recorded)

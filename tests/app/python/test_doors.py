@@ -144,6 +144,7 @@ def test_head_room_and_spheres_are_asked_of_a_run(experiment: Experiment, arm: P
     assert rows == command["rows"] != []
 
 
+@pytest.mark.long
 def test_ways_to_fit_are_studied_with_a_folder_or_without(arm: Path, tmp_path: Path) -> None:
     """Every candidate as the command has it, and its files; no file, and a type that there is not, are refused."""
     mine = study(arm / PARQUET, kinds=["OnTdTO"], lambdas=[1000.0, 0.0, 1000.0])

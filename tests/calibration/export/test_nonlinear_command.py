@@ -28,6 +28,7 @@ def test_one_recording_is_refused_and_nothing_written(arm: Path, run: Run) -> No
     assert not Path("new.json").exists()
 
 
+@pytest.mark.long
 def test_a_linear_sensor_is_calibrated_linearly_with_a_warning(days: Path, run: Run) -> None:
     """The file has no terms, but the errors with and without; the sentences say by how much they lost."""
     done = run("calibrate", *CALIBRATION, "-o", "new.json", "--nonlinear", "--format", "json")

@@ -72,6 +72,7 @@ def test_noise_that_is_misjudged_moves_errors_by_little(factor: float, monkeypat
 
 
 @pytest.mark.parametrize("delay_s", [pytest.param(0.0, marks=pytest.mark.long), 0.02])
+@pytest.mark.long
 def test_readings_that_come_late_are_found_to(delay_s: float) -> None:
     """Two samples of delay are found to a millisecond; without the term, as a negative control, they cost accuracy."""
     motion, other = swaying(91, **WRONG), swaying(191, sensor_seed=91, **WRONG)

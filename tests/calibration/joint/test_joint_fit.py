@@ -67,6 +67,7 @@ def test_without_noise_the_truth_is_found_in_any_motion() -> None:
 
 
 @pytest.mark.parametrize("seed", [11, pytest.param(12, marks=pytest.mark.long)])
+@pytest.mark.long
 def test_with_a_wrong_model_other_motions_are_read_better_than_by_the_prior(seed: int) -> None:
     """Noise, masses, centres, joint zeros and accelerometer off: no sensor is worse, legs and feet far better."""
     fit = _of_wrong_model(seed)

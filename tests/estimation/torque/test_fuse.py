@@ -210,8 +210,8 @@ def _with_model_error(seed: int, deviation: float, by_model: tuple[str, ...]) ->
     ]
 
 
-@pytest.mark.parametrize("deviation", [0.05, 1.0])
-@pytest.mark.parametrize("by_model", [("ft", "skin"), ("ft", "skin", "current")])
+@pytest.mark.parametrize("deviation", [pytest.param(0.05, marks=pytest.mark.long), 1.0])
+@pytest.mark.parametrize("by_model", [pytest.param(("ft", "skin"), marks=pytest.mark.long), ("ft", "skin", "current")])
 def test_intervals_hold_where_sources_share_the_error_of_the_model(deviation: float, by_model: tuple[str, ...]) -> None:
     """120 draws of two joints, errors small and large against the sources' own; 90 to 99 % of intervals."""
     inside, squares, apart = [], [], []

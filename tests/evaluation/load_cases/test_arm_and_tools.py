@@ -91,6 +91,7 @@ def test_a_weighed_tool_weighs_the_other(weighed: WeighedLoad) -> None:
     assert not any(row.touched for row in weighed.judged)
 
 
+@pytest.mark.long
 def test_the_calibration_reads_pushes_better_than_the_maker(
     example: SimpleNamespace, arm: tuple[Path, np.ndarray], tmp_path: Path
 ) -> None:
@@ -154,6 +155,7 @@ def test_a_tool_that_the_sensor_itself_weighed_is_named(
 
 
 @pytest.mark.parametrize("kind", [None, estimation_type("OnTdTO")])
+@pytest.mark.long
 def test_calibration_and_verdict_from_python_name_a_circular_load(
     arm: tuple[Path, np.ndarray], weighed: WeighedLoad, tmp_path: Path, kind: EstimationType | None
 ) -> None:
@@ -217,6 +219,7 @@ DOWN = {"ceiling": (0.0, 0.0, 1.0), "wall": (0.0, -1.0, 0.0)}
 
 
 @pytest.mark.parametrize("place", DOWN)
+@pytest.mark.long
 def test_an_arm_that_does_not_stand_upright_is_weighed(example: SimpleNamespace, tmp_path: Path, place: str) -> None:
     """Gravity is that of the support; an arm on the wall that is said to stand upright is refused."""
     tool = {"gripper": TRUTH["gripper"]}
@@ -236,6 +239,7 @@ def test_an_arm_that_does_not_stand_upright_is_weighed(example: SimpleNamespace,
             weigh_load(_run(file))
 
 
+@pytest.mark.long
 def test_an_unknown_tool_is_no_point_mass(example: SimpleNamespace, tmp_path: Path) -> None:
     """Its inertia lies within its interval; taken for none it moves the centre of mass, and with that the matrix."""
     tool = {"gripper": TRUTH["gripper"]}

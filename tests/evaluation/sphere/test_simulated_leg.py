@@ -39,6 +39,7 @@ def _screwed(seed: int, screws: str) -> Leg:
 
 
 @SOME
+@pytest.mark.long
 def test_before_in_situ_calibration(seeds: range) -> None:
     """Table 4.1 has 0.5 to 1.24 kg with the model and 0.5 to 2.4 without: eight of ten sensors fall into that."""
     found = np.array([_indices(_leg(seed).analysed("grid", _leg(seed).workbench)) for seed in seeds])

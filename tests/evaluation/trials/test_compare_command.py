@@ -71,6 +71,7 @@ def _group(result: Any, condition: str | None, candidate: str = "prior") -> Any:
     return group
 
 
+@pytest.mark.long
 def test_every_trial_is_what_sphere_finds(trials: Path, compared: Run, run: Run) -> None:
     """Row by row the numbers of `sphere`, means of them, and the result fits its own schema."""
     result = compared("-c", "fitted.json", "--format", "json").result()

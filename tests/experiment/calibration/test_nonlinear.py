@@ -38,6 +38,7 @@ def _kept(seeds: range, crosstalk_counts: float) -> list[int]:
     return counts
 
 
+@pytest.mark.long
 def test_a_linear_sensor_keeps_no_correction() -> None:
     """Of two recordings as of three; of quadratic ones, the negative control, both do."""
     assert _kept(range(100, 102), 0.0) == [0, 0]

@@ -82,6 +82,7 @@ def test_in_situ_matrices_are_more_coherent_than_priors(tmp_path: Path) -> None:
         assert (new.mean(axis=1) < prior.mean(axis=1)).all()
 
 
+@pytest.mark.long
 def test_one_draw_is_more_coherent(tmp_path: Path) -> None:
     """The same of one seed."""
     norms = _errors(tmp_path / "out", SEEDS[:1])

@@ -44,6 +44,7 @@ def loop(file: Path) -> TorqueLoopStudy:
     return torque_loop(read_torque_loop(file))
 
 
+@pytest.mark.long
 def test_errors_cost_tracking(loop: TorqueLoopStudy) -> None:
     """The robot without E tracks better than the one with; rows say of what size it is under the weight."""
     none, some = loop.rows
@@ -80,6 +81,7 @@ def test_gains_that_are_unstable_alone_are_refused() -> None:
         torque_loop(TorqueLoopFile(gain_factors=(6.0,)))
 
 
+@pytest.mark.long
 def test_it_is_typed(
     loop: TorqueLoopStudy, run: Run, file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

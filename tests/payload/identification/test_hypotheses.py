@@ -195,6 +195,7 @@ def test_a_frozen_log_has_no_other_cause(
     assert loads is KNOWN or solution.disagreeing == ()
 
 
+@pytest.mark.long
 def test_a_bare_sensor_is_said_to_be_bare() -> None:
     """Of 20 without load none is reversed or in another unit, and of 20 with swapped columns none is bare.
 

@@ -166,6 +166,7 @@ def _icub(*, samples: int) -> Problem:
     )
 
 
+@pytest.mark.long
 def test_both_evaluators_agree_on_a_humanoid_over_many_chunks() -> None:
     """Samples of all chunks and threads, the last one not full, come out in their place."""
     problem = _icub(samples=16384 + 77)

@@ -127,6 +127,7 @@ def test_published_layouts_have_these_findings(data_dir: Path, name: str) -> Non
 
 
 @pytest.mark.real_data
+@pytest.mark.long
 def test_published_plans_have_gaps_at_most(data_dir: Path) -> None:
     """Where a patch is drawn in pieces; one plan states a module twice and is refused, with both lines."""
     plans = sorted((_positions(data_dir) / "skinGui_ini").glob("*.ini"))
