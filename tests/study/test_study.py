@@ -358,15 +358,11 @@ def test_without_validation_or_calibration_there_is_no_study(recorded: Path) -> 
 
 
 def test_progress_tells_every_step(data: StudyData) -> None:
-    """Fitting once, judging in each mode, and every interval there."""
+    """Fitting once, evaluating in each mode; no line of an interval where all are evaluated at once."""
     said: list[str] = []
     _study(data, kinds=[ESTIMATION_TYPES["OwTrTO"]], progress=said.append)
     assert said == [
         "fitting 3 combinations of data sets, 1 types, 3 lambdas",
-        "judging 13 matrices on 2 intervals, offset first-second",
-        "day_1",
-        "day_2",
-        "judging 13 matrices on 2 intervals, offset fitted",
-        "day_1",
-        "day_2",
+        "evaluating 13 matrices on 2 intervals, offset first-second",
+        "evaluating 13 matrices on 2 intervals, offset fitted",
     ]

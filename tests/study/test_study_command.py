@@ -401,7 +401,7 @@ def test_the_log_tells_every_step(quick: Outcome) -> None:
         "INFO: studying arm_ft (SIM001)",
         "INFO: fitting 3 combinations of data sets, 2 types, 2 lambdas",
     ]
-    assert "INFO: judging 16 matrices on 2 intervals, offset fitted" in log
+    assert "INFO: evaluating 16 matrices on 2 intervals, offset fitted" in log
     assert [line for line in log if line.startswith("INFO")][-1] == "INFO: drawing figures"
 
 

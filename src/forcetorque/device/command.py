@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 from forcetorque.results.command import Option, command
 
 if TYPE_CHECKING:
+    from forcetorque.base.progress import Progress
     from forcetorque.device.design import DeviceDesign
     from forcetorque.device.device_file import DeviceFile
-    from forcetorque.results.command import Progress
 
 
 @command()

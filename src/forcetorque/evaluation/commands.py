@@ -21,6 +21,7 @@ from forcetorque.results.terminal.output import Format, TrialsChoice, show, star
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from forcetorque.base.progress import Progress
     from forcetorque.evaluation.acceptance.acceptance import Acceptance
     from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
     from forcetorque.evaluation.evaluation import Evaluation
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
     from forcetorque.experiment.campaign import Runs
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.experiment.free_sub_model import OtherSensors
-    from forcetorque.results.command import Progress
 
 
 @command()

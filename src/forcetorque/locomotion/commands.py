@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from logging import Logger
 
+    from forcetorque.base.progress import Progress
     from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.experiment.sensor_reading import Correction
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from forcetorque.locomotion.standing.standing import Balance
     from forcetorque.locomotion.torque_control.file import TorqueLoopFile
     from forcetorque.locomotion.torque_control.study import TorqueLoopStudy
-    from forcetorque.results.command import Progress
 
 
 def balance(

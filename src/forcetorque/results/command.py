@@ -18,9 +18,6 @@ if TYPE_CHECKING:
 Parameters = ParamSpec("Parameters")
 Returned = TypeVar("Returned", bound="Result")
 
-Progress = Callable[[str], None]
-"""Called with a line for people as work goes on, such as `print`."""
-
 _LINE = 120
 _DETAILS = ("Returns", "Raises", "References")
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 from forcetorque.results.command import Option, command
 
 if TYPE_CHECKING:
-    from forcetorque.results.command import Progress
+    from forcetorque.base.progress import Progress
     from forcetorque.simulation.recordings import WrittenScenario
 
 

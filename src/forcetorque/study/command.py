@@ -9,7 +9,7 @@ from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.results.command import Option, command
 
 if TYPE_CHECKING:
-    from forcetorque.results.command import Progress
+    from forcetorque.base.progress import Progress
     from forcetorque.study.result import Studies
     from forcetorque.study.study import SensorStudy
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError, known_names
+from forcetorque.base.progress import TimeLeft
 from forcetorque.calibration.thesis.calibrate import estimation_of, sphere_centre, sphere_labels
 from forcetorque.calibration.thesis.regression import Regression, require_determined
 from forcetorque.experiment.calibration.estimation_type import (
@@ -300,10 +301,16 @@ def run_study(
     evaluator = evaluator_of_work(len(KNOWN_BEFORE) * len(models), sum(len(one.time_s) for one in validation))
     errors, choices = {}, {}
     for source in KNOWN_BEFORE:
-        say(f"judging {len(models)} matrices on {len(validation)} intervals, offset {source}")
+        text = f"evaluating {len(models)} matrices on {len(validation)} intervals, offset {source}"
+        say(text)
         sources = [source] * len(candidates) + [Offset.FIRST_SECOND] * (workbench is not None)
         errors[source] = evaluate_models(
-            models, sources, validation, session_offsets=session_offsets, evaluator=evaluator, progress=say
+            models,
+            sources,
+            validation,
+            session_offsets=session_offsets,
+            evaluator=evaluator,
+            progress=TimeLeft(say, text, len(validation)).at,
         )
         choices[source] = _choice(errors[source], determined)
     return Study(

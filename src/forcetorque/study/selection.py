@@ -24,7 +24,7 @@ def evaluate_models(
     *,
     session_offsets: Mapping[int, Mapping[str, FloatArray]] | None = None,
     evaluator: Evaluator | None = None,
-    progress: Callable[[str], None] | None = None,
+    progress: Callable[[int], None] | None = None,
 ) -> BlockErrors:
     """Evaluate models on validation sets; the samples that give an offset are evaluated in neither mode.
 
@@ -35,7 +35,7 @@ def evaluate_models(
         session_offsets: Offsets by session of those models that have several, by their index; a set of another session
             is evaluated with that of the model.
         evaluator: Who computes; by the amount of work of every set if None.
-        progress: Called with the label of every set when its turn comes.
+        progress: Called with the number of sets done so far.
 
     Returns:
         The errors.
@@ -43,9 +43,9 @@ def evaluate_models(
     errors, sessions = [], []
     stack = _Stack.of(models, sets[0].variables.shape[1])
     from_fit = np.array([source is Offset.FITTED for _, source in zip(models, sources, strict=True)])
-    for one in sets:
+    for done, one in enumerate(sets):
         if progress is not None:
-            progress(one.label)
+            progress(done)
         first = one.for_offset()
         offsets = stack.offsets.copy()
         for index, by_session in (session_offsets or {}).items():

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Final
 
@@ -264,6 +265,7 @@ def run_loop(
     *,
     rng: np.random.Generator,
     push_N: float = 0.0,
+    progress: Callable[[int], None] = lambda _: None,
 ) -> LoopRun:
     """Let copies of a robot that differ in the errors of their sensors do the same motion.
 
@@ -276,6 +278,7 @@ def run_loop(
         errors: Errors of the sensors of B copies.
         rng: Source of noise.
         push_N: Sideways force on the pelvis in the first 10 ms, to see whether what it excites dies away; N.
+        progress: Called with the number of steps done so far.
 
     Returns:
         What they did.
@@ -292,6 +295,7 @@ def run_loop(
     awake = np.ones(copies, dtype=bool)
     late: deque[FloatArray] = deque()
     for k in range(steps):
+        progress(k)
         posture = world.look(awake)
         desired = setting.balance.desired(posture, reference, k)
         if k == 0:

@@ -12,6 +12,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.slow_noise import half_width
+from forcetorque.base.progress import TimeLeft
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.locomotion.oscillation.oscillation import find_oscillations
 from forcetorque.locomotion.oscillation.spectrum import resampled
@@ -244,11 +245,13 @@ class _Case:
             f"soles at {self.biped.tilt_deg:g} degrees, gains times {self.gain_factor:g}, {len(drawn.matrix)} copies"
         )
         progress(f"{words}: changing support")
-        run = run_loop(self.biped, self.setting, self.reference, drawn, rng=rng)
-        progress(f"{words}: pushed on the left foot")
+        left = TimeLeft(progress, f"{words}: changing support", len(self.reference))
+        run = run_loop(self.biped, self.setting, self.reference, drawn, rng=rng, progress=left.at)
         steps = round(_STANDING_S / self.setting.period_s)
         still = standing(self.biped, Phase.LEFT, steps, self.file.motion.lift_m, self.setting.period_s)
-        pushed = run_loop(self.biped, self.setting, still, drawn, rng=rng, push_N=_PUSH_N)
+        progress(f"{words}: pushed on the left foot")
+        left = TimeLeft(progress, f"{words}: pushed on the left foot", steps)
+        pushed = run_loop(self.biped, self.setting, still, drawn, rng=rng, push_N=_PUSH_N, progress=left.at)
         for k, (errors, scale, size) in enumerate(sizes):
             own = slice(k * len(unit), (k + 1) * len(unit))
             yield self._row(errors, scale, size, run.of(own), pushed.of(own))
