@@ -192,6 +192,29 @@ def test_the_demonstration_writes_over_nothing_of_others(folder: Path, run: Run)
     assert snapshot(folder) == before
 
 
+def test_nothing_to_fit_is_said_before_anything_is_computed(folder: Path, run: Run) -> None:
+    """The file has no calibration interval."""
+    edit(folder / PARQUET, 'use = "calibration"', 'use = "ignore"')
+    outcome = run("run", PARQUET, "-o", "results")
+    assert outcome.code == 2
+    assert 'expected an [[interval]] with use = "calibration"' in outcome.err
+    assert "INFO: inspect" not in outcome.log
+
+
+@pytest.mark.long
+@pytest.mark.real_data
+def test_sensors_of_a_standing_leg_are_fitted_all_at_once(run: Run, tmp_path: Path) -> None:
+    """One of them cannot be fitted alone, and has no verdict; nobody takes the result for usable."""
+    file = Path(__file__).parents[3] / "examples" / "15_icub_yoga_jointly.toml"
+    outcome = run("run", file, "-o", tmp_path / "out", "--no-report", "--format", "json")
+    result = json.loads(outcome.out)
+    assert outcome.code == 1
+    assert "4 of 4 sensors, all at once" in result["stages"][2]["text"]
+    assert {Path(name).name for name in result["files"]} >= {"l_leg_ft_sensor_SN217.json", "r_leg_ft_sensor_SN026.json"}
+    assert {use["sensor"] for use in result["uses"]} == {"r_leg_ft_sensor", "r_foot_ft_sensor"}
+    assert result["stages"][3]["text"].count("no verdict") == 2
+
+
 @pytest.mark.usefixtures("folder")
 def test_from_python() -> None:
     """One line, with the same result; an empty reason is refused."""

@@ -15,7 +15,7 @@ from forcetorque.base.output_file import refuse_output
 from forcetorque.base.toml_file import toml_content
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, calibrate_for_file
 from forcetorque.calibration.export.export import export_icub_matrix, export_table
-from forcetorque.calibration.joint.calibrate import calibration_file
+from forcetorque.calibration.joint.calibrate import JOINT_FILE, calibrate_jointly, calibration_file
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import Evaluation
 from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts
@@ -32,7 +32,7 @@ from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import contradicted_statements
 from forcetorque.recording.recording import Use
 from forcetorque.report.report import report
-from forcetorque.results.answer import Answer
+from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.result import Result, created_now
 from forcetorque.workbench.calibrate import workbench
 from forcetorque.workbench.recording import read_bench
@@ -203,6 +203,11 @@ def _of_experiments(
     names = [first.sensor(name).name for name in sensors] if sensors else [sensor.name for sensor in first.sensors]
     if not names:
         raise ExperimentError(f"{way.files[0]}: expected a [[sensor]] to calibrate, got none")
+    if all(interval.use is not Use.CALIBRATION for one in experiments.values() for interval in one.recording.intervals):
+        raise ExperimentError(
+            f'{way.files[0]}: expected an [[interval]] with use = "calibration", in which nothing that the file does '
+            "not state touches the limb; got none"
+        )
     _refuse_outputs(way, experiments, names)
     wrong = _inspect(way, experiments)
     campaigns = {
@@ -212,7 +217,7 @@ def _of_experiments(
     if (loads := wrist_loads(first)) is not None and not loads.are_stated:
         _weigh(way, campaigns[names[0]])
         return
-    fitted = _calibrate(way, campaigns)
+    fitted = _calibrate(way, campaigns, list(experiments.values()))
     _evaluate(way, campaigns, fitted)
     fitted = fitted.model_copy(
         update={"calibrations": tuple(_with_doubts(one, way.doubts) for one in fitted.calibrations)}
@@ -231,7 +236,7 @@ def _refuse_outputs(way: _Way, experiments: Mapping[Path, Experiment], names: Se
     inputs = {digest for one in experiments.values() for digest in one.inputs_sha256.values()}
     first = next(iter(experiments.values()))
     serials = {name: first.sensor(name).serial for name in names}
-    files = [TABLE, _PAGE, _NUMBERS]
+    files = [TABLE, _PAGE, _NUMBERS, JOINT_FILE]
     files += [calibration_file(name, serial) for name, serial in serials.items()]
     files += [_matrix_file(serial) for serial in serials.values()]
     for file in (way.output / name for name in files):
@@ -318,8 +323,8 @@ def _weigh(way: _Way, campaign: Campaign) -> None:
     way.end("payload", f"{campaign.sensor.name}: load estimated")
 
 
-def _calibrate(way: _Way, campaigns: Mapping[str, Campaign]) -> SensorCalibrations:
-    """Fit every sensor; those that cannot be fitted are named."""
+def _calibrate(way: _Way, campaigns: Mapping[str, Campaign], experiments: Sequence[Experiment]) -> SensorCalibrations:
+    """Fit every sensor; where one cannot be fitted alone, all at once; those that cannot be fitted are named."""
     way.begin("calibrate")
     results, failures = [], []
     for name, campaign in campaigns.items():
@@ -330,8 +335,13 @@ def _calibrate(way: _Way, campaigns: Mapping[str, Campaign]) -> SensorCalibratio
             results.append(
                 calibrate_for_file(fitted_runs, file, code_version=version("forcetorque"), created=created_now())
             )
-        except (FitError, ExperimentError) as error:
+        except ForceTorqueError as error:
             failures.append(f"{name}: {error}")
+    if failures and len(campaigns) > 1:
+        try:
+            return _calibrate_jointly(way, list(campaigns), experiments, failures[0])
+        except ForceTorqueError as error:
+            failures.append(f"all at once: {error}")
     if failures:
         way.stop("calibrate", "; ".join(failures), "correct the file or the recording", for_good=not results)
     fitted = SensorCalibrations.together(results)
@@ -342,30 +352,58 @@ def _calibrate(way: _Way, campaigns: Mapping[str, Campaign]) -> SensorCalibratio
     return fitted
 
 
+def _calibrate_jointly(
+    way: _Way, sensors: Sequence[str], experiments: Sequence[Experiment], why: str
+) -> SensorCalibrations:
+    """Fit all sensors at once, since one of them cannot be fitted alone."""
+    fitted = calibrate_jointly(
+        experiments,
+        way.output,
+        sensors,
+        code_version=version("forcetorque"),
+        created=created_now(),
+        progress=way.progress,
+    )
+    way.results.append(fitted)
+    way.answers = tuple(fitted.answers())
+    way.end("calibrate", f"{len(fitted.calibrations)} of {len(sensors)} sensors, all at once, since {why}")
+    return fitted
+
+
 def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibrations) -> None:
     """Evaluate on data that were not fitted; a calibration that must not be used is withheld."""
     way.begin("evaluate")
     evaluations: list[Evaluation] = []
     uses: list[UseVerdict] = []
+    without: list[Answer] = []
+    """On sensors of a joint calibration whose limb bears the robot: no wrench is expected of them alone."""
     for entry in fitted.calibrations:
-        campaign, named = campaigns[entry.calibration.sensor.name], {entry.file: entry.calibration}
-        if any(one.has(Use.VALIDATION) for one in campaign.runs):
-            evaluations.append(evaluate(campaign, named))
-            uses += evaluations[-1].uses
-        else:
-            uses += use_verdicts(campaign, named)
+        name = entry.calibration.sensor.name
+        campaign, named = campaigns[name], {entry.file: entry.calibration}
+        try:
+            if any(one.has(Use.VALIDATION) for one in campaign.runs):
+                evaluations.append(evaluate(campaign, named))
+                uses += evaluations[-1].uses
+            else:
+                uses += use_verdicts(campaign, named)
+        except ForceTorqueError as error:
+            if fitted.joint is None:
+                raise
+            subject = f"{name} ({campaign.sensor.serial}), {Path(entry.file).name}"
+            without.append(Answer(subject=subject, verdict="NO VERDICT", why=(str(error),), concern=Concern.UNCERTAIN))
     way.uses = tuple(uses)
     if evaluations:
         evaluation = Evaluation.together(evaluations)
         way.results.append(evaluation)
-        way.answers = tuple(evaluation.answers())
+        way.answers = (*evaluation.answers(), *without)
     forbidden = [use for use in uses if use.decision == "do not use"]
     if forbidden:
         worst = forbidden[0]
         remedy = next((reason.remedy for reason in worst.reasons if reason.remedy is not None), "keep the prior matrix")
         way.stop("evaluate", "; ".join(f"{use.sensor}: {use.sentence}" for use in forbidden), remedy.rstrip("."))
     elif evaluations:
-        way.end("evaluate", ", ".join(f"{use.sensor}: {use.decision}" for use in uses))
+        texts = [f"{use.sensor}: {use.decision}" for use in uses]
+        way.end("evaluate", ", ".join([*texts, *(f"{one.subject.split()[0]}: no verdict" for one in without)]))
     else:
         way.end("evaluate", 'no interval with use = "validation": nothing tests the calibrations', skipped=True)
 
