@@ -211,7 +211,7 @@ def compare(
     if figure is not None and result.analyses:
         result = _drawn(result, figure)
     show(result, output_format, details=details, experiments=experiments)
-    stop_at_failures(result.failures)
+    stop_at_failures([failure for failure in result.failures if not failure.skipped])
 
 
 def _drawn(result: "Comparison", figure: Path) -> "Comparison":
@@ -280,4 +280,12 @@ def sphere(
     chosen, by_name = sensors_named(experiment, sensors), dict(calibrations or {})
     refuse_left_out(experiment, chosen, by_name)
     file = str(experiment.file)
-    return spheres_of_sensors(experiment, chosen, by_name, tuple(intervals) or None, file=file, progress=progress)
+    return spheres_of_sensors(
+        experiment,
+        chosen,
+        by_name,
+        tuple(intervals) or None,
+        file=file,
+        named_by_caller=bool(sensors),
+        progress=progress,
+    )

@@ -303,7 +303,7 @@ class WrittenScenario(Result):
                 f"{sum(row.duration_s for row in self.recordings):.0f} s in all; the truth is in {self.truth}",
             ),
             step="look at a recording",
-            command=typed("inspect", files[0]) if files else "",
+            command=typed("inspect", str(Path(self.folder) / files[0])) if files else "",
             written=(self.folder,),
         )
 

@@ -192,6 +192,15 @@ def test_the_demonstration_writes_over_nothing_of_others(folder: Path, run: Run)
     assert snapshot(folder) == before
 
 
+def test_without_data_to_evaluate_the_calibration_is_written_and_to_be_evaluated(folder: Path, run: Run) -> None:
+    """No verdict; the next command evaluates the file that is there."""
+    edit(folder / PARQUET, 'use = "validation"', 'use = "ignore"')
+    outcome = run("run", PARQUET, "-o", "results", "--no-report")
+    assert outcome.out.splitlines()[0].split()[-1] == "FITTED"
+    assert f"forcetorque evaluate {PARQUET} -c {FITTED}" in outcome.out
+    assert Path(FITTED).is_file()
+
+
 def test_nothing_to_fit_is_said_before_anything_is_computed(folder: Path, run: Run) -> None:
     """The file has no calibration interval."""
     edit(folder / PARQUET, 'use = "calibration"', 'use = "ignore"')

@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque.evaluation.sphere import sphere
+from forcetorque.evaluation.sphere.cloud import StaticForceError
 from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.experiment.loading import load_experiment
@@ -225,8 +227,29 @@ def test_a_sensor_that_fails_is_named_and_does_not_take_the_others_with_it(arm: 
     assert (arm / "spheres.png").is_file()
     shown, rows = run("study", "sphere", TWO, "--details"), run("study", "sphere", TWO, "--format", "csv")
     assert (shown.code, rows.code) == (1, 1)
-    assert f"FAILED: {failure['message']}" in " ".join(shown.out.split())
+    assert f"failed: {failure['message']}" in " ".join(shown.out.split())
     assert [row["sensor"] for row in csv.DictReader(io.StringIO(rows.out))] == ["arm_ft"]
+
+
+def test_a_sensor_that_nothing_turned_is_no_failure_unless_it_was_named(
+    arm: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of all sensors of a file some stand still; the one that is asked for must not."""
+    analysed = sphere.spheres
+
+    def still_tool(one: SensorRun, *arguments: Any) -> Any:
+        if one.sensor.name == "tool_ft":
+            raise StaticForceError("force: expected a cloud, got 99 times one point")
+        return analysed(one, *arguments)
+
+    monkeypatch.setattr(sphere, "spheres", still_tool)
+    shown = run("study", "sphere", TWO)
+    assert shown.code == 0
+    assert "NOT MOVED" in shown.out
+    assert not any("failed" in line for line in shown.log)
+    named = run("study", "sphere", TWO, "--sensor", "arm_ft", "--sensor", "tool_ft")
+    assert named.code == 1
+    assert "FAILED" in named.out
 
 
 def test_where_every_sensor_fails_there_is_no_result(arm: Path, run: Run) -> None:

@@ -214,7 +214,7 @@ def test_a_bad_file_does_not_cost_the_table(trials: Path, run: Run) -> None:
     assert any(line == "INFO: reading loose.toml (3 of 3)" for line in ended.log)
     shown = run(*words, "--details")
     assert shown.code == 1
-    assert f"FAILED: {failure['message']}" in " ".join(shown.out.split())
+    assert f"failed: {failure['message']}" in " ".join(shown.out.split())
     rows = list(csv.DictReader(io.StringIO(run(*words, "--format", "csv").out)))
     assert [row["file"] for row in rows if row["row"] == "failure"] == [SECOND]
     assert sum(row["row"] == "trial" for row in rows) == 4

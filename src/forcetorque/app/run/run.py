@@ -223,6 +223,8 @@ def _of_experiments(
         update={"calibrations": tuple(_with_doubts(one, way.doubts) for one in fitted.calibrations)}
     )
     saved = fitted.save(force=way.force)
+    if not any(isinstance(one, Evaluation) for one in way.results):
+        way.answers = tuple(saved.answers())
     way.written += [entry.file for entry in saved.calibrations]
     if with_report:
         _report(way, experiments, saved)

@@ -53,11 +53,18 @@ def failed(failures: Sequence[FailureRow]) -> Iterator[Answer]:
         failures: What failed.
 
     Yields:
-        One answer each.
+        One answer each; a sensor that nothing turned in several recordings has one.
     """
+    static: set[str | None] = set()
     for failure in failures:
+        if failure.skipped and failure.sensor in static:
+            continue
+        static |= {failure.sensor} if failure.skipped else set()
         yield Answer(
-            subject=failure.sensor or failure.file, verdict="FAILED", why=(failure.message,), concern=Concern.BAD
+            subject=failure.sensor or failure.file,
+            verdict="NOT MOVED" if failure.skipped else "FAILED",
+            why=(failure.message,),
+            concern=Concern.NONE if failure.skipped else Concern.BAD,
         )
 
 

@@ -41,6 +41,10 @@ _WINDOWS = (3, 4)
 """Blocks of a window."""
 
 
+class StaticForceError(FitError):
+    """The force does not change: nothing turned the sensor."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Resampled(ArrayRecord):
     """k numbers estimated by one method from the whole recording and from parts of it."""
@@ -229,7 +233,8 @@ def require_cloud(points: Any, *, name: str, unit: str) -> FloatArray:
 
     Raises:
         ShapeError: If the shape is another, or a value is missing or infinite.
-        FitError: If there are fewer than ten points, or all are one.
+        FitError: If there are fewer than ten points.
+        StaticForceError: If all points are one.
         UnitError: If the values can only be counts.
     """
     cloud = read_only(points, name=name, shape=(None, 3))
@@ -245,7 +250,9 @@ def require_cloud(points: Any, *, name: str, unit: str) -> FloatArray:
         )
     extent = np.ptp(cloud, axis=0).max()
     if is_one_point(cloud):
-        raise FitError(f"{name}: expected a cloud, got {len(cloud)} times one point; turn the limb, or see `inspect`")
+        raise StaticForceError(
+            f"{name}: expected a cloud, got {len(cloud)} times one point; turn the limb, or see `inspect`"
+        )
     whole = extent > _WHOLE and np.array_equal(cloud, np.round(cloud))
     if extent > 2.0 * _LARGEST or whole:
         kind = "whole numbers" if whole else "values"

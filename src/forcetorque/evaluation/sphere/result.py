@@ -7,6 +7,7 @@ from typing import Self
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.evaluation.sphere.affine_fit import MomentRow
+from forcetorque.evaluation.sphere.cloud import StaticForceError
 from forcetorque.evaluation.sphere.fit_results import CloudForm, EllipsoidFit, RadiusFit
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, SphereAnalysis
 from forcetorque.results.number_text import finite_or_none
@@ -250,22 +251,35 @@ class FailureRow(Row):
     """Sensor; none for the whole file."""
     message: str
     """What was wrong, in one line that names the file."""
+    skipped: bool = False
+    """Whether nobody named the sensor, and nothing turned it: this is no failure."""
 
     @classmethod
-    def of(cls, file: str, sensor: str | None, error: Exception) -> Self:
+    def of(cls, file: str, sensor: str | None, error: Exception, *, named: bool = True) -> Self:
         """Say what an error cost.
 
         Args:
             file: Experiment file, or the option that named something.
             sensor: Sensor; None for the whole file.
             error: What was wrong.
+            named: Whether the caller named the sensor.
 
         Returns:
             Its row.
         """
         message = " ".join(str(error).split())
         # what is wrong with a file names it already, what is wrong with its data does not
-        return cls(file=file, sensor=sensor, message=message if message.startswith(file) else f"{file}: {message}")
+        return cls(
+            file=file,
+            sensor=sensor,
+            message=message if message.startswith(file) else f"{file}: {message}",
+            skipped=not named and isinstance(error, StaticForceError),
+        )
+
+    @property
+    def sentence(self) -> str:
+        """The message behind a word that says what it means for the command."""
+        return f"{'left out' if self.skipped else 'failed'}: {self.message}"
 
 
 def bounded(values: FloatArray) -> tuple[float | None, ...]:

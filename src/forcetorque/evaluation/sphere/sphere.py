@@ -183,7 +183,7 @@ class Spheres(Result):
     @property
     def passed(self) -> bool:
         """Whether no sensor failed."""
-        return not self.failures
+        return all(failure.skipped for failure in self.failures)
 
     def answers(self) -> Iterator[Answer]:
         """Say by how much the axes of every sensor differ.
@@ -209,7 +209,7 @@ class Spheres(Result):
             if moments is not None:
                 yield moments
         yield MEANING
-        yield from (f"FAILED: {failure.message}" for failure in self.failures)
+        yield from (failure.sentence for failure in self.failures)
         if self.figure is not None:
             yield f"drawn to {self.figure}"
 
@@ -261,6 +261,7 @@ def spheres_of_sensors(
     intervals: Sequence[str] | None = None,
     *,
     file: str,
+    named_by_caller: bool = True,
     progress: Callable[[str], None] | None = None,
 ) -> Spheres:
     """Analyse one sensor after the other; what fails does not stop the others.
@@ -271,10 +272,12 @@ def spheres_of_sensors(
         calibrations: Calibrations by name, of any of its sensors.
         intervals: As `spheres` takes them.
         file: The experiment file, for messages.
+        named_by_caller: Whether somebody named these sensors; of all of a file those that nothing turned are left out.
         progress: Called with a line for people at every sensor.
 
     Returns:
-        Rows of the sensors that could be analysed; failures, each with a warning, of the others.
+        Rows of the sensors that could be analysed; of the others failures, each with a warning, or that nothing turned
+        them.
 
     Raises:
         ExperimentError: If an interval is not there, a calibration is of no sensor of the experiment, or no sensor can
@@ -291,9 +294,9 @@ def spheres_of_sensors(
         try:
             results.append(spheres(SensorRun(experiment, sensor), groups.get(sensor.name, {}), intervals))
         except ForceTorqueError as error:
-            failures.append(FailureRow.of(file, sensor.name, error))
+            failures.append(FailureRow.of(file, sensor.name, error, named=named_by_caller))
     if not results:
         raise ExperimentError("; ".join(failure.message for failure in failures))
     together = Spheres.together(results)
-    failed = (f"failed: {failure.message}" for failure in failures)
+    failed = (failure.sentence for failure in failures if not failure.skipped)
     return together.model_copy(update={"failures": tuple(failures), "warnings": (*failed, *together.warnings)})

@@ -255,7 +255,7 @@ class Comparison(Result):
         """
         if self.trials:
             yield from comparison_blocks(self.trials, self.groups)
-        yield from (f"FAILED: {failure.message}" for failure in self.failures)
+        yield from (failure.sentence for failure in self.failures)
         if self.figure is not None:
             yield f"drawn to {self.figure}"
 
@@ -328,7 +328,7 @@ def compare(
         failures=tuple(failures),
         analyses=tuple(groups),
         warnings=(
-            *(f"failed: {failure.message}" for failure in failures),
+            *(failure.sentence for failure in failures if not failure.skipped),
             *warnings,
             *flattered,
             *dict.fromkeys(f"{trial.file}: {sentence}" for trial in trials for sentence in trial.added),

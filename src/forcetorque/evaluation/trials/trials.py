@@ -263,7 +263,7 @@ def _read_sensors(reading: _Reading, path: Path, experiment: Experiment, spans: 
             try:
                 spheres = sensor_spheres(run, own, together)
             except (ForceTorqueError, OSError) as error:
-                reading.failures.append(FailureRow.of(str(path), sensor.name, error))
+                reading.failures.append(FailureRow.of(str(path), sensor.name, error, named=reading.sensors is not None))
                 continue
             reading.trials += [
                 TrialSphere(
