@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
 from time import monotonic
@@ -209,7 +209,7 @@ def _of_experiments(
             "not state touches the limb; got none"
         )
     _refuse_outputs(way, experiments, names)
-    wrong = _inspect(way, experiments)
+    wrong = _inspect(way, experiments, names)
     campaigns = {
         name: Campaign([SensorRun(one, name) for one in experiments.values() if name in _names(one)]) for name in names
     }
@@ -254,11 +254,12 @@ def _names(experiment: Experiment) -> list[str]:
     return [sensor.name for sensor in experiment.sensors]
 
 
-def _inspect(way: _Way, experiments: Mapping[Path, Experiment]) -> list[str]:
+def _inspect(way: _Way, experiments: Mapping[Path, Experiment], sensors: Sequence[str]) -> list[str]:
     """Look for contacts in what is to be fitted; what else is wrong by the robot model, in words."""
     way.begin("inspect")
     touched, wrong, found = [], [], 0
-    for path, experiment in experiments.items():
+    for path, whole in experiments.items():
+        experiment = replace(whole, sensors=tuple(sensor for sensor in whole.sensors if sensor.name in sensors))
         inspection = inspected(experiment)
         way.results.append(inspection)
         found += sum(answer.verdict != "NOTHING FOUND" for answer in inspection.answers())
