@@ -13,6 +13,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import means_over
+from forcetorque.base.pose import rotation_about_z
 from forcetorque.calibration.calibrate import calibrate_sensor, fit_doubts
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.model_error_derivatives import SAMPLES_PER_WINDOW, model_columns
@@ -145,7 +146,14 @@ def test_recordings_with_and_without_tolerances_are_a_warning(arm: Path) -> None
     assert any("taken as exact in other day: other" in doubt for doubt in fit.doubts)
 
 
-@pytest.mark.parametrize(("key", "known"), [("links = { hend = 0.0 }", "hand"), ("joints = { wrst = 1.0 }", "wrist")])
+@pytest.mark.parametrize(
+    ("key", "known"),
+    [
+        ("links = { hend = 0.0 }", "hand"),
+        ("joints = { wrst = 1.0 }", "wrist"),
+        ("sensors = { leg_ft = { mount_deg = 1.0 } }", "arm_ft"),
+    ],
+)
 def test_a_tolerance_of_something_unknown_is_refused(arm: Path, key: str, known: str) -> None:
     """With the names that there are."""
     with pytest.raises(ExperimentError, match=rf"\[robot\] tolerance.*{known}"):
@@ -179,6 +187,35 @@ def test_a_mass_that_is_wrong_is_named(arm: Path) -> None:
     assert "95 %" in warning
     (error,) = [error for error in wrong.model_errors if error.name == "mass of hand"]
     assert error.value < -3.0 * error.tolerance
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "least_deg", "most_deg"),
+    [
+        ("mount_deg = 5.0", 0.0, 0.3),
+        ("sensors = { arm_ft = { mount_deg = 5.0 } }", 0.0, 0.3),
+        ("mount_deg = 0.0, mount_m = 0.0", 1.0, 3.0),
+    ],
+)
+def test_a_mount_is_turned_as_far_as_its_tolerance_lets_it(
+    arm: Path, tolerance: str, least_deg: float, most_deg: float
+) -> None:
+    """The prior matrix reads in axes that are turned by 3 degrees about z: what the calibration leaves of that.
+
+    Where the file says that the mount is exact, other unknowns take only a part of it.
+    """
+    run = _run(arm, f"tolerance = {{ {tolerance} }}\n")
+    true = run.sensor.prior
+    assert true is not None
+    turned = replace(run.sensor, prior=np.kron(np.eye(2), rotation_about_z(np.radians(3.0))) @ true)
+    turned_run = SensorRun(run.experiment, turned)
+    (moments,) = recording_moments(turned_run)
+    moments.save(arm / "moments.json")
+    stored = calibrate_sensor(None, moments=[read_moments(arm / "moments.json")], code_version="1", created="now")
+    forces = (stored.matrix @ np.linalg.pinv(true))[:3, :3]
+    left_deg = abs(np.degrees(np.arctan2(forces[1, 0] - forces[0, 1], forces[0, 0] + forces[1, 1])))
+    assert least_deg <= left_deg < most_deg
+    np.testing.assert_array_equal(stored.matrix, _calibrated(turned_run).matrix)
 
 
 def test_an_error_is_suspicious_beyond_three_tolerances() -> None:

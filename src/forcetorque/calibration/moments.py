@@ -136,7 +136,10 @@ def agreeing_moments(
 def _assumptions(recording: CampaignRecording) -> Assumptions:
     options = recording.options
     return Assumptions(
-        full_scale=channel_full_scale(recording), accuracy=options.accuracy, repeatability=options.repeatability
+        full_scale=channel_full_scale(recording),
+        accuracy=options.accuracy,
+        repeatability=options.repeatability,
+        mount=options.tolerance.mount_of(recording.sensor.name),
     )
 
 
@@ -170,6 +173,7 @@ def moments_of(
         ExperimentError: If the full scale of the sensor is not known.
     """
     sensor, options = recording.sensor, recording.options
+    mount = options.tolerance.mount_of(sensor.name)
     return RecordingMoments(
         sensor=recording.identity,
         experiment=recording.experiment,
@@ -178,6 +182,8 @@ def moments_of(
         full_scale=channel_full_scale(recording),
         accuracy=options.accuracy,
         repeatability=options.repeatability,
+        mount_rotation_rad=mount.rotation_rad,
+        mount_shift_m=mount.shift_m,
         drift=options.drift,
         nonlinear=options.nonlinear,
         variables=tuple(map(VariableDescription.of, variables)),

@@ -15,7 +15,7 @@ from pydantic_core import PydanticCustomError
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text, read_toml
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.experiment.calibration.model_error import ModelTolerance
+from forcetorque.experiment.calibration.model_error import ModelTolerance, MountTolerance
 from forcetorque.experiment.core_tables import (
     CalibrationTable,
     ClockTable,
@@ -32,7 +32,25 @@ from forcetorque.robot.contacts import ContactType
 _TOLERANCE: Final = ModelTolerance()
 
 
-class Tolerance(Table):
+class MountToleranceTable(Table):
+    """How far the frame of one sensor may be from that of the robot model, as standard deviations."""
+
+    mount_deg: NotNegative | None = None
+    """Of its rotation about each axis; deg."""
+    mount_m: NotNegative | None = None
+    """Of the shift of its origin along each axis; m."""
+
+    def mount_tolerance(self) -> MountTolerance:
+        """Give the same in SI units.
+
+        Returns:
+            The tolerance.
+        """
+        rotation = None if self.mount_deg is None else float(np.radians(self.mount_deg))
+        return MountTolerance(rotation_rad=rotation, shift_m=self.mount_m)
+
+
+class Tolerance(MountToleranceTable):
     """How far the robot model may be from the robot, as standard deviations; 0 for what is exact."""
 
     mass_relative: NotNegative = _TOLERANCE.mass
@@ -49,6 +67,8 @@ class Tolerance(Table):
     """Of the mass of single links, relative, by their names."""
     joints: dict[Text, NotNegative] = {}
     """Of the zero of single joints, by their names; deg."""
+    sensors: dict[Text, MountToleranceTable] = {}
+    """Of the mounts of single sensors, by their names."""
     found_by: Path | None = Field(default=None, alias="from")
     """A calibration, or joint.json of a joint one: the model is corrected by what it found of masses, centres and joint
     zeros, and the standard errors of these are their tolerances."""
@@ -70,6 +90,8 @@ class Tolerance(Table):
             delay_s=self.delay_s,
             links=dict(self.links),
             joints={name: float(np.radians(value)) for name, value in self.joints.items()},
+            mounts={name: one.mount_tolerance() for name, one in self.sensors.items()},
+            mount=self.mount_tolerance(),
             found=found,
         )
 

@@ -43,7 +43,11 @@ def read_robot(
     tolerance = table.tolerance
     if tolerance == "exact":
         return model, EXACT
-    for key, named, known in (("links", tolerance.links, model.links), ("joints", tolerance.joints, model.joints)):
+    for key, named, known in (
+        ("links", tolerance.links, model.links),
+        ("joints", tolerance.joints, model.joints),
+        ("sensors", tolerance.sensors, model.sensors),
+    ):
         for name in named:
             if name not in known:
                 raise ExperimentError(

@@ -16,7 +16,7 @@ from forcetorque.calibration.generative.agreement import require_rank, require_r
 from forcetorque.calibration.generative.model import Design, Sizes, Unknowns, design_of, infer, whiten
 from forcetorque.experiment.calibration import assumptions as expected
 from forcetorque.experiment.calibration.assumptions import LOADS, Assumptions, Rows, Scale, rows_of
-from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError
+from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError, MountTolerance
 from forcetorque.experiment.calibration.moments import WindowMeans, in_order, model_terms
 from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS
@@ -107,13 +107,14 @@ class Layout:
         """Errors of the robot model, over their tolerances."""
         return self._slice(8)
 
-    def sizes(self, group: IntArray, terms: Sequence[ErrorTerm], *, with_prior: bool) -> Sizes:
+    def sizes(self, group: IntArray, terms: Sequence[ErrorTerm], *, with_prior: bool, mount: MountTolerance) -> Sizes:
         """Say which unknowns have one size, and what is expected of it.
 
         Args:
             group: Rows of one number share the sizes of their own unknowns; shape (rows,).
             terms: Numbers of the robot model that may be wrong.
             with_prior: Whether the sensor has a prior matrix.
+            mount: How far the frame of the sensor may be off.
 
         Returns:
             The sizes.
@@ -123,7 +124,7 @@ class Layout:
             sensor = Scale(expected=1e3, weight=np.inf)
         own = (sensor, expected.FRAME, Scale(expected=1.0, weight=np.inf), expected.QUADRATIC, expected.FLATTENING)
         kinds = list(dict.fromkeys(term.kind for term in terms))
-        shared = (expected.GAIN, expected.ROTATION, expected.SHIFT, *(expected.MODEL for _ in kinds)) if terms else ()
+        shared = (expected.GAIN, *expected.mount_scales(mount), *(expected.MODEL for _ in kinds)) if terms else ()
         scales = (*own * (int(group.max()) + 1), *shared)
         counts = self._counts
         of_own = np.repeat(np.arange(len(own)), counts[: len(own)])
@@ -416,7 +417,7 @@ def fit_generative(
     unknowns, deviance = infer(
         whiten(design, shapes),
         basis,
-        layout.sizes(rows.group, terms, with_prior=prior is not None),
+        layout.sizes(rows.group, terms, with_prior=prior is not None, mount=assumptions.mount),
         sensor=np.arange(LOADS),
         accuracy=rows.accuracy if noise_floor else np.zeros_like(rows.accuracy),
         freedom=max(len(raw) - design.free.shape[1], 1),

@@ -20,7 +20,7 @@ from forcetorque.calibration.moments import channel_full_scale
 from forcetorque.calibration.summary import learnt_directions
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
-from forcetorque.experiment.calibration.model_error import ModelTolerance
+from forcetorque.experiment.calibration.model_error import ModelTolerance, MountTolerance
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignRecording
 from forcetorque.experiment.experiment import Experiment
@@ -254,6 +254,11 @@ def calibrate_jointly(
     joint = JointOutcome.of(result, calibrations, str(place / JOINT_FILE))
     doubts = [
         *data.left_out,
+        *(
+            f"{name}: mount_deg and mount_m of [robot] tolerance are of calibrations of single sensors, and not used"
+            for name in calibrations
+            if specified.mount_of(name) != MountTolerance()
+        ),
         *(_without_equation(name) for name in data.campaigns if name not in calibrations),
         *joint.doubts(),
         *(

@@ -10,6 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, require_shape
 from forcetorque.base.errors import FitError
+from forcetorque.experiment.calibration.model_error import MountTolerance
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 
 ACCURACY_SHARE: Final = 1e-3
@@ -61,6 +62,8 @@ The error of a window grows with the square of its length where the motion is sm
 FLATTENING: Final = Scale(expected=0.03, weight=np.inf)
 """By how much that may be otherwise, as where a motion has corners."""
 
+_EXACT: Final = 1e-9
+"""Size of what is exact: rad, m."""
 _DEGREES: Final = ("degC", "K", "degF")
 DRIFT_SHARE_PER_DEGREE: Final = 0.005
 """What a temperature coefficient may be: a share of full scale per degree."""
@@ -84,6 +87,24 @@ def variable_size(variable: LinearVariable, from_load: FloatArray) -> float | No
     return DRIFT_SHARE_PER_DEGREE if variable.unit in _DEGREES else None
 
 
+def mount_scales(mount: MountTolerance) -> tuple[Scale, Scale]:
+    """Give the expected sizes of rotation (rad) and shift (m) of the frame of a sensor.
+
+    Args:
+        mount: How far it may be off; sizes that are stated are never taken as smaller, as those of the robot model.
+
+    Returns:
+        Of rotation and shift.
+    """
+    return _stated_or(ROTATION, mount.rotation_rad), _stated_or(SHIFT, mount.shift_m)
+
+
+def _stated_or(usual: Scale, size: float | None) -> Scale:
+    if size is None:
+        return usual
+    return Scale(expected=max(size, _EXACT), weight=MODEL.weight, least=max(size, _EXACT))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Assumptions(ArrayRecord):
     """What is known of a sensor and of its reference beside data and prior matrix."""
@@ -97,6 +118,8 @@ class Assumptions(ArrayRecord):
     """
     repeatability: float = REPEATABILITY
     """Share of its response by which the sensor differs from one motion to the next; only widens the covariance."""
+    mount: MountTolerance = MountTolerance()
+    """How far the frame of the sensor may be from that of the robot model, where the model may be wrong."""
 
     def __post_init__(self) -> None:
         check_arrays(self)

@@ -53,6 +53,16 @@ _UNITS: Final = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class MountTolerance:
+    """How far the frame of a sensor may be from that of the robot model, as standard deviations."""
+
+    rotation_rad: float | None = None
+    """Of the rotation about each axis; rad; None where nobody knows, so that data decide from some 0.7 degrees on."""
+    shift_m: float | None = None
+    """Of the shift of the origin along each axis; m; None for 2 mm."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ModelTolerance:
     """How far a robot model may be from the robot, as standard deviations."""
 
@@ -70,8 +80,23 @@ class ModelTolerance:
     """Of the mass of single links, relative, by their names."""
     joints: Mapping[str, float] = field(default_factory=dict)
     """Of the zero of single joints, by their names; rad or m."""
+    mounts: Mapping[str, MountTolerance] = field(default_factory=dict)
+    """Of the frames of single sensors, by their names; of all others `mount`."""
+    mount: MountTolerance = MountTolerance()
+    """Of the frame of every sensor."""
     found: Mapping[str, float] = field(default_factory=dict)
     """Of numbers that an earlier calibration found, by the names of their errors; in the unit of each."""
+
+    def mount_of(self, sensor: str) -> MountTolerance:
+        """Give the tolerance of the frame of a sensor.
+
+        Args:
+            sensor: Its name.
+
+        Returns:
+            That of the sensor, or that of all.
+        """
+        return self.mounts.get(sensor, self.mount)
 
 
 EXACT: Final = ModelTolerance(mass=0.0, centre_m=0.0, joint_zero_rad=0.0, acceleration=0.0, delay_s=0.0)

@@ -14,7 +14,7 @@ from forcetorque.base.arrays import ArrayField, FloatArray, IntArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.stored_model import StoredTable, read_stored_table, write_stored_table
 from forcetorque.experiment.calibration.assumptions import Assumptions
-from forcetorque.experiment.calibration.model_error import ErrorTerm
+from forcetorque.experiment.calibration.model_error import ErrorTerm, MountTolerance
 from forcetorque.experiment.calibration.moments import DataSet, Moments, WindowMeans
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.provenance import FittedInterval, SensorIdentity
@@ -254,6 +254,10 @@ class RecordingMoments(StoredTable):
     """Accuracy of the reference; N, N m; None for 1e-3 of full scale."""
     repeatability: float
     """Share of its response by which the sensor differs from one motion to the next."""
+    mount_rotation_rad: float | None = None
+    """How far its frame may be turned from that of the robot model, as a standard deviation; None if not specified."""
+    mount_shift_m: float | None = None
+    """How far its origin may be from that of the robot model; m; None if not specified."""
     drift: bool
     """Whether the offset of a session may move evenly in time."""
     nonlinear: bool = False
@@ -274,7 +278,12 @@ class RecordingMoments(StoredTable):
     @property
     def assumptions(self) -> Assumptions:
         """What is known beside data and prior."""
-        return Assumptions(full_scale=self.full_scale, accuracy=self.accuracy, repeatability=self.repeatability)
+        return Assumptions(
+            full_scale=self.full_scale,
+            accuracy=self.accuracy,
+            repeatability=self.repeatability,
+            mount=MountTolerance(rotation_rad=self.mount_rotation_rad, shift_m=self.mount_shift_m),
+        )
 
     def save(self, path: Path | str, *, force: bool = False) -> None:
         """Write it as JSON; on any error the file keeps what it held before.
@@ -342,6 +351,7 @@ def _compared(recording: RecordingMoments) -> dict[str, Any]:
         "full scale": recording.full_scale.tolist(),
         "accuracy": None if recording.accuracy is None else recording.accuracy.tolist(),
         "repeatability": recording.repeatability,
+        "tolerance of the mount (rotation, shift)": [recording.mount_rotation_rad, recording.mount_shift_m],
         "drift": recording.drift,
         "nonlinear": recording.nonlinear,
         "variables": [variable.model_dump(mode="json") for variable in recording.variables],
