@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any, Literal, get_args
 
 import numpy as np
-import numpy.typing as npt
 
 from forcetorque.app.python.experiment import Experiment
+from forcetorque.app.python.given_numbers import brief, numbers
 from forcetorque.base.arrays import FloatArray, IntArray, require_shape
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
@@ -107,12 +107,12 @@ def experiment_of_arrays(
         )
     if not (isinstance(limit_counts, Real) and limit_counts > 0.0):
         raise ExperimentError(f"limit_counts: expected a positive number of counts, got {limit_counts!r}")
-    ground = Support(frame=support, gravity_direction=_numbers(gravity_direction, "gravity_direction"))
+    ground = Support(frame=support, gravity_direction=numbers(gravity_direction, "gravity_direction"))
     intervals = _intervals(calibrate, Use.CALIBRATION, ground)
     if judge is not None:
         intervals += _intervals(judge, Use.VALIDATION, ground)
     _require_apart(intervals)
-    matrix = None if prior is None else _numbers(prior, "prior")
+    matrix = None if prior is None else numbers(prior, "prior")
     if matrix is not None and not np.isfinite(matrix).all():
         raise ExperimentError("prior: expected a matrix of finite numbers, got NaN or infinity in it")
     known = _same(matrix, quantity)
@@ -151,43 +151,14 @@ def _robot(robot: RobotModel | Path | str) -> RobotModel:
     if isinstance(robot, RobotModel):
         return robot
     if not isinstance(robot, str | Path):
-        raise ExperimentError(f"robot: expected a RobotModel or the path of a URDF file, got {_what(robot)}")
+        raise ExperimentError(f"robot: expected a RobotModel or the path of a URDF file, got {brief(robot)}")
     if str(robot).lstrip().startswith("<"):
         raise ExperimentError("robot: expected the path of a URDF file, got its text; write that to a file first")
     return read_urdf(robot)
 
 
-def _what(given: Any) -> str:
-    """What came, in a few words however large it is."""
-    shape = getattr(given, "shape", None)
-    if shape is not None:
-        return f"{type(given).__name__} of shape {shape}"
-    return repr(given) if given is None or isinstance(given, str | int | float) else f"a {type(given).__name__}"
-
-
-def _numbers(given: Any, name: str) -> FloatArray:
-    """What is given as numbers, NaN where none is; text of numbers is taken for them, instants and complex are not."""
-    try:
-        array = _plain(given)
-        if array.dtype.kind in "mMc":
-            raise TypeError
-        return array.astype(np.float64)
-    except (TypeError, ValueError) as error:
-        raise ExperimentError(f"{name}: expected numbers, got {_what(given)}") from error
-
-
-def _plain(given: Any) -> npt.NDArray[Any]:
-    """An array of numpy, whose NaN stands for what is masked and for what pandas knows to be missing."""
-    if isinstance(given, np.ma.MaskedArray):
-        return np.where(np.ma.getmaskarray(given), np.nan, given.data)
-    array = np.asarray(given)
-    if array.dtype == object and hasattr(given, "to_numpy"):  # of pandas, where numbers that may be missing are objects
-        return np.asarray(given.to_numpy(dtype=np.float64, na_value=np.nan))
-    return array
-
-
 def _full_scale(given: Any) -> FloatArray:
-    full_scale = _numbers(given, "full_scale")
+    full_scale = numbers(given, "full_scale")
     require_shape(full_scale, name="full_scale", shape=(6,))
     if not (np.isfinite(full_scale) & (full_scale > 0.0)).all():
         raise ExperimentError(f"full_scale: expected six finite numbers above 0, N and N m, got {full_scale.tolist()}")
@@ -222,7 +193,7 @@ def _bounds_s(name: str, given: Any) -> FloatArray:
         if bounds.shape[-1:] != (2,) or bounds.ndim > 2 or not (bounds.size and (np.abs(bounds) < _LATEST_S).all()):
             raise ValueError
     except (TypeError, ValueError) as error:
-        got = repr(given) if len(repr(given)) < _LONGEST_QUOTE else _what(given)
+        got = repr(given) if len(repr(given)) < _LONGEST_QUOTE else brief(given)
         raise ExperimentError(
             f"{name}: expected one span, start and end in s on the clock of time_s, such as (1.0, 59.0), or a list of "
             f"them, got {got}"
@@ -232,7 +203,7 @@ def _bounds_s(name: str, given: Any) -> FloatArray:
 
 def _stamps(time_s: Any, name: str) -> IntArray:
     try:
-        time = _numbers(time_s, name)
+        time = numbers(time_s, name)
     except ExperimentError as error:
         raise ExperimentError(
             f"{error}; give seconds: of dates t those are (t - t[0]) / numpy.timedelta64(1, 's'), one t[0] for all"
@@ -246,7 +217,7 @@ def _stamps(time_s: Any, name: str) -> IntArray:
 
 
 def _reading_stream(model: RobotModel, sensor: str, stamps: IntArray, reading: Any, quantity: str) -> Stream:
-    values = _numbers(reading, "reading")
+    values = numbers(reading, "reading")
     require_shape(values, name="reading", shape=(len(stamps), 6 if quantity == "wrench" else None))
     if quantity == "wrench":
         named = [str(column) for column in getattr(reading, "columns", WRENCH_COMPONENTS)]
@@ -266,7 +237,7 @@ def _reading_stream(model: RobotModel, sensor: str, stamps: IntArray, reading: A
 def _joint_stream(model: RobotModel, stamps: IntArray, joints: Mapping[str, Any]) -> Stream:
     if not hasattr(joints, "keys"):  # a frame of pandas has them, and is no Mapping
         raise ExperimentError(
-            f"joints: expected positions by name of the joint, a dictionary or a pandas frame, got {_what(joints)}"
+            f"joints: expected positions by name of the joint, a dictionary or a pandas frame, got {brief(joints)}"
         )
     names = tuple(str(joint) for joint in joints)
     absent = [joint for joint in names if joint not in model.joints]
@@ -274,7 +245,7 @@ def _joint_stream(model: RobotModel, stamps: IntArray, joints: Mapping[str, Any]
         raise ExperimentError(
             f"joints: expected names of joints of the robot {model.name!r}, got {', '.join(absent) or 'none'}"
         )
-    positions = [_numbers(joints[joint], f"joints[{joint!r}]") for joint in joints]
+    positions = [numbers(joints[joint], f"joints[{joint!r}]") for joint in joints]
     for joint, values in zip(names, positions, strict=True):
         require_shape(values, name=f"joints[{joint!r}]", shape=(len(stamps),))
     signal = Signal(
