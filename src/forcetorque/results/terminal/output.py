@@ -54,6 +54,8 @@ def start_logging() -> logging.Logger:
         handler.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
         logger.addHandler(handler)
         logger.setLevel(logging.INFO)
+        # where its cache is and that it is built is of no use to who reads the result
+        logging.getLogger("matplotlib").setLevel(logging.ERROR)
     return logger
 
 
