@@ -125,9 +125,9 @@ class Result(Row):
             MissingExtraError: If pandas is not installed.
         """
         try:
-            pandas = import_module("pandas")
+            import pandas
         except ImportError:
-            raise MissingExtraError("to_pandas needs pandas: pip install pandas") from None
+            raise MissingExtraError("to_pandas needs pandas: pip install forcetorque[frames]") from None
         return pandas.DataFrame(self.records(), columns=self.columns())
 
     def text(self, width: int = NOTEBOOK_WIDTH) -> str:
