@@ -277,7 +277,8 @@ def _reading_table(sensor: str, time: FloatArray, reading: Any, quantity: str) -
             raise ExperimentError(
                 f"reading: expected the columns {', '.join(WRENCH_COMPONENTS)} in this order, got {', '.join(named)}"
             )
-    return stream_of_arrays(_READINGS, time, frame=sensor, clock="arrays", **{quantity: values})
+    samples: dict[str, Any] = {quantity: values}
+    return stream_of_arrays(_READINGS, time, frame=sensor, clock="arrays", **samples)
 
 
 def _joint_table(model: RobotModel, time: FloatArray, joints: Mapping[str, Any]) -> dict[str, Any]:
