@@ -13,6 +13,7 @@ from forcetorque.base.lazy import lazy_names
 if TYPE_CHECKING:
     from forcetorque.app.python.arrays import experiment_of_arrays
     from forcetorque.app.python.experiment import Experiment, calibrate_jointly, load_experiment
+    from forcetorque.app.python.tables import experiment_of_tables, stream_of_arrays
     from forcetorque.app.run.run import run
     from forcetorque.base.errors import ForceTorqueError
     from forcetorque.calibration.calibrate import calibrate_sensor
@@ -66,6 +67,7 @@ __all__ = [
     "evaluate",
     "expected_wrenches",
     "experiment_of_arrays",
+    "experiment_of_tables",
     "load_experiment",
     "plan_jointly",
     "read_calibration",
@@ -73,6 +75,7 @@ __all__ = [
     "read_urdf",
     "run",
     "skin_wrench",
+    "stream_of_arrays",
     "wrench_errors",
     "write_calibration",
     "write_recording",
@@ -96,6 +99,7 @@ __getattr__, __dir__ = lazy_names(
         "evaluate": "forcetorque.evaluation.commands",
         "expected_wrenches": "forcetorque.robot.dynamics",
         "experiment_of_arrays": "forcetorque.app.python.arrays",
+        "experiment_of_tables": "forcetorque.app.python.tables",
         "load_experiment": "forcetorque.app.python.experiment",
         "plan_jointly": "forcetorque.planning.joint_calibration_plan",
         "read_calibration": "forcetorque.experiment.calibration.artefact",
@@ -103,6 +107,7 @@ __getattr__, __dir__ = lazy_names(
         "read_urdf": "forcetorque.robot.urdf",
         "run": "forcetorque.app.run.run",
         "skin_wrench": "forcetorque.skin.commands",
+        "stream_of_arrays": "forcetorque.app.python.tables",
         "wrench_errors": "forcetorque.experiment.calibrations_under_test",
         "write_calibration": "forcetorque.experiment.calibration.artefact",
         "write_recording": "forcetorque.recording.storage",

@@ -32,7 +32,7 @@ def test_torques_of_all_sources_are_in_the_file(arm: Path, run: Run) -> None:
     )
     assert table.column("torque_fused.shoulder_roll").to_numpy()[fit].mean() == row["mean"]
     shown = run(*words, "--figure", "torques.png", "--details").out
-    assert "joint torques drawn to torques.png" in shown
+    assert shown.splitlines().count("drawn to torques.png") == 1
     assert Path("torques.png").read_bytes().startswith(b"\x89PNG")
     assert "sources of joint torques" in shown
     assert "at most 1.0% of intervals" in shown

@@ -271,6 +271,13 @@ class ArrayModel(BaseModel):
     def __eq__(self, other: object) -> bool:
         return type(other) is type(self) and _same(self.__dict__, other.__dict__)
 
+    def __dir__(self) -> list[str]:
+        # what pydantic adds is no part of an answer, and would hide it where names are completed
+        return [name for name in super().__dir__() if name not in _OF_PYDANTIC]
+
+
+_OF_PYDANTIC = frozenset(name for name in dir(BaseModel) if not (name.startswith("__") and name.endswith("__")))
+
 
 def _same(one: Any, other: Any) -> bool:
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):

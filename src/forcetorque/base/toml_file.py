@@ -154,6 +154,23 @@ def read_toml(path: Path | str, form: type[_Content], *, what: str) -> _Content:
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, or numbers and lists beyond all bounds
         raise FormatError(f"{file}: expected TOML, got {error}") from error
     _require_no_unanswered_key(file, text)
+    return checked_tables(content, form, file)
+
+
+def checked_tables(content: dict[str, Any], form: type[_Content], file: Path) -> _Content:
+    """Check the tables of a file.
+
+    Args:
+        content: The tables, as a parser of TOML gives them.
+        form: Form of the file.
+        file: The file, for messages.
+
+    Returns:
+        The content.
+
+    Raises:
+        FormatError: If a key is unknown, missing or has a wrong value.
+    """
     try:
         return form.model_validate(content)
     except ValidationError as error:

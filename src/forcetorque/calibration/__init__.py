@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     )
     from forcetorque.calibration.joint.calibrate import calibrate_jointly
     from forcetorque.calibration.moments import recording_moments, store_moments
+    from forcetorque.calibration.summary import information_figure
 
 CAPABILITY = Capability(
     page="calibration/calibration.md",
@@ -37,6 +38,7 @@ __all__ = [
     "export_icub_matrix",
     "export_table",
     "export_wholebodydynamics",
+    "information_figure",
     "recording_moments",
     "store_moments",
 ]
@@ -51,6 +53,7 @@ __getattr__, __dir__ = lazy_names(
         "export_icub_matrix": "forcetorque.calibration.export.export",
         "export_table": "forcetorque.calibration.export.export",
         "export_wholebodydynamics": "forcetorque.calibration.export.export",
+        "information_figure": "forcetorque.calibration.summary",
         "recording_moments": "forcetorque.calibration.moments",
         "store_moments": "forcetorque.calibration.moments",
     },

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 from pydantic import Field
 
@@ -23,6 +23,7 @@ from forcetorque.calibration.summary import (
     calibration_answer,
     calibration_blocks,
     component_records,
+    information_figure,
     learnt_directions,
     learnt_words,
 )
@@ -40,8 +41,11 @@ from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import contradicted_statements, load_doubts
 from forcetorque.recording.recording import Use
 from forcetorque.results.answer import Answer
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Table, table_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _MOMENTS = "stored moments are fitted by the generative model; leave out the estimation type and lambda"
 
@@ -258,7 +262,7 @@ class SensorCalibration(Row):
     """What the recordings taught of every load direction; None for a type of the thesis, or without a prior."""
 
 
-class SensorCalibrations(Result):
+class SensorCalibrations(DrawnResult):
     """Calibrations of the sensors of an experiment."""
 
     interval_uses = ("calibration",)
@@ -271,8 +275,6 @@ class SensorCalibrations(Result):
     """One per sensor that could be fitted."""
     joint: JointOutcome | None = None
     """What a joint calibration says beside that; None where every sensor was calibrated alone."""
-    figure: str | None = None
-    """File of the figure of what the recordings taught; none where none was drawn."""
     saved: bool = Field(default=False, exclude=True, repr=False)
     """Whether the files are written; nothing is until `save`."""
 
@@ -295,6 +297,21 @@ class SensorCalibrations(Result):
                 self.joint.file, force=force
             )
         return self.model_copy(update={"saved": True})
+
+    def figure(self) -> Figure:
+        """Draw the information gained of every sensor or, of a joint calibration, residuals.
+
+        Returns:
+            The figure of `joint_figure` for a joint calibration, else of `learnt_figure`.
+
+        Raises:
+            FitError: If no calibration is a generative fit towards a prior matrix.
+        """
+        from forcetorque.calibration.figures.joint import joint_figure
+
+        if self.joint is not None:
+            return joint_figure(self.joint.residuals)
+        return information_figure([entry.calibration for entry in self.calibrations])
 
     def answers(self) -> Iterator[Answer]:
         """Say of every sensor what the recordings taught, and how to evaluate it.
@@ -329,8 +346,6 @@ class SensorCalibrations(Result):
             if self.joint.file is not None:
                 written = f"written to {self.joint.file}" if self.saved else f"goes to {self.joint.file} by `save`"
                 yield f"covariance of all sensors together {written}"
-        if self.figure is not None:
-            yield f"drawn to {self.figure}"
 
     def records(self) -> list[dict[str, object]]:
         """Give matrices, offsets and coefficients as flat lines.

@@ -11,7 +11,14 @@ import typer
 
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, known_names
 from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption, SensorOption
-from forcetorque.results.terminal.output import Format, refuse_standard_output, report_error, show, start_logging
+from forcetorque.results.terminal.output import (
+    Format,
+    drawn_to,
+    refuse_standard_output,
+    report_error,
+    show,
+    start_logging,
+)
 
 if TYPE_CHECKING:
     import logging
@@ -197,31 +204,11 @@ def _show(
     refusals = []
     if figure is not None:
         try:
-            calibrations = _drawn(calibrations, figure)
+            calibrations = drawn_to(calibrations, figure)
         except ForceTorqueError as error:
             refusals.append(error)
     show(calibrations, output_format, details=details, experiments=experiments)
     return refusals
-
-
-def _drawn(calibrations: SensorCalibrations, figure: Path) -> SensorCalibrations:
-    """Draw what the recordings taught of every sensor, and name the file in the result."""
-    from forcetorque.base.output_file import write_bytes_atomically
-    from forcetorque.calibration.figures.information import learnt_figure
-    from forcetorque.results.figures import png_bytes
-
-    learnt = {
-        f"{entry.calibration.sensor.name} ({entry.calibration.sensor.serial})": entry.learnt
-        for entry in calibrations.calibrations
-        if entry.learnt is not None
-    }
-    if not learnt:
-        raise ForceTorqueError(
-            f"--figure {figure}: expected a generative fit towards a prior, which tells what the recordings taught; "
-            "got none. Leave it out"
-        )
-    write_bytes_atomically(figure, png_bytes(learnt_figure(learnt)))
-    return calibrations.model_copy(update={"figure": str(figure)})
 
 
 def _end(refusals: Sequence[ForceTorqueError]) -> None:

@@ -9,12 +9,11 @@ from importlib.metadata import version
 from pathlib import Path
 
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.output_file import declare_outputs, write_bytes_atomically
-from forcetorque.calibration.calibrate import SensorCalibrations
+from forcetorque.base.output_file import declare_outputs
 from forcetorque.calibration.corrected_urdf import write_corrected_urdf
 from forcetorque.calibration.joint.calibrate import JOINT_FILE, calibrate_jointly, calibration_file
 from forcetorque.results.result import created_now
-from forcetorque.results.terminal.output import Format, show
+from forcetorque.results.terminal.output import Format, drawn_to, show
 from forcetorque.results.terminal.reading import read_experiments, sensors_named
 
 
@@ -83,15 +82,5 @@ def calibrate_together(
     if write_urdf is not None:
         write_corrected_urdf(contents[0], output / JOINT_FILE, write_urdf, force=force)
         log.info("corrected robot model written to %s", write_urdf)
-    shown = _drawn(written, figure) if figure is not None else written
+    shown = written if figure is None else drawn_to(written, figure)
     show(shown, output_format, details=details, experiments=experiments)
-
-
-def _drawn(result: SensorCalibrations, figure: Path) -> SensorCalibrations:
-    from forcetorque.calibration.figures.joint import joint_figure
-    from forcetorque.results.figures import png_bytes
-
-    if result.joint is None:
-        return result
-    write_bytes_atomically(figure, png_bytes(joint_figure(result.joint.residuals)))
-    return result.model_copy(update={"figure": str(figure)})

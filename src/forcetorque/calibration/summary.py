@@ -5,15 +5,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
+from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.calibration.artefact import JOINT, Calibration, SessionOffset
 from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.capability import named
 from forcetorque.results.number_text import number, with_error
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def calibration_answer(
@@ -277,6 +282,32 @@ def learnt_directions(calibration: Calibration) -> tuple[LearntDirection, ...] |
         )
         for k, name in enumerate(WRENCH_COMPONENTS)
     )
+
+
+def information_figure(calibrations: Sequence[Calibration]) -> Figure:
+    """Draw what `learnt_directions` gives of every calibration.
+
+    Args:
+        calibrations: Calibrations.
+
+    Returns:
+        The figure of `learnt_figure`, of those that have any.
+
+    Raises:
+        FitError: If none has any.
+    """
+    learnt = {
+        f"{calibration.sensor.name} ({calibration.sensor.serial})": directions
+        for calibration in calibrations
+        if (directions := learnt_directions(calibration)) is not None
+    }
+    if not learnt:
+        raise FitError(
+            "expected a generative fit towards a prior matrix, which has predicted errors before and after, to draw; "
+            "got none"
+        )
+    figure: Figure = named("forcetorque.calibration.figures.information:learnt_figure")(learnt)
+    return figure
 
 
 def learnt_words(directions: Sequence[LearntDirection]) -> str:

@@ -34,7 +34,7 @@ def contest_answer(contest: Contest) -> Answer:
         subject=f"{contest.contest}, loads of {loads} kg",
         verdict=f"LEAST ERROR: {contest.winner}" if contest.winner is not None else "NONE ERRS LEAST",
         why=(f"error in % of the loads: {errors}{more}", f"{_ratios(contest)}{left}"),
-        written=() if contest.figure is None else (contest.figure,),
+        written=(contest.figure_file,),
         concern=Concern.NONE if contest.winner is not None else Concern.UNCERTAIN,
     )
 

@@ -4,7 +4,7 @@
 from contextlib import nullcontext
 from typing import TYPE_CHECKING, Annotated
 
-from forcetorque.results.command import Drawing, Option, command
+from forcetorque.results.command import Option, command
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -13,13 +13,7 @@ if TYPE_CHECKING:
     from forcetorque.contests.ranking import Contest
 
 
-@command(
-    Drawing(
-        function="forcetorque.contests.figure:contest_figure",
-        of=("loads",),
-        help="errors by component and load, with their intervals",
-    )
-)
+@command("errors by component and load, with their intervals")
 def contest(
     entries: Annotated[
         "Entries | Path | str", Option("File of the contest (TOML): runs and contestants; see docs/contests.md.")

@@ -21,7 +21,7 @@ from forcetorque.contests.pairwise_comparison import (
     rms_intervals,
 )
 from forcetorque.contests.phases import Trial, by_load, changes, common_phases, repeatability, require_same_motion
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
 
 
@@ -227,17 +227,17 @@ _RATES = (
 )
 
 
-class Contest(Result):
+class Contest(DrawnResult):
     """Who errs less than whom."""
 
+    drawn_by: ClassVar[str] = "forcetorque.contests.figure:contest_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("loads",)
     answered_by: ClassVar[str | None] = "forcetorque.contests.answers:contest_answer"
 
     schema_name: Literal["forcetorque/contest/1"] = Field(default="forcetorque/contest/1", alias="schema")
     """Form of the result."""
     contest: str
     """Name of the contest."""
-    figure: str | None = None
-    """File of the figure."""
     offset: str
     """Which offset all were evaluated with."""
     phases: int
@@ -271,8 +271,6 @@ class Contest(Result):
         yield _RATES
         if self.left_out:
             yield table_of(self.left_out, "could not take part")
-        if self.figure is not None:
-            yield f"drawn to {self.figure}"
 
     def _verdict(self) -> Iterator[str]:
         best = [row.contestant for row in self.contestants if row.rank == 1]

@@ -42,7 +42,7 @@ def device_answer(design: DeviceDesign) -> Answer:
         ),
         step="calibrate with the simulated recordings" if calibrated else "name a folder for URDF and logs by --output",
         command=typed("inspect", calibrated[0]) if calibrated else "",
-        written=tuple(file for file in (design.folder, *design.figures) if file is not None),
+        written=(design.folder, *design.figures),
         concern=Concern.BAD if failed else Concern.NONE,
     )
 

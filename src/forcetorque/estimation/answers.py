@@ -7,25 +7,25 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from forcetorque.results.answer import Answer, Concern
-from forcetorque.results.number_text import amount, bounded
+from forcetorque.results.number_text import amount, within
 
 if TYPE_CHECKING:
-    from forcetorque.estimation.result import ContactSummary, EstimatedRecording
+    from forcetorque.estimation.result import ContactSummary, EstimatedRecording, EstimateSummary
 
 _NAMED = 4
 """Contacts that are named; the table has all."""
 
 
-def estimate_answers(recordings: Sequence[EstimatedRecording]) -> Iterator[Answer]:
+def estimate_answers(summary: EstimateSummary) -> Iterator[Answer]:
     """Give the answer for every recording.
 
     Args:
-        recordings: What was estimated of each.
+        summary: What was estimated of one or several.
 
     Yields:
         One answer each.
     """
-    for recording in recordings:
+    for recording in summary.recordings or (summary,):
         ambiguous = [(part, group) for part in recording.parts for group in part.ambiguous]
         contacts = len({row.contact for row in recording.contacts})
         yield Answer(
@@ -37,7 +37,7 @@ def estimate_answers(recordings: Sequence[EstimatedRecording]) -> Iterator[Answe
             ),
             why=(*_forces(recording.contacts), *_undetermined(recording, ambiguous)),
             step="name contacts with fewer unknowns by --contacts" if ambiguous else "",
-            written=tuple(file for file in (recording.file, recording.figure) if file is not None),
+            written=(recording.file, recording.figure_file),
             concern=Concern.UNCERTAIN if ambiguous or recording.left_out or not contacts else Concern.NONE,
         )
 
@@ -51,7 +51,7 @@ def _forces(rows: Sequence[ContactSummary]) -> Iterator[str]:
 
 def _force(row: ContactSummary) -> str:
     force, half = row.force_mean_N or 0.0, row.force_half_width_95_N
-    return f"{row.interval}, {row.contact}: {amount(force, 'N') if half is None else bounded(force, force + half, 'N')}"
+    return f"{row.interval}, {row.contact}: {amount(force, 'N') if half is None else within(force, half, 'N')}"
 
 
 def _undetermined(recording: EstimatedRecording, ambiguous: Sequence[tuple[object, tuple[str, ...]]]) -> Iterator[str]:

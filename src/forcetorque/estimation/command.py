@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from logging import Logger
 
     from forcetorque.estimation.result import EstimateSummary
-    from forcetorque.estimation.torque.experiment_fusion import TorquePicture
     from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.experiment import Experiment
 
@@ -138,9 +137,10 @@ def _estimated(
     from forcetorque.estimation.estimate import estimate_experiment
     from forcetorque.estimation.result import summarise_estimates
     from forcetorque.estimation.skin_contacts import frames_of_patches
-    from forcetorque.estimation.torque.experiment_fusion import fuse_experiment, torque_picture
+    from forcetorque.estimation.torque.experiment_fusion import TorqueHistory, fuse_experiment
     from forcetorque.experiment.contacts import contact_in_words
     from forcetorque.experiment.offsets import corrections_of
+    from forcetorque.results.terminal.output import drawn_to
 
     named = [contact_in_words(words, content.model) for words in contacts] if contacts else None
     corrections = corrections_of(content, calibrations, offset=offset)
@@ -160,19 +160,11 @@ def _estimated(
     summary = summarise_estimates(content, corrections, spans, file=file, fusions=fusions, frictions=frictions)
     if figure is None:
         return summary
-    _draw(torque_picture(content, spans, fusions), figure, log)
-    return summary.model_copy(update={"figure": str(figure)})
-
-
-def _draw(picture: TorquePicture, figure: Path, log: Logger) -> None:
-    from forcetorque.base.output_file import write_bytes_atomically
-    from forcetorque.estimation.figures import torque_figure
-    from forcetorque.results.figures import png_bytes
-
-    if picture.left_out:
-        log.info("drawn are the joints whose torques change most, not %s", ", ".join(picture.left_out))
-    drawn = torque_figure(picture.seconds, picture.joints, picture.torques, deviations=picture.deviations)
-    write_bytes_atomically(figure, png_bytes(drawn))
+    torques = TorqueHistory(experiment=content, spans=spans, fusions=fusions)
+    if left_out := torques.picture().left_out:
+        log.info("drawn are the joints whose torques change most, not %s", ", ".join(left_out))
+    # without samples afterwards: there may be more of them than memory holds
+    return drawn_to(summary.model_copy(update={"torques": torques}), figure).model_copy(update={"torques": None})
 
 
 def _outputs(experiments: Sequence[Path], output: Path) -> dict[Path, Path]:

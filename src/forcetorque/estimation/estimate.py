@@ -5,11 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
+from forcetorque.base.labelled_arrays import TIME, LabelledArray, wrench_array, xarray_dataset
 from forcetorque.estimation.section import LENGTH_SCALE
 from forcetorque.estimation.skin_contacts import (
     SkinSource,
@@ -305,6 +307,48 @@ class IntervalEstimates:
     """Contacts on skin; n samples, as they were felt."""
     uncertain: UncertainEstimates | None = None
     """Contacts and torques with covariances, before any filter; None without skin."""
+
+    def to_xarray(self) -> Any:
+        """Give measured and expected wrenches, contact wrenches and joint torques as a data set of xarray.
+
+        Returns:
+            `xarray.Dataset` over `time`, `sensor`, `contact`, `joint` and `axis`; what was not estimated is left out.
+
+        Raises:
+            MissingExtraError: If xarray is not installed.
+        """
+        estimates, layout = self.estimates, self.estimates.layout
+        measured = "sensor" if self.measured.names == layout.sensors else "measured_sensor"
+        arrays = {
+            "measured": wrench_array(
+                self.measured.values, measured, long_name="measured by the sensors, in their frames"
+            ),
+            "expected": wrench_array(
+                estimates.expected, "sensor", long_name="expected measurement, in the frame of the sensor"
+            ),
+            "contact_wrench": wrench_array(
+                estimates.contact_wrenches, "contact", long_name="environment on robot, in and about the contact frame"
+            ),
+            "torque": LabelledArray(
+                values=estimates.torques,
+                dims=(TIME, "joint"),
+                units="N m, N of prismatic joints",
+                attributes={"long_name": "joint torque along +q"},
+            ),
+        }
+        names = {
+            measured: self.measured.names,
+            "sensor": layout.sensors,
+            "contact": layout.contacts,
+            "joint": layout.joints,
+        }
+        present = {name: array for name, array in arrays.items() if np.asarray(array.values).shape[1]}
+        return xarray_dataset(
+            self.stamp_ns,
+            present,
+            {dim: labels for dim, labels in names.items() if labels},
+            interval=self.interval.label,
+        )
 
 
 def estimate_experiment(

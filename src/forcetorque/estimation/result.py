@@ -5,16 +5,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import EstimationError
 from forcetorque.base.noise.means import sample_statistics
 from forcetorque.estimation.estimate import IntervalEstimates
 from forcetorque.estimation.samples_file import write_estimates
-from forcetorque.estimation.torque.experiment_fusion import IntervalFusion, TorqueFusion, summarise_fusion
+from forcetorque.estimation.torque.experiment_fusion import (
+    IntervalFusion,
+    TorqueFusion,
+    TorqueHistory,
+    summarise_fusion,
+)
 from forcetorque.estimation.torque.motor import Friction
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.experiment import Experiment
@@ -23,11 +29,12 @@ from forcetorque.experiment.validity import ReadingsOutside, outside_row, senten
 from forcetorque.inspection.diagnosis import reversed_sensors
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Use
-from forcetorque.results.answer import Answer
-from forcetorque.results.capability import named
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, table_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 class SkinContactSummary(Row):
@@ -180,8 +187,8 @@ class EstimatedRecording(Row):
     """Joint torques of several sources; None where they were not asked for."""
     skin: tuple[SkinContactSummary, ...] = ()
     """One per interval and contact on skin."""
-    figure: str | None = None
-    """File of the figure of joint torques, where one was drawn."""
+    figure_file: str | None = Field(default=None, alias="figure")
+    """PNG of the figure of joint torques; null where none was written."""
 
     def tables(self) -> Iterator[Table | str]:
         """Give contacts, contacts on skin, sub-models and fused torques.
@@ -202,8 +209,12 @@ class EstimatedRecording(Row):
             yield from self.fusion.blocks()
 
 
-class _EstimateSchema(Result):
-    """Name of the schema, which comes before all other keys; `result_classes` takes the class below it."""
+class EstimateSummary(EstimatedRecording, DrawnResult):
+    """Contacts of the robot over the intervals of an experiment, and how well its equations determine them.
+
+    Of several recordings `experiment` holds all names, apart by semicolons, and `rows` all samples; what else an
+    `EstimatedRecording` has is in `recordings`.
+    """
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings",)
 
@@ -211,27 +222,34 @@ class _EstimateSchema(Result):
 
     schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
     """Form of the result."""
-
-
-class EstimateSummary(EstimatedRecording, _EstimateSchema):
-    """Contacts of the robot over the intervals of an experiment, and how well its equations determine them.
-
-    Of several recordings `experiment` holds all names, apart by semicolons, and `rows` all samples; what else an
-    `EstimatedRecording` has is in `recordings`.
-    """
+    answered_by: ClassVar[str | None] = "forcetorque.estimation.answers:estimate_answers"
 
     recordings: tuple[EstimatedRecording, ...] = ()
     """The estimates of each of several recordings; none where there is one recording."""
     intervals: tuple[IntervalEstimates, ...] = Field(default=(), exclude=True, repr=False)
     """Every sample, in a script; none where they are written to a file."""
+    torques: TorqueHistory | None = Field(default=None, exclude=True, repr=False)
+    """What the figure is made of; None for several recordings, and where samples are only written to a file."""
 
-    def answers(self) -> Iterator[Answer]:
-        """Say of every recording how large contact forces are, and what is not determined.
+    def figure(self) -> Figure:
+        """Draw joint torques over time, by source where they were fused.
 
-        Yields:
-            One per recording.
+        Returns:
+            The figure of `torque_figure`.
+
+        Raises:
+            EstimationError: If it does not hold the samples of one recording.
+            ExperimentError: If no torque of a rotary joint is known.
         """
-        yield from named("forcetorque.estimation.answers:estimate_answers")(self.recordings or (self,))
+        from forcetorque.estimation.figures import torque_figure
+
+        if self.torques is None:
+            raise EstimationError(
+                f"{self.experiment}: expected estimates of one recording with their samples to draw, got none; "
+                "`experiment.estimate()` has them"
+            )
+        picture = self.torques.picture()
+        return torque_figure(picture.seconds, picture.joints, picture.torques, deviations=picture.deviations)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table of the contacts and one of the sub-models, of one recording after the other.
@@ -248,8 +266,8 @@ class EstimateSummary(EstimatedRecording, _EstimateSchema):
         for recording in self.recordings or (self,):
             if recording.file is not None:
                 yield f"{recording.rows} rows written to {recording.file}"
-            if recording.figure is not None:
-                yield f"joint torques drawn to {recording.figure}"
+            if recording is not self and recording.figure_file is not None:  # its own is named below
+                yield f"drawn to {recording.figure_file}"
 
     def records(self) -> list[dict[str, object]]:
         """Give the contacts as lines.

@@ -19,7 +19,7 @@ from forcetorque.evaluation.load_cases.verdict import (
 from forcetorque.evaluation.next_step import to_calibrate, to_export, to_plan
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
-from forcetorque.results.number_text import amount, bounded
+from forcetorque.results.number_text import amount, within
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
@@ -131,4 +131,4 @@ def _step(use: UseVerdict) -> tuple[str, str]:
 
 
 def _mean(value: float, half_width: float | None, unit: str) -> str:
-    return amount(value, unit) if half_width is None else bounded(value, value + half_width, unit)
+    return amount(value, unit) if half_width is None else within(value, half_width, unit)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.results.command import Drawing, Option, command
+from forcetorque.results.command import Option, command
 from forcetorque.results.terminal.options import (
     ComparedCalibrationsOption,
     DetailsOption,
@@ -217,26 +217,17 @@ def compare(
 def _drawn(result: "Comparison", figure: Path) -> "Comparison":
     """Draw the figure, and name it if it was drawn; what fails then must not cost the result."""
     from forcetorque.base.errors import ForceTorqueError
-    from forcetorque.base.output_file import write_bytes_atomically
-    from forcetorque.evaluation.figures.sphere import index_figure
     from forcetorque.evaluation.sphere.result import FailureRow
-    from forcetorque.results.figures import png_bytes
+    from forcetorque.results.terminal.output import drawn_to
 
     try:
-        write_bytes_atomically(figure, png_bytes(index_figure(result.analyses)))
+        return drawn_to(result, figure)
     except (ForceTorqueError, OSError) as error:
         failure = FailureRow(file=str(figure), sensor=None, message=" ".join(str(error).split()))
         return result.model_copy(update={"failures": (*result.failures, failure)})
-    return result.model_copy(update={"figure": str(figure)})
 
 
-@command(
-    Drawing(
-        function="forcetorque.evaluation.figures.sphere:sphere_figure",
-        of=("analyses",),
-        help="the forces, the ellipsoids and the weight by the model",
-    )
-)
+@command("the forces, the ellipsoids and the weight by the model")
 def sphere(
     experiment: Annotated["Experiment", Option("Experiment in which a limb is carried around.")],
     sensors: Annotated[Collection[str], Option("Sensor of the experiment. Default: all.", "--sensor")] = (),

@@ -6,20 +6,42 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Self
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, MissingFileError
 from forcetorque.base.input_file import accept_input
 from forcetorque.base.output_file import real_path
+from forcetorque.robot.model import RobotModel
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class InMemory:
+    """What a script holds in place of files that an experiment file names."""
+
+    robot: RobotModel | None = None
+    """In place of the URDF file; None where tables name one."""
+    priors: Mapping[str, FloatArray] = field(default_factory=dict)
+    """In place of files of prior matrices, by the name of the sensor; shape (6, c) each; N/count, N m/count."""
+    arrays: Mapping[str, FloatArray] | None = None
+    """In place of the log, by the names that tables have for them; shape (rows, columns) each; None where tables name a
+    log."""
 
 
 class Inputs:
     """Resolves the paths of an experiment file and remembers what was read."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, in_memory: InMemory | None = None) -> None:
+        """Begin without inputs.
+
+        Args:
+            folder: Folder that paths are relative to.
+            in_memory: What stands in place of files; nothing if None.
+        """
         self.folder = folder
+        self.in_memory = InMemory() if in_memory is None else in_memory
         self._read: dict[str, Path] = {}
 
     @classmethod

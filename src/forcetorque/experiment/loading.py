@@ -11,13 +11,13 @@ from dataclasses import replace
 from enum import Enum
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field, create_model
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, known_names
-from forcetorque.base.toml_file import Table, Text, read_toml, toml_content
+from forcetorque.base.toml_file import Table, Text, checked_tables, read_toml, toml_content
 from forcetorque.experiment.calibration.model_error import EXACT
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.contacts import read_contacts
@@ -30,9 +30,9 @@ from forcetorque.experiment.core_tables import (
     processing_of,
 )
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor, Role, SensorVariable
-from forcetorque.experiment.file import ExperimentFile, Robot, parse_experiment, section_fields
+from forcetorque.experiment.file import ExperimentFile, Robot, experiment_file, parse_experiment, section_fields
 from forcetorque.experiment.file import Support as SupportTable
-from forcetorque.experiment.input_files import Inputs, stated_in
+from forcetorque.experiment.input_files import InMemory, Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
 from forcetorque.experiment.robot_model import read_robot
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
@@ -197,12 +197,12 @@ def load_experiment(path: Path | str, purpose: Purpose = Purpose.SENSORS) -> Exp
         return load_unrecorded(file, specified)
     parsed = parse_experiment(file)
     if parsed.sensor:
-        return _load(parsed, file)
+        return _load(parsed, file, Inputs.of(file))
     if purpose is Purpose.DISPLAY:
         spans = tuple(
             one if one.support or one.touched else one.model_copy(update={"use": Use.IGNORE}) for one in parsed.interval
         )
-        return _load(parsed.model_copy(update={"interval": spans}), file)
+        return _load(parsed.model_copy(update={"interval": spans}), file, Inputs.of(file))
     gives_forces = any(one.gives_forces(parsed.table(one)) for one in sections())
     if purpose is not Purpose.FORCES or parsed.robot is None or not gives_forces:
         raise ExperimentError(_lacks_sensors(parsed, file))
@@ -211,7 +211,31 @@ def load_experiment(path: Path | str, purpose: Purpose = Purpose.SENSORS) -> Exp
             f"{file}: expected [[support]], the link whose motion is known, got none: at rest with gravity_direction, "
             "or moving with imu, the streams of an IMU; without it the motion of the robot is unknown, with skin too"
         )
-    return _load(parsed, file)
+    return _load(parsed, file, Inputs.of(file))
+
+
+def load_tables(tables: dict[str, Any], in_memory: InMemory, *, folder: Path) -> Experiment:
+    """Make an experiment of the tables of an experiment file, without the file.
+
+    Args:
+        tables: The tables, as a parser of TOML gives them.
+        in_memory: What stands in place of files that they name.
+        folder: Folder that the paths in them are relative to.
+
+    Returns:
+        The experiment; its `file` is named after it.
+
+    Raises:
+        MissingFileError: If a file is not there.
+        FormatError: If the tables, or a file, do not have their form.
+        ExperimentError: If they have no sensor, or contradict themselves, the robot or the recording.
+    """
+    name = tables.get("name")
+    file = folder / (name if isinstance(name, str) and name else "experiment")
+    parsed = checked_tables(tables, experiment_file(), file)
+    if not parsed.sensor:
+        raise ExperimentError(_lacks_sensors(parsed, file))
+    return _load(parsed, file, Inputs(folder, in_memory))
 
 
 def _tables(file: Path) -> set[str] | None:
@@ -232,8 +256,7 @@ def _lacks_sensors(parsed: ExperimentFile, file: Path) -> str:
     )
 
 
-def _load(parsed: ExperimentFile, file: Path) -> Experiment:
-    inputs = Inputs.of(file)
+def _load(parsed: ExperimentFile, file: Path, inputs: Inputs) -> Experiment:
     robot, tolerance = None, EXACT
     if parsed.robot is not None:
         robot, tolerance = read_robot(parsed.robot, parsed.sensor, file, inputs)

@@ -36,7 +36,8 @@ def read_robot(
         ExperimentError: If the tolerance names links or joints that the robot does not have.
         RobotError: If the correction is of another robot.
     """
-    model = read_urdf(inputs.file(table.urdf))
+    given = inputs.in_memory.robot
+    model = read_urdf(inputs.file(table.urdf)) if given is None else given
     with stated_in(f"{file}: robot: fixed"):
         model = fix_joints(model, table.fixed)
     model = declare_sensors(sensors, file, model)

@@ -55,6 +55,9 @@ def read_prior(where: str, entry: Sensor, inputs: Inputs) -> SpecifiedPrior | No
     """
     if entry.prior is None:
         return None
+    given = inputs.in_memory.priors.get(entry.name)
+    if given is not None:
+        return SpecifiedPrior(matrix=given, source="given as an array")
     if entry.prior == IDENTITY:
         return SpecifiedPrior(matrix=np.eye(6), source=IDENTITY)
     specified = entry.prior if isinstance(entry.prior, PriorTable) else PriorTable(path=Path(entry.prior))

@@ -17,6 +17,8 @@ from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
 from forcetorque.experiment.robot_model import read_robot
+from forcetorque.formats.array_file.log_format import array_streams
+from forcetorque.formats.array_file.streams import ArrayLog
 from forcetorque.formats.registry import not_recognised, read_log, recognised_format
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.stream import Stream
@@ -51,8 +53,13 @@ def read_streams(
         sensors={entry.stream: entry.name for entry in parsed.sensor},
         joint_units={name: joint.type.unit for name, joint in model.joints.items()} if model else {},
     )
-    reading = read_log(log, context)
-    specified = {"format": log.format, "path": log.path.as_posix()}
+    arrays = inputs.in_memory.arrays
+    if arrays is not None and isinstance(log, ArrayLog):
+        reading = array_streams(log, arrays, context)
+        specified = {}
+    else:
+        reading = read_log(log, context)
+        specified = {"format": log.format, "path": log.path.as_posix()}
     logged = Recording(
         streams=_by_name(file, reading.streams),
         findings=reading.findings,

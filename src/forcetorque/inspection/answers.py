@@ -121,6 +121,19 @@ def _belongs(row: FindingRow, event: Event) -> bool:
     return event.start_s - (0.0 if lead else _APART_S) <= row.start_s <= event.end_s + (0.0 if lead else _APART_S)
 
 
+def inspection_answers(inspection: Inspection) -> Iterator[Answer]:
+    """Give the answer for a recording; there is none for columns without units, or the calibration of a maker.
+
+    Args:
+        inspection: The inspection.
+
+    Yields:
+        One answer.
+    """
+    if inspection.streams:
+        yield inspection_answer(inspection)
+
+
 def inspection_answer(inspection: Inspection) -> Answer:
     """Give the answer about a log.
 

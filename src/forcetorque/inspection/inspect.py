@@ -38,8 +38,6 @@ from forcetorque.inspection.file_contents import (
 )
 from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
 from forcetorque.recording.recording import Finding, Recording
-from forcetorque.results.answer import Answer
-from forcetorque.results.capability import named
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Table, table_of
 from forcetorque.skin.experiment import PATCHES, PatchExperiment, load_patches
@@ -79,6 +77,8 @@ class FindingRow(Row):
 class Inspection(Result):
     """Contents of a log, and findings."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.inspection.answers:inspection_answers"
+
     of_several: ClassVar[tuple[str, ...]] = ("clocks",)
 
     schema_name: Literal["forcetorque/inspect/2"] = Field(default="forcetorque/inspect/2", alias="schema")
@@ -101,15 +101,6 @@ class Inspection(Result):
     """Rows of the smallest, largest and mean numbers, where these are not all rows, and the reason."""
     calibration: MakerCalibration | None = None
     """The calibration of the maker, where the file is one."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say what was found, grouped to events.
-
-        Yields:
-            One for a recording; none for columns that wait for a file, or the calibration of a maker.
-        """
-        if self.streams:
-            yield named("forcetorque.inspection.answers:inspection_answer")(self)
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.

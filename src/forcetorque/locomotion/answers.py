@@ -6,8 +6,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from forcetorque.locomotion.torque_control.study import NO_ERROR
 from forcetorque.results.answer import Answer, Concern
-from forcetorque.results.number_text import amount, bounded, plus_minus
+from forcetorque.results.number_text import amount, bounded, plus_minus, within
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
@@ -81,7 +82,7 @@ def coherence_answers(coherence: Coherence) -> Iterator[Answer]:
                 f"{amount(coherence.weight_N, 'N')}: mean of the norm, and the largest",
                 "phases that gave offset or matrix are not counted; forces of one foot against the other cancel",
             ),
-            written=() if coherence.figure is None else (coherence.figure,),
+            written=(coherence.figure_file,),
             concern=Concern.NONE if row.phases else Concern.UNCERTAIN,
         )
 
@@ -107,7 +108,7 @@ def motion_answers(motion: Motion) -> Iterator[Answer]:
             subject=f"{interval}: {column}",
             verdict=_oscillation(rows[0]),
             why=(_amplitude(rows), *_course(motion, interval, column)),
-            written=() if motion.figure is None else (motion.figure,),
+            written=(motion.figure_file,),
             concern=Concern.UNCERTAIN if rows[0].oscillates else Concern.NONE,
         )
 
@@ -147,22 +148,22 @@ def _course(motion: Motion, interval: str, column: str) -> Iterator[str]:
         yield "; ".join(words)
 
 
-def torque_loop_answers(study: TorqueLoopStudy, none: str) -> Iterator[Answer]:
+def torque_loop_answers(study: TorqueLoopStudy) -> Iterator[Answer]:
     """Say from which force error on a robot falls, for every robot, gains and kind of errors.
 
     Args:
         study: Simulated runs.
-        none: Name of the errors of sensors that read the truth.
 
     Yields:
         One answer each.
     """
-    for key in dict.fromkeys((row.tilt_deg, row.gain_factor, row.errors) for row in study.rows if row.errors != none):
+    wrong = [row for row in study.rows if row.errors != NO_ERROR]
+    for key in dict.fromkeys((row.tilt_deg, row.gain_factor, row.errors) for row in wrong):
         tilt, gain, errors = key
         rows = [row for row in study.rows if (row.tilt_deg, row.gain_factor, row.errors) == key]
         rows.sort(key=lambda row: row.force_error_N)
         last = rows[-1]
-        exact = [row for row in study.rows if (row.tilt_deg, row.gain_factor, row.errors) == (tilt, gain, none)]
+        exact = [row for row in study.rows if (row.tilt_deg, row.gain_factor, row.errors) == (tilt, gain, NO_ERROR)]
         beside = f", {_tracking(exact[0])} without" if exact else ""
         own = [row for row in study.onsets if (row.tilt_deg, row.gain_factor, row.errors) == key]
         onsets = [row.median_force_error_N for row in own if row.median_force_error_N is not None]
@@ -174,6 +175,7 @@ def torque_loop_answers(study: TorqueLoopStudy, none: str) -> Iterator[Answer]:
                 f"torque tracking error {_tracking(last)} at {amount(last.force_error_N, 'N')} of force error{beside}",
                 f"{last.oscillating} of {last.runs} runs go on swinging after a push{linear}",
             ),
+            written=(study.figure_file,),
             concern=Concern.UNCERTAIN if any(row.falls for row in rows) else Concern.NONE,
         )
 
@@ -187,5 +189,4 @@ def _falls(rows: Sequence[TorqueLoopRow]) -> str:
 
 
 def _tracking(row: TorqueLoopRow) -> str:
-    half = row.tracking_half_width_95_Nm
-    return bounded(row.tracking_rms_Nm, None if half is None else row.tracking_rms_Nm + half, "N m")
+    return within(row.tracking_rms_Nm, row.tracking_half_width_95_Nm, "N m")

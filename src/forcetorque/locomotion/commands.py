@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.results.command import Drawing, Option, command
+from forcetorque.results.command import Option, command
 from forcetorque.results.terminal.options import CalibrationsOption, DetailsOption, ForceOption, FormatOption
 from forcetorque.results.terminal.output import Format, show, start_logging
 
@@ -73,11 +73,10 @@ def balance(
     Python: `experiment.balance(calibration)`; of vertical forces alone
     `locomotion.balance([locomotion.load_foot_forces("walking.toml")])`
     """
-    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.locomotion.standing.interval import BalanceOptions
     from forcetorque.locomotion.standing.support_phases import ForceLimit
-    from forcetorque.results.terminal.output import refuse_figure
+    from forcetorque.results.terminal.output import drawn_to, refuse_figure
 
     log = start_logging()
     refuse_figure(figure, force=force)
@@ -94,11 +93,7 @@ def balance(
     if output is not None:
         log.info("%s: %d rows", output, result.write(output))
     if figure is not None:
-        from forcetorque.locomotion.figures import balance_figure
-        from forcetorque.results.figures import png_bytes
-
-        standing = next(one for one in result.intervals if one.phases.down.any())
-        write_bytes_atomically(figure, png_bytes(balance_figure(standing)))
+        result = drawn_to(result, figure)
     show(result, output_format, details=details, experiments=experiments)
 
 
@@ -141,12 +136,7 @@ def _refuse_output(output: Path | None, *, force: bool) -> None:
     declare_outputs(output, force=force)
 
 
-@command(
-    Drawing(
-        function="forcetorque.locomotion.figures:coherence_figure",
-        help="the errors by phase, candidate and offset",
-    )
-)
+@command("the errors by phase, candidate and offset")
 def coherence(
     experiment: Annotated[
         "Experiment",
@@ -200,7 +190,7 @@ def coherence(
     return net_force_errors(experiment, sensors, offsets)
 
 
-@command(Drawing(function="forcetorque.locomotion.figures:motion_figure", help="the columns with their swings"))
+@command("the columns with their swings")
 def motion(
     log: Annotated["Path | str", Option("Experiment file (TOML), with or without sensors, or a log.")],
     columns: Annotated[Sequence[str], Option("Column of the log, or of `balance`, such as com.y.", "--column")] = (),
@@ -249,12 +239,7 @@ def motion(
         return motion(signals, steps_s=steps_s, band_share=band_share)
 
 
-@command(
-    Drawing(
-        function="forcetorque.locomotion.figures:torque_loop_figure",
-        help="tracking, oscillations and falls over the size of the error",
-    )
-)
+@command("tracking, oscillations and falls over the size of the error")
 def torque_loop(
     file: Annotated[
         "TorqueLoopFile | Path | str | None",

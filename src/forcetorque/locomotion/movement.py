@@ -23,7 +23,7 @@ from forcetorque.locomotion.oscillation.settling import (
     tracking_error,
 )
 from forcetorque.locomotion.oscillation.spectrum import ResampledSignal, resampled
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, Values, table_of
 
 
@@ -91,9 +91,10 @@ NEAR_LIMIT = 1.25
 adds to it."""
 
 
-class Motion(Result):
+class Motion(DrawnResult):
     """What columns of a motion do."""
 
+    drawn_by: ClassVar[str] = "forcetorque.locomotion.figures:motion_figure"
     answered_by: ClassVar[str | None] = "forcetorque.locomotion.answers:motion_answers"
 
     schema_name: Literal["forcetorque/motion/1"] = Field(default="forcetorque/motion/1", alias="schema")
@@ -106,8 +107,6 @@ class Motion(Result):
     """A row for every column of which something was wanted."""
     band_percent: float
     """Half of the band of settling, of the step."""
-    figure: str | None = None
-    """File of the figure."""
     curves: tuple[MotionCurve, ...] = Field(default=(), exclude=True, repr=False)
     """Columns with their oscillations, for the figure."""
 
@@ -132,8 +131,6 @@ class Motion(Result):
             )
         if self.tracking:
             yield table_of(self.tracking, "tracking errors; 95 % intervals that count how long errors go on")
-        if self.figure is not None:
-            yield f"drawn to {self.figure}"
 
     def records(self) -> list[dict[str, object]]:
         """Give oscillations, settling times and tracking errors as flat lines.

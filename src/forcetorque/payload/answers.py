@@ -3,18 +3,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.payload.robot_files.formats import LoadFormat
+from forcetorque.payload.tare_offset import STILL
 from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, plus_minus
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
     from forcetorque.payload.result import LoadRow, WeighedLoad
-    from forcetorque.payload.tare_offset import TaredSensor
+    from forcetorque.payload.tare_offset import Tare
 
 
 def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
@@ -88,24 +89,23 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
     )
 
 
-def tare_answers(sensors: Sequence[TaredSensor], still: float) -> Iterator[Answer]:
+def tare_answers(tare: Tare) -> Iterator[Answer]:
     """Give the answer for every sensor.
 
     Args:
-        sensors: Their offsets.
-        still: Share of its weight by which the load may move at rest.
+        tare: Offsets of sensors.
 
     Yields:
         One answer each.
     """
-    for row in sensors:
+    for row in tare.sensors:
         name = short_names([row.reading])[row.reading]
         force, moment = (
             plus_minus(list(row.offset[part]), float(max(row.half_width_95[part])), unit)
             for part, unit in zip(FORCE_AND_MOMENT, ("N", "N m"), strict=True)
         )
         weight = float((row.load[FORCE_AND_MOMENT[0]] ** 2).sum() ** 0.5)
-        moves = row.load_moves_N > still * weight
+        moves = row.load_moves_N > STILL * weight
         yield Answer(
             subject=f"{row.sensor} ({row.serial}), {name}",
             verdict="THE LOAD MOVES" if moves else f"force offset {force}",

@@ -8,7 +8,7 @@ turned. Here the reading is set to what the load weighs in the posture of the st
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -18,8 +18,6 @@ from forcetorque.experiment.calibrations_under_test import OneCalibration, one_n
 from forcetorque.experiment.offsets import sensor_offset
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
-from forcetorque.results.answer import Answer
-from forcetorque.results.capability import named
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues
 
@@ -60,20 +58,14 @@ class TaredSensor(Row):
 class Tare(Result):
     """Offsets with which sensors read what their loads weigh."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.payload.answers:tare_answers"
+
     schema_name: Literal["forcetorque/tare/1"] = Field(default="forcetorque/tare/1", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment."""
     sensors: tuple[TaredSensor, ...]
     """One per sensor."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say with which offset every sensor measures what its load weighs.
-
-        Yields:
-            One per sensor.
-        """
-        yield from named("forcetorque.payload.answers:tare_answers")(self.sensors, STILL)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the offset of every sensor.

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from forcetorque.planning.joint_calibration_plan import useful_steps
 from forcetorque.planning.result import PlannedRecording, helps
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import amount, bounded
@@ -41,7 +42,7 @@ def plan_answer(plan: Plan) -> Answer:
             if plan.folder is None
             else "play every motion slowly, or in a simulator, before it is recorded; collisions were not checked"
         ),
-        written=() if plan.folder is None else (plan.folder,),
+        written=(plan.folder,),
     )
 
 
@@ -60,16 +61,16 @@ def _after(row: PlannedRecording) -> str:
     return f"{force}, {bounded(row.moment_after_Nm, row.moment_after_at_most_Nm, 'N m')}"
 
 
-def joint_plan_answer(plan: JointPlan, useful: int) -> Answer:
+def joint_plan_answer(plan: JointPlan) -> Answer:
     """Give the answer of a plan for all sensors of a robot.
 
     Args:
         plan: The plan.
-        useful: Number of its recordings that help.
 
     Returns:
         The answer.
     """
+    useful = useful_steps([plan.steps[0].excess_before, *(step.excess_after for step in plan.steps)])
     last = [row for row in plan.sensors if row.step == len(plan.steps)]
     sensors = len({row.sensor for row in last})
     subject = f"{sensors} sensor{'s' * (sensors != 1)} calibrated jointly"

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -19,8 +19,6 @@ from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.planning.search import HELPS
-from forcetorque.results.answer import Answer
-from forcetorque.results.capability import named
 from forcetorque.results.result import Result
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 
@@ -84,6 +82,8 @@ _PROVISIONAL = "planned"
 class JointPlan(Result):
     """Recordings, the most useful first, and what every sensor is expected to err by after each."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.planning.answers:joint_plan_answer"
+
     schema_name: Literal["forcetorque/plan_jointly/1"] = Field(default="forcetorque/plan_jointly/1", alias="schema")
     """Form of the result."""
     steps: tuple[JointPlanStep, ...]
@@ -94,15 +94,6 @@ class JointPlan(Result):
     """What to record, in a sentence."""
     warnings: tuple[str, ...] = ()
     """What even all of these recordings do not tell."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say what to record next and what it brings, or that nothing helps.
-
-        Yields:
-            One answer.
-        """
-        excess = [self.steps[0].excess_before, *(step.excess_after for step in self.steps)]
-        yield named("forcetorque.planning.answers:joint_plan_answer")(self, _useful(excess))
 
     def blocks(self) -> Iterator[Table | str]:
         """Give what people read.
@@ -231,7 +222,7 @@ def _step(number: int, chosen: Sequence[_Outcome]) -> JointPlanStep:
 
 def _advice(chosen: Sequence[_Outcome]) -> str:
     excess = [chosen[0].excess_before, *(outcome.excess for outcome in chosen)]
-    names, count = [outcome.added for outcome in chosen], _useful(excess)
+    names, count = [outcome.added for outcome in chosen], useful_steps(excess)
     useful, rest = names[:count], names[count:]
     if not useful:
         return (
@@ -244,7 +235,7 @@ def _advice(chosen: Sequence[_Outcome]) -> str:
     return words + (f"; {', '.join(rest)} would add less than {100 * HELPS:.0f} %" if rest else "")
 
 
-def _useful(excess: Sequence[float]) -> int:
+def useful_steps(excess: Sequence[float]) -> int:
     """Number of recordings that help: one that helps little by itself may be needed by the next."""
     steps = [number for number in range(1, len(excess)) if excess[number] < (1.0 - HELPS) * excess[number - 1]]
     return steps[-1] if steps else 0

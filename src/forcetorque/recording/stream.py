@@ -12,6 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_mapping
 from forcetorque.base.errors import RecordingError, ShapeError, known_names
+from forcetorque.base.labelled_arrays import AXIS, TIME, LabelledArray, xarray_dataset
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 
 
@@ -249,6 +250,14 @@ class Signal:
             wanted = "the frame of its axes" if quantity.has_frame else "no frame"
             raise RecordingError(f"{self.quantity}: expected {wanted}, got {self.frame!r}")
 
+    @property
+    def dimension(self) -> str:
+        """Name of the dimension of its columns in a data set."""
+        by_labels = {Labels.JOINTS: "joint", Labels.CHANNELS: "channel", Labels.TAXELS: "taxel"}
+        by_columns = {WRENCH_COMPONENTS: AXIS, _XYZ: "xyz"}
+        labels = QUANTITIES[self.quantity].labels
+        return by_labels.get(labels) or by_columns.get(self.columns) or f"{self.quantity}_column"
+
     @classmethod
     def of_fixed(cls, quantity: str, values: Any, *, frame: str | None = None) -> Self:
         """Give samples of a quantity whose columns always have the same names and units.
@@ -316,6 +325,34 @@ class Stream:
 
     def __len__(self) -> int:
         return len(self.stamp_ns)
+
+    def to_xarray(self) -> Any:
+        """Give the samples as a data set of xarray.
+
+        Returns:
+            `xarray.Dataset` with a variable per quantity over `time` and columns: `axis` of a wrench, `xyz`, `joint`,
+            `channel`, `taxel`, or `QUANTITY_column`; attributes `units` and `frame`.
+
+        Raises:
+            MissingExtraError: If xarray is not installed.
+        """
+        columns: dict[str, tuple[str, ...]] = {}
+        dims = {}
+        for key, signal in self.signals.items():
+            shared = columns.setdefault(signal.dimension, signal.columns) == signal.columns
+            dims[key] = signal.dimension if shared else f"{key}_column"
+            columns[dims[key]] = signal.columns
+        arrays = {
+            key: LabelledArray(
+                values=signal.values,
+                dims=(TIME, dims[key]),
+                units=signal.units[0] if len(set(signal.units)) == 1 else signal.units,
+                attributes={} if signal.frame is None else {"frame": signal.frame},
+            )
+            for key, signal in self.signals.items()
+        }
+        columns.pop(AXIS, None)
+        return xarray_dataset(self.stamp_ns, arrays, columns, stream=self.name, clock=self.clock)
 
     @property
     def held(self) -> BoolArray:

@@ -65,8 +65,8 @@ class Answer:
     """What to do next; empty where nothing is to be done."""
     command: str = ""
     """The command that does it, as `typed` writes it."""
-    written: tuple[str, ...] = ()
-    """Files that were written, and that nothing else names."""
+    written: tuple[str | None, ...] = ()
+    """Files that were written, and that nothing else names; None for those that were not written."""
     concern: Concern = Concern.NONE
     """How much it asks for attention."""
 
@@ -94,7 +94,7 @@ def _lines(answers: Sequence[Answer], width: int, experiment: str) -> Iterator[s
         if answer is answers[0]:
             for sentence in answer.why:
                 yield _indented(sentence, width)
-    files = dict.fromkeys(file for answer in answers for file in answer.written)
+    files = dict.fromkeys(file for answer in answers for file in answer.written if file is not None)
     if files:
         yield wrapped(f"written: {', '.join(files)}", width)
     worst = answers[0]

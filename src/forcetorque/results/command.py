@@ -60,18 +60,6 @@ class Option:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Drawing:
-    """The figure of a result, which `--figure` writes as a PNG."""
-
-    function: str
-    """Function that draws it, as `module:name`."""
-    of: tuple[str, ...] = ()
-    """Fields of the result that it draws; the result itself if there are none."""
-    help: str
-    """What it shows."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Saved:
     """A file that a command writes from its result."""
 
@@ -94,14 +82,14 @@ class Command:
 
     options: Mapping[str, Option]
     """By name of the parameter."""
-    drawing: Drawing | None
-    """Its figure; None if it has none."""
+    figure: str | None
+    """What its figure shows, a `DrawnResult.figure`; None if it has none."""
     saved: tuple[Saved, ...] = ()
     """Files that are written from its result."""
 
 
 def command(
-    drawing: Drawing | None = None,
+    figure: str | None = None,
     *saved: Saved,
 ) -> Callable[[Callable[Parameters, Returned]], Callable[Parameters, Returned]]:
     """Offer an analysis as a command of its name.
@@ -109,7 +97,7 @@ def command(
     Its docstring has a sentence, an example and the line from Python; its arguments are added from their options.
 
     Args:
-        drawing: Figure of the result; None for none.
+        figure: What the figure of the result, a `DrawnResult`, shows, for the help of `--figure`; None for none.
         saved: Files that the command writes from the result.
 
     Returns:
@@ -128,7 +116,7 @@ def command(
 
             return with_notes(analysis(*args, **named), (*args, *named.values()))
 
-        noted.command = Command(options=options, drawing=drawing, saved=saved)  # type: ignore[attr-defined]
+        noted.command = Command(options=options, figure=figure, saved=saved)  # type: ignore[attr-defined]
         return noted
 
     return offer

@@ -84,6 +84,20 @@ def bounded(value: float, most: float | None, unit: str) -> str:
     return f"{amount(value, unit)} (95 %: {bound})"
 
 
+def within(value: float, half_width: float | None, unit: str) -> str:
+    """Write a size with the upper bound that the half-width of its 95 % interval gives.
+
+    Args:
+        value: The size.
+        half_width: The half-width; None where it is not known.
+        unit: Unit of both.
+
+    Returns:
+        As of `bounded`.
+    """
+    return bounded(value, None if half_width is None else value + half_width, unit)
+
+
 def plus_minus(values: float | Sequence[float], half_width: float | None, unit: str) -> str:
     """Write a number, or several, with the half-width of a 95 % interval, down to two digits of that.
 

@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 from importlib import import_module
 from pkgutil import walk_packages
 from types import ModuleType
-from typing import Annotated, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 from pydantic import Field
 
@@ -19,6 +19,9 @@ from forcetorque.results.answer import Answer, answer_text
 from forcetorque.results.capability import named
 from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.results.table_rendering import html_lines, html_table, html_text, html_warnings, table_text, wrapped
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 class UnusableSamples(Row):
@@ -122,9 +125,9 @@ class Result(Row):
             MissingExtraError: If pandas is not installed.
         """
         try:
-            pandas = import_module("pandas")
+            import pandas
         except ImportError:
-            raise MissingExtraError("to_pandas needs pandas: pip install pandas") from None
+            raise MissingExtraError("to_pandas needs pandas: pip install forcetorque[frames]") from None
         return pandas.DataFrame(self.records(), columns=self.columns())
 
     def text(self, width: int = NOTEBOOK_WIDTH) -> str:
@@ -159,7 +162,8 @@ class Result(Row):
             One object with stable keys.
         """
         content = self.model_dump(mode="json", by_alias=True)
-        stated = {name: value for name, value in content.items() if value or name not in self.of_several}
+        first = {"schema": content.pop("schema")} if "schema" in content else {}
+        stated = first | {name: value for name, value in content.items() if value or name not in self.of_several}
         if self.unusable_samples:
             stated[_UNUSABLE] = [row.model_dump(mode="json", by_alias=True) for row in self.unusable_samples]
         return json.dumps(stated, indent=2, allow_nan=False)
@@ -193,6 +197,9 @@ class Result(Row):
     def _shown(self) -> Iterator[Table | str]:
         """What people read, and what is left out."""
         yield from self.blocks()
+        yield from self._unusable()
+
+    def _unusable(self) -> Iterator[Table]:
         if self.unusable_samples:
             yield table_of(self.unusable_samples, "unusable samples, which are left out")
 
@@ -235,6 +242,36 @@ class Result(Row):
                 once = name == _UNUSABLE or _are_words(entries)
                 joined[name] = tuple(dict.fromkeys(entries)) if once else tuple(entries)
         return parts[0].model_copy(update=joined)
+
+
+class DrawnResult(Result):
+    """Result with a figure, which `--figure` of its command writes as a PNG."""
+
+    drawn_by: ClassVar[str]
+    """Function that draws it, as `module:name`; classes with a `figure` of their own have none."""
+    drawn_fields: ClassVar[tuple[str, ...]] = ()
+    """Fields or properties that this function takes; the result itself if there are none."""
+
+    figure_file: str | None = Field(default=None, alias="figure")
+    """PNG of the figure; null where none was written."""
+
+    def figure(self) -> Figure:
+        """Draw the result.
+
+        Returns:
+            Figure of matplotlib, which a notebook shows.
+
+        Raises:
+            ForceTorqueError: If the result holds nothing to draw; MissingExtraError if matplotlib is not installed.
+        """
+        figure: Figure = named(self.drawn_by)(*([getattr(self, field) for field in self.drawn_fields] or [self]))
+        return figure
+
+    def _shown(self) -> Iterator[Table | str]:
+        yield from self.blocks()
+        if self.figure_file is not None:
+            yield f"drawn to {self.figure_file}"
+        yield from self._unusable()
 
 
 def _are_words(entries: Sequence[Any]) -> bool:

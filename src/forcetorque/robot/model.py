@@ -118,7 +118,11 @@ class ForceTorqueSensor(ArrayRecord):
         object.__setattr__(self, "direction", MeasureDirection(self.direction))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+_NAMED = 6
+"""Sensors that the text of a robot names; more are counted."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class RobotModel(ArrayRecord):
     """A robot: links in a tree of joints, and its force-torque sensors."""
 
@@ -134,6 +138,13 @@ class RobotModel(ArrayRecord):
     def __post_init__(self) -> None:
         check_arrays(self)
         _require_tree(self)
+
+    def __repr__(self) -> str:
+        moving = sum(joint.type.moves for joint in self.joints.values())
+        named = ", ".join(list(self.sensors)[:_NAMED]) or "none"
+        more = f" and {len(self.sensors) - _NAMED} more" if len(self.sensors) > _NAMED else ""
+        what = f"{len(self.links)} links, {len(self.joints)} joints ({moving} moving), sensors {named}{more}"
+        return f"<RobotModel {self.name!r}: {what}>"
 
     @property
     def root_link(self) -> str:

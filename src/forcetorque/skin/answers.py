@@ -6,7 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from forcetorque.results.answer import Answer, Concern
-from forcetorque.results.number_text import amount, bounded
+from forcetorque.results.number_text import amount, within
+from forcetorque.skin.contact.tracking import OFFERED
 
 if TYPE_CHECKING:
     from forcetorque.skin.layout.check import SkinCheck
@@ -30,7 +31,7 @@ def skin_calibration_answer(result: SkinCalibration) -> Answer:
     kept = kept or next((row for row in result.candidates if row.curve == result.curve), None)
     better = result.least_inside not in (None, result.curve)
     serial = "" if result.serial is None else f" ({result.serial})"
-    written = tuple(file for file in (result.file, result.figure) if file is not None)
+    written = (result.file, result.figure_file)
     return Answer(
         subject=f"{result.patch}{serial}, curve {result.curve}",
         verdict=f"{result.sound} OF {len(result.taxels)} TAXELS HAVE A CURVE",
@@ -63,39 +64,39 @@ def skin_check_answer(result: SkinCheck) -> Answer:
         verdict=f"{len(findings)} FINDING{'S' * (len(findings) > 1)}" if findings else "NO FINDINGS",
         why=tuple(f"{row.defect}: {row.message}" for row in findings[:2]),
         step=findings[0].remedy if findings else "",
-        written=() if result.figure is None else (result.figure,),
+        written=(result.figure_file,),
         concern=Concern.BAD if findings else Concern.NONE,
     )
 
 
-def skin_wrench_answer(result: SkinWrench, *, offered: bool) -> Answer:
+def skin_wrench_answer(result: SkinWrench) -> Answer:
     """Say when a patch was touched, and how hard.
 
     Args:
         result: The contacts.
-        offered: Whether what was left after a release may be taken as rest.
 
     Returns:
         The answer.
     """
     largest = max(result.contacts, key=lambda row: row.force_N, default=None)
     left_out = len(result.left_out)
+    offered = any(row.re_tare == OFFERED for row in result.releases)
     return Answer(
         subject=f"{result.patch} on {result.link}, {result.taxels - left_out} of {result.taxels} taxels",
         verdict=f"TOUCHED in {result.touched} of {result.frames} frames" if result.touched else "NOT TOUCHED",
         why=()
         if largest is None
         else (
-            f"largest contact force {bounded(largest.force_N, _most(largest.force_N, largest.force_sd_N), 'N')} at "
+            f"largest contact force {within(largest.force_N, _half_width(largest.force_sd_N), 'N')} at "
             f"{largest.time_s:.2f} s; mean of all contacts together {amount(result.mean_force_N, 'N')}",
             f"{len(result.lives)} contact{'s' * (len(result.lives) != 1)}, each from its first frame to its last; "
             f"method {result.method}, heat: {result.temperature}",
         ),
         step="take what was left after a release as rest, by --re-tare" if offered else "",
-        written=() if result.figure is None else (result.figure,),
+        written=(result.figure_file,),
         concern=Concern.UNCERTAIN if offered else Concern.NONE,
     )
 
 
-def _most(force: float, deviation: float | None) -> float | None:
-    return None if deviation is None else force + _TWO_SIGMA * deviation
+def _half_width(deviation: float | None) -> float | None:
+    return None if deviation is None else _TWO_SIGMA * deviation

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.results.command import Drawing, Option, Saved, command
+from forcetorque.results.command import Option, Saved, command
 from forcetorque.results.terminal.command import command_function
 from forcetorque.results.terminal.help import WholeSentences
 
@@ -20,13 +20,7 @@ if TYPE_CHECKING:
 _PATCH = Option("Name of the patch. Default: the only one.")
 
 
-@command(
-    Drawing(
-        function="forcetorque.skin.figures:skin_layout_figure",
-        of=("positions", "normals"),
-        help="positions and normals, as written and as rebuilt",
-    )
-)
+@command("positions and normals, as written and as rebuilt")
 def check_skin(
     layout: Annotated["Path | str", Option("File with the layout of a patch; see docs/skin/layout.md.")],
 ) -> "SkinCheck":
@@ -46,11 +40,7 @@ def check_skin(
 
 
 @command(
-    Drawing(
-        function="forcetorque.skin.figures:taxel_figure",
-        of=("picture",),
-        help="pressure and counts over time, and of curves of taxels",
-    ),
+    "pressure and counts over time, and of curves of taxels",
     Saved(
         flags=("--output", "-o"),
         help="File of the calibration (JSON) to write.",
@@ -115,13 +105,7 @@ def calibrate_skin(
     )
 
 
-@command(
-    Drawing(
-        function="forcetorque.skin.figures:skin_wrench_figure",
-        of=("picture",),
-        help="the field of pressure and of forces over time",
-    )
-)
+@command("the field of pressure and of forces over time")
 def skin_wrench(
     experiment: Annotated[
         "PatchExperiment | Path | str", Option("Experiment file (TOML) with [[patch]]; see docs/skin/wrench.md.")

@@ -3,36 +3,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from forcetorque.results.answer import Answer, Concern
-from forcetorque.results.number_text import bounded
+from forcetorque.results.number_text import within
+from forcetorque.study.one_sensor import WORKBENCH
+from forcetorque.study.selection import FAR_SD
 
 if TYPE_CHECKING:
-    from forcetorque.study.result import ChosenCandidate, StudiedSensor
+    from forcetorque.study.result import ChosenCandidate, Studies
 
 _TWO_SIGMA = 1.96
 """Standard errors of a bound that holds with 95 %."""
 
 
-def study_answers(sensors: Sequence[StudiedSensor], workbench: str, far_sd: float) -> Iterator[Answer]:
+def study_answers(studies: Studies) -> Iterator[Answer]:
     """Give the answer for every sensor.
 
     Args:
-        sensors: Their studies.
-        workbench: Name of the prior matrix among candidates.
-        far_sd: Deviation from the generative fit from which on a candidate is far from it; standard deviations.
+        studies: Their studies.
 
     Yields:
         One answer each.
     """
-    for row in sensors:
+    for row in studies.sensors:
         best = min((mode.best for mode in row.modes), key=lambda chosen: chosen.force_mean_N, default=row.workbench)
         if best is None:
             continue
-        far = best.unfitted.deviation_sd is not None and best.unfitted.deviation_sd > far_sd
-        prior = "" if row.workbench is None else f", {workbench} {_force(row.workbench)}"
+        far = best.unfitted.deviation_sd is not None and best.unfitted.deviation_sd > FAR_SD
+        prior = "" if row.workbench is None else f", {WORKBENCH} {_force(row.workbench)}"
         yield Answer(
             subject=f"{row.sensor} ({row.serial}), {row.candidates + row.generative} candidates",
             verdict=f"BEST: {best.name}",
@@ -41,13 +41,13 @@ def study_answers(sensors: Sequence[StudiedSensor], workbench: str, far_sd: floa
                 *((_far(best),) if far else ()),
             ),
             step="evaluate a calibration of the folder at the loads to come" if row.folder is not None else "",
-            written=() if row.folder is None else (row.folder,),
-            concern=Concern.UNCERTAIN if far or best.name == workbench else Concern.NONE,
+            written=(row.folder,),
+            concern=Concern.UNCERTAIN if far or best.name == WORKBENCH else Concern.NONE,
         )
 
 
 def _force(chosen: ChosenCandidate) -> str:
-    return bounded(chosen.force_mean_N, chosen.force_mean_N + _TWO_SIGMA * chosen.force_mean_error_N, "N")
+    return within(chosen.force_mean_N, _TWO_SIGMA * chosen.force_mean_error_N, "N")
 
 
 def _far(best: ChosenCandidate) -> str:

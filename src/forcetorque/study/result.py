@@ -4,15 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
-from forcetorque.results.answer import Answer
-from forcetorque.results.capability import named
 from forcetorque.results.number_text import number, with_error
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues, table_of
@@ -327,6 +325,8 @@ class StudiedSensor(Row):
 class Studies(Result):
     """Studies of sensors over the same recordings."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.study.answers:study_answers"
+
     interval_uses = ()
 
     schema_name: Literal["forcetorque/study/2"] = Field(default="forcetorque/study/2", alias="schema")
@@ -339,14 +339,6 @@ class Studies(Result):
     """Folder with a folder per sensor, where files were written."""
     sensors: tuple[StudiedSensor, ...]
     """One per sensor."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say of every sensor which candidate is best.
-
-        Yields:
-            One per sensor.
-        """
-        yield from named("forcetorque.study.answers:study_answers")(self.sensors, WORKBENCH, FAR_SD)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the choice for one sensor after the other.

@@ -294,7 +294,7 @@ class View(Result):
             verdict=f"{self.samples} samples of {', '.join((*self.sensors, *self.skin))}",
             why=self.notes[:2],
             step="" if self.url is None else f"open {self.url}",
-            written=tuple(file for file in (self.file, self.video) if file is not None),
+            written=(self.file, self.video),
         )
 
     def blocks(self) -> Iterator[Table | str]:

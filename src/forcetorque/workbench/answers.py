@@ -24,7 +24,7 @@ def workbench_answers(workbench: Workbench) -> Iterator[Answer]:
     Yields:
         One answer each; of a bench without measurements what to record first.
     """
-    written = tuple(file for file in (workbench.file, workbench.figure) if file is not None)
+    written = (workbench.file, workbench.figure_file)
     for row in workbench.sensors:
         step, command = _step(workbench, row)
         verdict, concern = _verdict(workbench, row)

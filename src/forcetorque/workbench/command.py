@@ -4,7 +4,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from forcetorque.results.command import Drawing, Option, Saved, command
+from forcetorque.results.command import Option, Saved, command
 
 if TYPE_CHECKING:
     from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
@@ -13,11 +13,7 @@ if TYPE_CHECKING:
 
 
 @command(
-    Drawing(
-        function="forcetorque.workbench.figure:bench_figure",
-        of=("picture",),
-        help="forces on the spheres of their loads, and of errors",
-    ),
+    "forces on the spheres of their loads, and of errors",
     Saved(
         flags=("--output", "-o"),
         help="File of the calibration (JSON) to write; of one sensor.",

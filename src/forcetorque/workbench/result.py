@@ -19,7 +19,7 @@ from forcetorque.evaluation.acceptance.acceptance import criteria_table
 from forcetorque.evaluation.acceptance.criteria import Criterion
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.results.number_text import number
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import COMPONENTS, FloatOrNull, Row, Shown, ShownWrench, Table, WrenchValues, table_of
 from forcetorque.workbench.bench import block_findings
 from forcetorque.workbench.faults import FaultRow, FaultSearch
@@ -274,9 +274,11 @@ _NEVER = 1e-6
 """Probability below which the message gives a bound only."""
 
 
-class Workbench(Result):
+class Workbench(DrawnResult):
     """Calibrations of sensors on a workbench, with faults of the bench."""
 
+    drawn_by: ClassVar[str] = "forcetorque.workbench.figure:bench_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("picture",)
     answered_by: ClassVar[str | None] = "forcetorque.workbench.answers:workbench_answers"
 
     schema_name: Literal["forcetorque/workbench/1"] = Field(default="forcetorque/workbench/1", alias="schema")
@@ -301,8 +303,6 @@ class Workbench(Result):
     """One per limit of an acceptance file; none where there is no such file."""
     file: str | None = None
     """File of the calibration; None where none was written."""
-    figure: str | None = None
-    """File of the figure; None where none was drawn."""
     calibrations: tuple[Calibration, ...] = Field(default=(), exclude=True, repr=False)
     """Calibrations of the sensors that have a matrix, in the order of the files."""
     picture: BenchPicture | None = Field(default=None, exclude=True, repr=False)
@@ -342,8 +342,6 @@ class Workbench(Result):
         if self.criteria:
             yield criteria_table(self.criteria, "acceptance")
         yield from (text for text in (self.next, self.file and f"written to {self.file}") if text)
-        if self.figure is not None:
-            yield f"drawn to {self.figure}"
 
     def save(self, path: Path | str, *, force: bool = False) -> None:
         """Write the calibration of the one sensor.

@@ -3,23 +3,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import wraps
+from inspect import signature
 from itertools import pairwise
 from numbers import Real
 from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import Any, Literal, ParamSpec, get_args
 
 import numpy as np
-import numpy.typing as npt
 
 from forcetorque.app.python.experiment import Experiment
-from forcetorque.base.arrays import FloatArray, IntArray, require_shape
+from forcetorque.app.python.given_numbers import brief, numbers
+from forcetorque.app.python.tables import experiment_of_tables, stream_of_arrays
+from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import ExperimentError, known_names
-from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.experiment.experiment import ExperimentSensor, FitOptions, Role
-from forcetorque.recording.recording import Interval, Recording, Support, Use
-from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.mechanics.samples import Processing
+from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.urdf import read_urdf
 
@@ -29,14 +28,48 @@ Spans = Span | Sequence[Span]
 """One span, or several that do not overlap."""
 _Quantity = Literal["raw", "wrench"]
 _READINGS, _JOINTS = "readings", "joints"
-_KINDS = {Use.CALIBRATION: "calibrate", Use.VALIDATION: "judge"}
-"""Arguments that spans come by, after which their intervals are called."""
+_USES = {"calibrate": "calibration", "judge": "validation"}
+"""Uses of spans by the arguments that they come by, after which their intervals are called."""
 _LATEST_S = 9.2e9
 """Seconds, which as nanoseconds fill 64 bits."""
+_LEAST_SHARE = 0.005
+"""Share of the limit that counts reach: fractions that stay below are newtons. Heuristic."""
+_MOST_WHOLE_N = 1000.0
+"""Largest magnitude of a reading in whole newtons: larger whole numbers are counts. Heuristic."""
 _LONGEST_QUOTE = 60
 """Characters up to which spans are quoted as they came."""
 
 
+_NEEDED = {
+    "robot": "RobotModel, or path of its URDF file",
+    "sensor": "its name in the robot",
+    "time_s": "instants of the reading, shape (n,), s",
+    "reading": 'shape (n, c), counts; or (n, 6), N and N m, with quantity="wrench"',
+    "joints": "positions by name of the joint, shape (m,), rad or m",
+    "support": "name of the link that stands still",
+    "gravity_direction": "where things fall, in the axes of the support, shape (3,)",
+    "calibrate": "span to fit, start and end, s",
+    "serial": "serial number, text",
+}
+"""Arguments without a default, and what they are, for the error that names all that are missing."""
+_Parameters = ParamSpec("_Parameters")
+
+
+def _all_missing_at_once(make: Callable[_Parameters, Experiment]) -> Callable[_Parameters, Experiment]:
+    """Name all missing arguments in one error."""
+
+    @wraps(make)
+    def made(*args: _Parameters.args, **named: _Parameters.kwargs) -> Experiment:
+        given = {*signature(make).bind_partial(*args, **named).arguments}
+        missing = [f"{name} ({words})" for name, words in _NEEDED.items() if name not in given]
+        if missing:
+            raise ExperimentError(f"experiment_of_arrays: expected also {', '.join(missing)}")
+        return make(*args, **named)
+
+    return made
+
+
+@_all_missing_at_once
 def experiment_of_arrays(
     robot: RobotModel | Path | str,
     sensor: str,
@@ -57,6 +90,9 @@ def experiment_of_arrays(
     name: str = "arrays",
 ) -> Experiment:
     """Make an experiment of one sensor from arrays.
+
+    The robot model is taken as exact. `experiment_of_tables` takes several sensors, loads, an IMU, contacts, sessions,
+    load cases, accuracy and the tolerance of the robot model.
 
     Args:
         robot: Robot, or its URDF file; `RobotModel.with_sensor` declares a sensor that has no tag.
@@ -83,7 +119,8 @@ def experiment_of_arrays(
         The experiment: `experiment[sensor].calibrate()` and so on.
 
     Raises:
-        ExperimentError: If joints, frames or spans do not fit each other.
+        ExperimentError: If arguments are missing, joints, frames or spans do not fit each other, or a reading in counts
+            has the magnitude of one in N, or the other way round.
         ShapeError: If the shapes are not these.
     """
     model = _robot(robot)
@@ -91,14 +128,12 @@ def experiment_of_arrays(
         raise ExperimentError(f"quantity: expected {' or '.join(map(repr, get_args(_Quantity)))}, got {quantity!r}")
     if not (isinstance(serial, str) and serial):
         raise ExperimentError(f"serial: expected the serial number as text, such as 'SN026', got {serial!r}")
-    stamps = _stamps(time_s, "time_s")
-    joint_stamps = stamps if joint_time_s is None else _stamps(joint_time_s, "joint_time_s")
-    recording = Recording(
-        streams={
-            _READINGS: _reading_stream(model, sensor, stamps, reading, quantity),
-            _JOINTS: _joint_stream(model, joint_stamps, joints),
-        }
-    )
+    time = _instants(time_s, "time_s")
+    joint_time = time if joint_time_s is None else _instants(joint_time_s, "joint_time_s")
+    streams = [
+        _reading_table(model.sensor(sensor).name, time, reading, quantity),
+        _joint_table(model, joint_time, joints),
+    ]
     if quantity == "wrench" and prior is None:
         raise ExperimentError("reading: a calibrated wrench needs the prior that made it, or numpy.eye(6); got none")
     if support not in model.links:
@@ -107,38 +142,37 @@ def experiment_of_arrays(
         )
     if not (isinstance(limit_counts, Real) and limit_counts > 0.0):
         raise ExperimentError(f"limit_counts: expected a positive number of counts, got {limit_counts!r}")
-    ground = Support(frame=support, gravity_direction=_numbers(gravity_direction, "gravity_direction"))
-    intervals = _intervals(calibrate, Use.CALIBRATION, ground)
-    if judge is not None:
-        intervals += _intervals(judge, Use.VALIDATION, ground)
+    _require_magnitude(streams[0]["signal"][0]["variable"], quantity, limit_counts)
+    spans = {"calibrate": calibrate} if judge is None else {"calibrate": calibrate, "judge": judge}
+    intervals = [interval for kind, given in spans.items() for interval in _intervals(kind, given)]
     _require_apart(intervals)
-    matrix = None if prior is None else _numbers(prior, "prior")
+    matrix = None if prior is None else numbers(prior, "prior")
     if matrix is not None and not np.isfinite(matrix).all():
         raise ExperimentError("prior: expected a matrix of finite numbers, got NaN or infinity in it")
-    known = _same(matrix, quantity)
-    return Experiment(
-        name=name,
-        file=Path(name),
-        model=model,
-        recording=recording.with_intervals(intervals),
-        sensors=(
-            ExperimentSensor(
-                name=model.sensor(sensor).name,
-                serial=serial,
-                stream=_READINGS,
-                quantity=quantity,
-                prior=matrix,
-                prior_source=None if matrix is None else "identity" if known else "given as an array",
-                limit_counts=limit_counts,
-                full_scale=None if full_scale is None else _full_scale(full_scale),
-            ),
-        ),
-        contacts=(),
-        processing=Processing(),
-        fit_options=FitOptions(),
-        roles={interval.label: Role(kind=_KINDS[interval.use], session=None) for interval in intervals},
-        supports=(ground,),
-        inputs_sha256={},
+    earliest_s = float(min([*time[:1], *joint_time[:1]], default=0.0))  # intervals count from there
+    return experiment_of_tables(
+        {
+            "name": name,
+            "robot": {"urdf": model, "tolerance": "exact"},
+            "recording": {"stream": streams},
+            "sensor": [
+                {
+                    "name": sensor,
+                    "serial": serial,
+                    "stream": _READINGS,
+                    "prior": "identity" if _same(matrix, quantity) else matrix,
+                    "limit_counts": float(limit_counts),
+                    "full_scale": None if full_scale is None else _full_scale(full_scale),
+                }
+            ],
+            "support": [{"frame": support, "gravity_direction": numbers(gravity_direction, "gravity_direction")}],
+            "interval": [
+                interval
+                | {"start_s": interval["start_s"] - earliest_s, "end_s": interval["end_s"] - earliest_s}
+                | {"support": support}
+                for interval in intervals
+            ],
+        }
     )
 
 
@@ -151,67 +185,38 @@ def _robot(robot: RobotModel | Path | str) -> RobotModel:
     if isinstance(robot, RobotModel):
         return robot
     if not isinstance(robot, str | Path):
-        raise ExperimentError(f"robot: expected a RobotModel or the path of a URDF file, got {_what(robot)}")
+        raise ExperimentError(f"robot: expected a RobotModel or the path of a URDF file, got {brief(robot)}")
     if str(robot).lstrip().startswith("<"):
         raise ExperimentError("robot: expected the path of a URDF file, got its text; write that to a file first")
     return read_urdf(robot)
 
 
-def _what(given: Any) -> str:
-    """What came, in a few words however large it is."""
-    shape = getattr(given, "shape", None)
-    if shape is not None:
-        return f"{type(given).__name__} of shape {shape}"
-    return repr(given) if given is None or isinstance(given, str | int | float) else f"a {type(given).__name__}"
-
-
-def _numbers(given: Any, name: str) -> FloatArray:
-    """What is given as numbers, NaN where none is; text of numbers is taken for them, instants and complex are not."""
-    try:
-        array = _plain(given)
-        if array.dtype.kind in "mMc":
-            raise TypeError
-        return array.astype(np.float64)
-    except (TypeError, ValueError) as error:
-        raise ExperimentError(f"{name}: expected numbers, got {_what(given)}") from error
-
-
-def _plain(given: Any) -> npt.NDArray[Any]:
-    """An array of numpy, whose NaN stands for what is masked and for what pandas knows to be missing."""
-    if isinstance(given, np.ma.MaskedArray):
-        return np.where(np.ma.getmaskarray(given), np.nan, given.data)
-    array = np.asarray(given)
-    if array.dtype == object and hasattr(given, "to_numpy"):  # of pandas, where numbers that may be missing are objects
-        return np.asarray(given.to_numpy(dtype=np.float64, na_value=np.nan))
-    return array
-
-
 def _full_scale(given: Any) -> FloatArray:
-    full_scale = _numbers(given, "full_scale")
+    full_scale = numbers(given, "full_scale")
     require_shape(full_scale, name="full_scale", shape=(6,))
     if not (np.isfinite(full_scale) & (full_scale > 0.0)).all():
         raise ExperimentError(f"full_scale: expected six finite numbers above 0, N and N m, got {full_scale.tolist()}")
     return full_scale
 
 
-def _intervals(given: Any, use: Use, ground: Support) -> list[Interval]:
-    name = _KINDS[use]
-    spans = _bounds_s(name, given)
-    labels = [name] if len(spans) == 1 else [f"{name} {number}" for number in range(1, len(spans) + 1)]
+def _intervals(kind: str, given: Any) -> list[dict[str, Any]]:
+    """Tables of intervals, on the clock of the arrays."""
+    spans = _bounds_s(kind, given).tolist()
+    labels = [kind] if len(spans) == 1 else [f"{kind} {number}" for number in range(1, len(spans) + 1)]
     return [
-        Interval(label=label, start_ns=round(start * 1e9), end_ns=round(end * 1e9), use=use, support=ground)
-        for label, (start, end) in zip(labels, spans.tolist(), strict=True)
+        {"label": label, "start_s": start, "end_s": end, "use": _USES[kind], "kind": kind}
+        for label, (start, end) in zip(labels, spans, strict=True)
     ]
 
 
-def _require_apart(intervals: Sequence[Interval]) -> None:
+def _require_apart(intervals: Sequence[Mapping[str, Any]]) -> None:
     """Refuse samples that would be fitted and judged, or fitted twice, in the words of a caller without a file."""
-    for before, after in pairwise(sorted(intervals, key=lambda interval: interval.start_ns)):
-        if after.start_ns < before.end_ns:
-            arguments = " and ".join(dict.fromkeys(_KINDS[interval.use] for interval in (before, after)))
+    for before, after in pairwise(sorted(intervals, key=lambda interval: float(interval["start_s"]))):
+        if after["start_s"] < before["end_s"]:
+            arguments = " and ".join(dict.fromkeys(interval["kind"] for interval in (before, after)))
             raise ExperimentError(
-                f"{arguments}: expected spans that do not overlap, got {before.label!r} to "
-                f"{before.end_ns * 1e-9:g} s and {after.label!r} from {after.start_ns * 1e-9:g} s"
+                f"{arguments}: expected spans that do not overlap, got {before['label']!r} to "
+                f"{before['end_s']:g} s and {after['label']!r} from {after['start_s']:g} s"
             )
 
 
@@ -222,7 +227,7 @@ def _bounds_s(name: str, given: Any) -> FloatArray:
         if bounds.shape[-1:] != (2,) or bounds.ndim > 2 or not (bounds.size and (np.abs(bounds) < _LATEST_S).all()):
             raise ValueError
     except (TypeError, ValueError) as error:
-        got = repr(given) if len(repr(given)) < _LONGEST_QUOTE else _what(given)
+        got = repr(given) if len(repr(given)) < _LONGEST_QUOTE else brief(given)
         raise ExperimentError(
             f"{name}: expected one span, start and end in s on the clock of time_s, such as (1.0, 59.0), or a list of "
             f"them, got {got}"
@@ -230,9 +235,9 @@ def _bounds_s(name: str, given: Any) -> FloatArray:
     return bounds.reshape(-1, 2)
 
 
-def _stamps(time_s: Any, name: str) -> IntArray:
+def _instants(time_s: Any, name: str) -> FloatArray:
     try:
-        time = _numbers(time_s, name)
+        time = numbers(time_s, name)
     except ExperimentError as error:
         raise ExperimentError(
             f"{error}; give seconds: of dates t those are (t - t[0]) / numpy.timedelta64(1, 's'), one t[0] for all"
@@ -242,31 +247,44 @@ def _stamps(time_s: Any, name: str) -> IntArray:
         raise ExperimentError(f"{name}: expected finite instants that rise; sort the samples, drop repeated ones")
     if time.size and np.abs(time).max() > _LATEST_S:
         raise ExperimentError(f"{name}: expected seconds, got {time[-1]:.3g}; divide nanoseconds by 1e9")
-    return np.round(time * 1e9).astype(np.int64)
+    return time
 
 
-def _reading_stream(model: RobotModel, sensor: str, stamps: IntArray, reading: Any, quantity: str) -> Stream:
-    values = _numbers(reading, "reading")
-    require_shape(values, name="reading", shape=(len(stamps), 6 if quantity == "wrench" else None))
+def _require_magnitude(values: FloatArray, quantity: str, limit_counts: float) -> None:
+    """Refuse counts that can only be newtons, and newtons that can only be counts."""
+    known = values[np.isfinite(values)]
+    if not known.size:
+        return
+    largest, whole = float(np.abs(known).max()), bool((known == np.rint(known)).all())
+    if quantity == "raw" and not whole and largest < _LEAST_SHARE * limit_counts:
+        raise ExperimentError(
+            f"reading: expected counts up to the order of limit_counts, {limit_counts:g}, got fractions up to "
+            f'{largest:.3g}, as of N; state quantity="wrench" for N and N m, or limit_counts of this converter'
+        )
+    if quantity == "wrench" and whole and largest > _MOST_WHOLE_N:
+        raise ExperimentError(
+            f"reading: expected N and N m, got whole numbers up to {largest:.6g}, as of counts; state "
+            'quantity="raw" for counts'
+        )
+
+
+def _reading_table(sensor: str, time: FloatArray, reading: Any, quantity: str) -> dict[str, Any]:
+    values = numbers(reading, "reading")
+    require_shape(values, name="reading", shape=(len(time), 6 if quantity == "wrench" else None))
     if quantity == "wrench":
         named = [str(column) for column in getattr(reading, "columns", WRENCH_COMPONENTS)]
         if sorted(named) == sorted(WRENCH_COMPONENTS) and named != list(WRENCH_COMPONENTS):
             raise ExperimentError(
                 f"reading: expected the columns {', '.join(WRENCH_COMPONENTS)} in this order, got {', '.join(named)}"
             )
-        frame = model.sensor(sensor).name
-        signal = Signal(quantity="wrench", values=values, columns=WRENCH_COMPONENTS, units=WRENCH_UNITS, frame=frame)
-    else:
-        count = values.shape[1]
-        columns = tuple(f"ch{k}" for k in range(count))
-        signal = Signal(quantity="raw", values=values, columns=columns, units=("counts",) * count)
-    return Stream(name=_READINGS, clock="arrays", stamp_ns=stamps, signals={quantity: signal})
+    samples: dict[str, Any] = {quantity: values}
+    return stream_of_arrays(_READINGS, time, frame=sensor, clock="arrays", **samples)
 
 
-def _joint_stream(model: RobotModel, stamps: IntArray, joints: Mapping[str, Any]) -> Stream:
+def _joint_table(model: RobotModel, time: FloatArray, joints: Mapping[str, Any]) -> dict[str, Any]:
     if not hasattr(joints, "keys"):  # a frame of pandas has them, and is no Mapping
         raise ExperimentError(
-            f"joints: expected positions by name of the joint, a dictionary or a pandas frame, got {_what(joints)}"
+            f"joints: expected positions by name of the joint, a dictionary or a pandas frame, got {brief(joints)}"
         )
     names = tuple(str(joint) for joint in joints)
     absent = [joint for joint in names if joint not in model.joints]
@@ -274,13 +292,8 @@ def _joint_stream(model: RobotModel, stamps: IntArray, joints: Mapping[str, Any]
         raise ExperimentError(
             f"joints: expected names of joints of the robot {model.name!r}, got {', '.join(absent) or 'none'}"
         )
-    positions = [_numbers(joints[joint], f"joints[{joint!r}]") for joint in joints]
-    for joint, values in zip(names, positions, strict=True):
-        require_shape(values, name=f"joints[{joint!r}]", shape=(len(stamps),))
-    signal = Signal(
-        quantity="position",
-        values=np.column_stack(positions),
-        columns=names,
-        units=tuple(model.joints[joint].type.unit for joint in names),
-    )
-    return Stream(name=_JOINTS, clock="arrays", stamp_ns=stamps, signals={"position": signal})
+    positions = {str(joint): numbers(joints[joint], f"joints[{joint!r}]") for joint in joints}
+    for joint, values in positions.items():
+        require_shape(values, name=f"joints[{joint!r}]", shape=(len(time),))
+    units = [model.joints[joint].type.unit for joint in names]
+    return stream_of_arrays(_JOINTS, time, clock="arrays", position=positions, units={"position": units})

@@ -159,7 +159,7 @@ class Experiment(ExperimentContent):
         from forcetorque.estimation.estimate import estimate_experiment
         from forcetorque.estimation.result import summarise_estimates
         from forcetorque.estimation.skin_contacts import frames_of_patches
-        from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
+        from forcetorque.estimation.torque.experiment_fusion import TorqueHistory, fuse_experiment
         from forcetorque.experiment.offsets import corrections_of
 
         if output is not None:
@@ -171,7 +171,8 @@ class Experiment(ExperimentContent):
         fusions, frictions = fuse_experiment(self, corrections, contacts=stated, patches=patches) if fuse else ([], ())
         file = None if output is None else Path(output)
         summary = summarise_estimates(self, corrections, spans, file=file, fusions=fusions, frictions=frictions)
-        return summary.model_copy(update={"intervals": tuple(spans)})
+        torques = TorqueHistory(experiment=self, spans=spans, fusions=fusions)
+        return summary.model_copy(update={"intervals": tuple(spans), "torques": torques})
 
     def view(
         self,

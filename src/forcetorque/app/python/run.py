@@ -6,10 +6,11 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Self
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.labelled_arrays import wrench_array, xarray_dataset
 from forcetorque.base.lazy import LazyMethod
 from forcetorque.evaluation import commands as _evaluation
 from forcetorque.evaluation.load_cases.verdict import UseVerdict
@@ -19,6 +20,7 @@ from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import seconds_since
+from forcetorque.recording.recording import Interval
 from forcetorque.results.result import NOTEBOOK_WIDTH, created_now
 from forcetorque.results.table import Table, short_names
 from forcetorque.results.table_rendering import html_table, table_text
@@ -66,6 +68,49 @@ class Verdicts(tuple[UseVerdict, ...]):
                 for verdict in self
             ),
         )
+
+
+class ExpectedWrenches(tuple[FloatArray, FloatArray]):
+    """Instants and expected wrenches, `time_s, wrench = run.expected_wrenches(label)`.
+
+    Instants since the start of the recording, shape (n,), s; wrenches in the sensor's frame and direction, shape
+    (n, 6), N, N m.
+    """
+
+    sensor: str
+    """Name of the sensor."""
+    interval: str
+    """Label of the interval."""
+    stamp_ns: IntArray
+    """The instants on the clock of the sensor; shape (n,); ns."""
+
+    @classmethod
+    def of(cls, run: SensorRun, interval: Interval) -> Self:
+        """Compute them.
+
+        Args:
+            run: The sensor.
+            interval: The interval.
+
+        Returns:
+            Instants and wrenches.
+        """
+        samples = run.interval_samples(interval).samples
+        expected = cls((seconds_since(samples.stamp_ns, run.experiment.recording.start_ns), samples.reference))
+        expected.sensor, expected.interval, expected.stamp_ns = run.sensor.name, interval.label, samples.stamp_ns
+        return expected
+
+    def to_xarray(self) -> Any:
+        """Give them as a data set of xarray.
+
+        Returns:
+            `xarray.Dataset` with `expected` over `time` and `axis`.
+
+        Raises:
+            MissingExtraError: If xarray is not installed.
+        """
+        wrench = wrench_array(self[1], frame=self.sensor, long_name="expected measurement")
+        return xarray_dataset(self.stamp_ns, {"expected": wrench}, {}, sensor=self.sensor, interval=self.interval)
 
 
 _LOG = logging.getLogger(__name__)
@@ -135,7 +180,7 @@ class Run(SensorRun):
         (entry,) = answer.calibrations
         return entry.calibration
 
-    def expected_wrenches(self, label: str) -> tuple[FloatArray, FloatArray]:
+    def expected_wrenches(self, label: str) -> ExpectedWrenches:
         """Give what mechanics demands that the sensor reads over an interval.
 
         Args:
@@ -143,7 +188,7 @@ class Run(SensorRun):
 
         Returns:
             Instants since the start of the recording, shape (n,), s; and wrenches in the sensor's frame and direction,
-            shape (n, 6), N, N m.
+            shape (n, 6), N, N m; `to_xarray()` labels them.
 
         Raises:
             ExperimentError: If there is no interval of that label, or something touches the robot beyond the sensor in
@@ -153,8 +198,7 @@ class Run(SensorRun):
         if label not in intervals:
             raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, intervals)}")
         (interval,) = self.known([intervals[label]])
-        samples = self.interval_samples(interval).samples
-        return seconds_since(samples.stamp_ns, self.experiment.recording.start_ns), samples.reference
+        return ExpectedWrenches.of(self, interval)
 
     def verdicts(self, calibrations: Calibrations) -> Verdicts:
         """Say whether calibrations may be used for the loads to come.

@@ -295,6 +295,26 @@ class TorquePicture:
     """Other rotary joints."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TorqueHistory:
+    """What `torque_picture` is made of."""
+
+    experiment: Experiment
+    """The experiment."""
+    spans: Sequence[IntervalEstimates]
+    """Its estimates."""
+    fusions: Sequence[IntervalFusion] = ()
+    """Its fusions; none where torques are not fused."""
+
+    def picture(self) -> TorquePicture:
+        """Put torques of all intervals beside each other.
+
+        Returns:
+            As of `torque_picture`.
+        """
+        return torque_picture(self.experiment, self.spans, self.fusions)
+
+
 def torque_picture(
     experiment: Experiment, spans: Sequence[IntervalEstimates] = (), fusions: Sequence[IntervalFusion] = ()
 ) -> TorquePicture:

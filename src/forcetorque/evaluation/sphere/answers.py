@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from forcetorque.evaluation.next_step import to_calibrate, to_evaluate
 from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow, SphereRow
@@ -12,24 +13,23 @@ from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import bounded
 from forcetorque.results.table import short_names
 
+if TYPE_CHECKING:
+    from forcetorque.evaluation.sphere.sphere import Spheres
 MEANING = "standard deviation of the masses that the three axes measure"
 """What the index of an ellipsoid is."""
 
 
-def sphere_answers(rows: Sequence[SphereRow], failures: Sequence[FailureRow], figure: str | None) -> Iterator[Answer]:
+def sphere_answers(spheres: Spheres) -> Iterator[Answer]:
     """Give the answer for every sensor and candidate: by the fit with the model where there is one.
 
     Args:
-        rows: Spheres of sensors.
-        failures: Sensors that could not be analysed.
-        figure: File of the figure; None for none.
+        spheres: Spheres of sensors.
 
     Yields:
         One answer each; of a sensor its calibrations first.
     """
-    written = () if figure is None else (figure,)
-    for sensor in dict.fromkeys(row.sensor for row in rows):
-        own = [row for row in rows if row.sensor == sensor]
+    for sensor in dict.fromkeys(row.sensor for row in spheres.rows):
+        own = [row for row in spheres.rows if row.sensor == sensor]
         names = short_names([row.candidate for row in own])
         for row in sorted(own, key=lambda row: row.candidate.startswith(PRIOR)):
             fit = row.with_reference or row.without_reference
@@ -40,10 +40,10 @@ def sphere_answers(rows: Sequence[SphereRow], failures: Sequence[FailureRow], fi
                 why=tuple(_reasons(row, fit)),
                 step=step,
                 command=command,
-                written=written,
+                written=(spheres.figure_file,),
                 concern=Concern.NONE if fit.identifiable else Concern.UNCERTAIN,
             )
-    yield from failed(failures)
+    yield from failed(spheres.failures)
 
 
 def failed(failures: Sequence[FailureRow]) -> Iterator[Answer]:

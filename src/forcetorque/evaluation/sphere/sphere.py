@@ -4,13 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
-from forcetorque.evaluation.sphere.answers import sphere_answers
 from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow, SphereRow
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
@@ -21,9 +20,8 @@ from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import interval, number
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, short_names
 
 MEANING = (
@@ -156,8 +154,12 @@ def _known(identifiable: bool) -> str:
 __all__ = ["SensorSphere", "SphereRow", "Spheres", "spheres", "spheres_of_sensors"]
 
 
-class Spheres(Result):
+class Spheres(DrawnResult):
     """Apparent masses of the axes of sensors, with and without the model, and what they are worth."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.evaluation.sphere.answers:sphere_answers"
+    drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.sphere:sphere_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("analyses",)
 
     interval_uses = ()
 
@@ -171,8 +173,6 @@ class Spheres(Result):
     """Half width of an interval, relative to the mean radius, up to which a number is identifiable."""
     rule: str = Field(repr=False)
     """How it is decided what is identifiable."""
-    figure: str | None
-    """File of the figure."""
     rows: tuple[SphereRow, ...]
     """One per sensor and way to read it."""
     failures: tuple[FailureRow, ...]
@@ -184,14 +184,6 @@ class Spheres(Result):
     def passed(self) -> bool:
         """Whether no sensor failed."""
         return all(failure.skipped for failure in self.failures)
-
-    def answers(self) -> Iterator[Answer]:
-        """Say by how much the axes of every sensor differ.
-
-        Yields:
-            One per sensor and candidate, and one per failure.
-        """
-        yield from sphere_answers(self.rows, self.failures, self.figure)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give masses, intervals and moments of every sensor.
@@ -210,8 +202,6 @@ class Spheres(Result):
                 yield moments
         yield MEANING
         yield from (failure.sentence for failure in self.failures)
-        if self.figure is not None:
-            yield f"drawn to {self.figure}"
 
 
 @with_recording_notes

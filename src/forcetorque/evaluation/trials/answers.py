@@ -4,43 +4,42 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from forcetorque.evaluation.sphere.answers import MEANING, failed, index_verdict
-from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow
+from forcetorque.evaluation.sphere.result import EllipsoidRow
 from forcetorque.evaluation.trials.result import GroupFitRow, GroupRow, TrialRow
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.table import short_names
 
+if TYPE_CHECKING:
+    from forcetorque.evaluation.trials.comparison import Comparison
 
-def comparison_answers(
-    trials: Sequence[TrialRow], groups: Sequence[GroupRow], failures: Sequence[FailureRow], figure: str | None
-) -> Iterator[Answer]:
+
+def comparison_answers(comparison: Comparison) -> Iterator[Answer]:
     """Give the answer for every sensor, condition and candidate.
 
     Args:
-        trials: The trials.
-        groups: Their groups.
-        failures: What could not be analysed.
-        figure: File of the figure; None for none.
+        comparison: Trials and their groups.
 
     Yields:
         One answer each, of calibrations before those of priors, and one for every failure.
     """
-    written = () if figure is None else (figure,)
+    groups = comparison.groups
     names = short_names([row.candidate for row in groups])
     for group in sorted(groups, key=lambda group: group.candidate.startswith(PRIOR)):
-        fit, by = _fit(group, trials)
+        fit, by = _fit(group, comparison.trials)
         words = [f"{group.sensor} ({group.serial})", *([group.condition] if group.condition else [])]
         rank = "" if by.rank is None or len(groups) == 1 else f", rank {by.rank}"
         yield Answer(
             subject=", ".join([*words, names[group.candidate]]),
             verdict=f"{index_verdict(fit)}{rank}",
             why=tuple(_reasons(group, fit, by)),
-            written=written,
+            written=(comparison.figure_file,),
             concern=Concern.NONE if fit.identifiable else Concern.UNCERTAIN,
         )
-    yield from failed(failures)
+    yield from failed(comparison.failures)
 
 
 def _fit(group: GroupRow, trials: Sequence[TrialRow]) -> tuple[EllipsoidRow, GroupFitRow]:

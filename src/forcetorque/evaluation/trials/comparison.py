@@ -5,20 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from pydantic import Field
 
 from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow
-from forcetorque.evaluation.trials.answers import comparison_answers
 from forcetorque.evaluation.trials.result import GroupFitRow, GroupRow, TrialRow, group_rows
 from forcetorque.evaluation.trials.trials import TrialGroup, group_trials, read_trials
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import interval
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, short_names
 
 _Fit = Literal["with_reference", "without_reference"]
@@ -219,8 +217,12 @@ _OF_A_FIT = (
 """Columns of an ellipsoid in the CSV; the JSON has the others too."""
 
 
-class Comparison(Result):
+class Comparison(DrawnResult):
     """Spheres of trials, and of the sensors and conditions that they are trials of."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.evaluation.trials.answers:comparison_answers"
+    drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.sphere:index_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("analyses",)
 
     schema_name: Literal["forcetorque/compare/1"] = Field(default="forcetorque/compare/1", alias="schema")
     """Form of the result."""
@@ -228,8 +230,6 @@ class Comparison(Result):
     """Half width of an interval, relative to the mean radius, up to which a number is identifiable."""
     rule: str = Field(repr=False)
     """How it is decided what is identifiable."""
-    figure: str | None
-    """File of the figure; none where none was drawn."""
     trials: tuple[TrialRow, ...]
     """One per sensor, trial and way to read it, in the order of the groups."""
     groups: tuple[GroupRow, ...]
@@ -238,14 +238,6 @@ class Comparison(Result):
     """What could not be analysed; the exit code is 1 if there is any."""
     analyses: tuple[TrialGroup, ...] = Field(default=(), exclude=True, repr=False)
     """The trials and pooled fits behind every group, for figures."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say by how much the axes of every sensor differ.
-
-        Yields:
-            One per sensor, condition and candidate, and one per failure.
-        """
-        yield from comparison_answers(self.trials, self.groups, self.failures, self.figure)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give every trial, conditions side by side, drift and ranks.
@@ -256,8 +248,6 @@ class Comparison(Result):
         if self.trials:
             yield from comparison_blocks(self.trials, self.groups)
         yield from (failure.sentence for failure in self.failures)
-        if self.figure is not None:
-            yield f"drawn to {self.figure}"
 
     def records(self) -> list[dict[str, object]]:
         """Give lines of numbers: those of trials, then means, pooled fits and drifts of groups, then failures.

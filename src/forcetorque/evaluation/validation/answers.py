@@ -10,27 +10,43 @@ from forcetorque.evaluation.next_step import to_calibrate, to_evaluate
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.answer import Answer, Concern
-from forcetorque.results.number_text import amount, bounded
+from forcetorque.results.number_text import amount, within
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
-    from forcetorque.evaluation.validation.contact_forces import BestCandidate, ContactForceErrors
-    from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors
+    from forcetorque.evaluation.validation.contact_forces import BestCandidate, ContactForceErrors, ContactForces
+    from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, JointTorques
+    from forcetorque.evaluation.validation.validation import Validation
 
 
-def contact_answers(
-    forces: Sequence[ContactForceErrors], best: Sequence[BestCandidate], torques: Sequence[JointTorqueErrors]
-) -> Iterator[Answer]:
-    """Give the answer for every sensor: of its own offset where its candidates have one.
+def validation_answers(validation: Validation) -> Iterator[Answer]:
+    """Give the answer for every sensor, with joint torques from it.
 
     Args:
-        forces: Contact forces where nothing touches.
-        best: Who reports the least, one per sensor and offset.
-        torques: Joint torques from the sensor; none where they are not evaluated.
+        validation: Contact forces and joint torques.
 
     Yields:
         One answer each.
     """
+    yield from _by_sensor(validation.contact_forces, validation.best, validation.joint_torques)
+
+
+def contact_answers(contacts: ContactForces) -> Iterator[Answer]:
+    """Give the answer for every sensor, where contact forces alone are evaluated.
+
+    Args:
+        contacts: Contact forces where nothing touches.
+
+    Yields:
+        One answer each.
+    """
+    yield from _by_sensor(contacts.verdicts, contacts.best, ())
+
+
+def _by_sensor(
+    forces: Sequence[ContactForceErrors], best: Sequence[BestCandidate], torques: Sequence[JointTorqueErrors]
+) -> Iterator[Answer]:
+    """The answer for every sensor: of its own offset where its candidates have one."""
     for sensor in dict.fromkeys(row.sensor for row in best):
         of_sensor = [row for row in best if row.sensor == sensor]
         choice = next((row for row in of_sensor if row.offset is Offset.FITTED), of_sensor[0])
@@ -80,19 +96,19 @@ def _is_prior(candidate: str) -> bool:
 
 
 def _force(row: ContactForceErrors) -> str:
-    half = row.force_mean_half_width_95_N
-    return bounded(row.force_mean_N, None if half is None else row.force_mean_N + half, "N")
+    return within(row.force_mean_N, row.force_mean_half_width_95_N, "N")
 
 
-def torque_answers(torques: Sequence[JointTorqueErrors]) -> Iterator[Answer]:
+def torque_answers(joint_torques: JointTorques) -> Iterator[Answer]:
     """Give the answer for every sensor and candidate, where joint torques alone are evaluated.
 
     Args:
-        torques: Joint torques.
+        joint_torques: Joint torques.
 
     Yields:
         One answer each.
     """
+    torques = joint_torques.verdicts
     names = short_names([row.candidate for row in torques])
     for sensor, candidate, offset in dict.fromkeys((row.sensor, row.candidate, row.offset) for row in torques):
         rows = [row for row in torques if (row.sensor, row.candidate, row.offset) == (sensor, candidate, offset)]
@@ -119,5 +135,4 @@ def _of_torques(torques: Sequence[JointTorqueErrors], candidate: str, names: Map
 
 
 def _torque(row: JointTorqueErrors) -> str:
-    half = row.rmse_half_width_95
-    return bounded(row.rmse, None if half is None else row.rmse + half, row.unit)
+    return within(row.rmse, row.rmse_half_width_95, row.unit)

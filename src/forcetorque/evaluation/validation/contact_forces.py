@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -25,8 +25,6 @@ from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.results.answer import Answer
-from forcetorque.results.capability import named
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import (
@@ -216,20 +214,14 @@ class ContactForceErrors(Row):
 class ContactForces(Result):
     """Contact wrenches of a sub-model that nothing touches, by all candidates of a sensor."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.evaluation.validation.answers:contact_answers"
+
     verdicts: tuple[ContactForceErrors, ...]
     """One per candidate and offset."""
     best: tuple[BestCandidate, ...]
     """One per offset."""
     left_out: tuple[str, ...]
     """What could not be evaluated of the intervals, in words."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say of every sensor which candidate reports the least contact force where nothing touches.
-
-        Yields:
-            One per sensor.
-        """
-        yield from named("forcetorque.evaluation.validation.answers:contact_answers")(self.verdicts, self.best, ())
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor, and who is best.

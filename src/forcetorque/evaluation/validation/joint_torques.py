@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -20,8 +20,6 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import EvaluatedRow
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
-from forcetorque.results.answer import Answer
-from forcetorque.results.capability import named
 from forcetorque.results.result import Result
 from forcetorque.results.table import Shown, Table, table_of
 from forcetorque.robot.model import JointType
@@ -59,18 +57,12 @@ class RecordingJointTorques(JointTorqueErrors):
 class JointTorques(Result):
     """Joint torques that depend on one sensor, by all its candidates."""
 
+    answered_by: ClassVar[str | None] = "forcetorque.evaluation.validation.answers:torque_answers"
+
     verdicts: tuple[JointTorqueErrors, ...]
     """One per candidate, offset and joint, joints from the support outwards."""
     left_out: tuple[str, ...]
     """Torques that the log does not allow to estimate, or to evaluate in an interval, in words."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say of every sensor and candidate by how much the joint torques from it are off.
-
-        Yields:
-            One per sensor, candidate and offset.
-        """
-        yield from named("forcetorque.evaluation.validation.answers:torque_answers")(self.verdicts)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor.

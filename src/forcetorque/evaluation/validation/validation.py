@@ -11,7 +11,6 @@ from pydantic import Field
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.evaluation import smoothing_text
 from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts, verdict_texts
-from forcetorque.evaluation.validation.answers import contact_answers
 from forcetorque.evaluation.validation.contact_forces import (
     BestCandidate,
     ContactForceErrors,
@@ -38,13 +37,14 @@ from forcetorque.experiment.free_sub_model import FreeSubModel, SubModelChoice
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.recording.recording import Use
-from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
 
 
 class Validation(Result):
     """Contact forces and joint torques of sensors, by their calibrations and the priors that those came from."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.evaluation.validation.answers:validation_answers"
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "recording_torques")
 
@@ -75,14 +75,6 @@ class Validation(Result):
 
     uses: tuple[UseVerdict, ...] = ()
     """One per calibration and load case: whether it may be used."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say of every sensor which candidate reports the least contact force where nothing touches.
-
-        Yields:
-            One per sensor.
-        """
-        yield from contact_answers(self.contact_forces, self.best, self.joint_torques)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give tables of contact forces, who is best, and tables of joint torques.

@@ -139,6 +139,27 @@ def _rows_and_columns(shape: tuple[int, ...], *, matlab: bool) -> tuple[int, int
     return shape[0], columns
 
 
+def array_streams(specified: ArrayLog, arrays: Mapping[str, FloatArray], context: LogContext) -> LogReading:
+    """Make streams of arrays.
+
+    Args:
+        specified: What is specified of them; its path is for messages.
+        arrays: Every array that is named there; shape (rows, columns).
+        context: What else the experiment file specifies.
+
+    Returns:
+        Streams and findings.
+    """
+    streams: dict[str, Stream] = {}
+    findings: list[Finding] = []
+    for k, entry in enumerate(specified.stream):
+        with context.stated_in(f"stream[{k}]"):
+            reading = array_stream(specified.path, entry, arrays, streams)
+        streams[entry.name] = reading.stream
+        findings += reading.findings
+    return LogReading(streams=tuple(streams.values()), findings=tuple(findings))
+
+
 class _ArrayFormat(ABC):
     """Single files of arrays, which specify no units: they are recognised to report what must be specified."""
 
@@ -186,8 +207,6 @@ class _ArrayFormat(ABC):
         path = context.file(specified.path)
         shapes, skipped = self._contents(path)
         arrays = self._read(path, shapes, wanted_arrays(specified.stream))
-        streams: dict[str, Stream] = {}
-        findings: list[Finding] = []
         for k, entry in enumerate(specified.stream):
             with context.stated_in(f"stream[{k}]"):
                 for name in wanted_arrays((entry,)):
@@ -195,10 +214,7 @@ class _ArrayFormat(ABC):
                         raise FormatError(f"{path}: {name}: expected rows of real numbers, got {skipped[name]}")
                     if name not in arrays:
                         raise FormatError(f"{path}: no variable {name!r}; {known_names(name, shapes)}")
-                reading = array_stream(path, entry, arrays, streams)
-            streams[entry.name] = reading.stream
-            findings += reading.findings
-        return LogReading(streams=tuple(streams.values()), findings=tuple(findings))
+        return array_streams(specified.model_copy(update={"path": path}), arrays, context)
 
     def _read(
         self, path: Path, shapes: Mapping[str, tuple[int, int]], names: Collection[str]

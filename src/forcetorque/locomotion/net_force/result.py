@@ -10,7 +10,7 @@ from pydantic import Field
 
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.number_text import interval, number, with_error
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import AxisValues, Row, Table, WrenchValues, short_names
 
 NOT_EVIDENCE = "not evidence"
@@ -104,9 +104,10 @@ class CoherenceSummary(Row):
     """Largest of these norms."""
 
 
-class Coherence(Result):
+class Coherence(DrawnResult):
     """Whether the contacts together bear the weight, whichever of them touch (thesis 5.6)."""
 
+    drawn_by: ClassVar[str] = "forcetorque.locomotion.figures:coherence_figure"
     answered_by: ClassVar[str | None] = "forcetorque.locomotion.answers:coherence_answers"
 
     interval_uses = ()
@@ -125,8 +126,6 @@ class Coherence(Result):
     """Offsets that intervals gave."""
     summary: tuple[CoherenceSummary, ...]
     """One per offset and candidate."""
-    figure: str | None = None
-    """File of the figure, where one was drawn."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per offset in the form of thesis Tables 5.9 and 5.10, and what is left over all phases.
@@ -148,8 +147,6 @@ class Coherence(Result):
             "is near zero by construction. Forces of one foot against the other cancel in F: their size is not "
             "evaluated."
         )
-        if self.figure is not None:
-            yield f"errors drawn to {self.figure}"
 
     def records(self) -> list[dict[str, object]]:
         """Give the rows as lines.

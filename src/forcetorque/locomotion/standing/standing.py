@@ -31,7 +31,7 @@ from forcetorque.locomotion.standing.result import (
     robot_row,
 )
 from forcetorque.locomotion.standing.support_phases import NO_FOOT, require_support
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, table_of
 
 SAMPLES = "forcetorque/balance-samples/1"
@@ -41,9 +41,11 @@ _DOUBTED_SHARE = 0.1
 """Share of the weight that feet may seem to bear more or less before it is a warning: sensors err by some percent."""
 
 
-class Balance(Result):
+class Balance(DrawnResult):
     """How a robot stood over the intervals of experiments."""
 
+    drawn_by: ClassVar[str] = "forcetorque.locomotion.figures:balance_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("first_standing",)
     answered_by: ClassVar[str | None] = "forcetorque.locomotion.answers:balance_answer"
 
     interval_uses = ()
@@ -74,6 +76,11 @@ class Balance(Result):
     """What cannot be determined, as text."""
     intervals: tuple[IntervalBalance, ...] = Field(default=(), exclude=True, repr=False)
     """Every sample, for files and pictures."""
+
+    @property
+    def first_standing(self) -> IntervalBalance:
+        """The first interval in which a foot is down, which is drawn."""
+        return next(interval for interval in self.intervals if interval.phases.down.any())
 
     def blocks(self) -> Iterator[Table | str]:
         """Give tables of phases, feet, robot and pendulum.

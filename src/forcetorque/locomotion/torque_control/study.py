@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Final, Literal
+from typing import Annotated, ClassVar, Final, Literal
 
 import numpy as np
 from pydantic import Field
@@ -27,10 +27,8 @@ from forcetorque.locomotion.torque_control.closed_loop import (
 from forcetorque.locomotion.torque_control.file import PERIOD_S, TorqueLoopFile
 from forcetorque.locomotion.torque_control.linear_robot import LinearRobot, linear_robot, require_stable
 from forcetorque.locomotion.torque_control.world import SENSORS, Biped
-from forcetorque.results.answer import Answer
-from forcetorque.results.capability import named
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, table_of
 
 
@@ -111,8 +109,11 @@ _EVERY = 10
 _SUPPORTS: Final = {"both feet": Phase.DOUBLE, "the left foot": Phase.LEFT, "the right foot": Phase.RIGHT}
 
 
-class TorqueLoopStudy(Result):
+class TorqueLoopStudy(DrawnResult):
     """A robot that balances by torque control, with errors of its force-torque sensors."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.locomotion.answers:torque_loop_answers"
+    drawn_by: ClassVar[str] = "forcetorque.locomotion.figures:torque_loop_figure"
 
     schema_name: Literal["forcetorque/torque_loop/1"] = Field(default="forcetorque/torque_loop/1", alias="schema")
     """Form of the result."""
@@ -128,14 +129,6 @@ class TorqueLoopStudy(Result):
     """One per robot, gains, kind and size of errors."""
     onsets: tuple[TorqueLoopOnsetRow, ...]
     """Where the linear loop becomes unstable."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say from which force error on the robot falls.
-
-        Yields:
-            One per robot, gains and kind of errors.
-        """
-        yield from named("forcetorque.locomotion.answers:torque_loop_answers")(self, NO_ERROR)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give both tables.

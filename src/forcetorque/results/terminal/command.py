@@ -12,7 +12,7 @@ from functools import cached_property
 from inspect import Parameter, Signature, signature
 from pathlib import Path
 from types import GenericAlias
-from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin
+from typing import TYPE_CHECKING, Annotated, Any, cast, get_args, get_origin
 
 import typer
 
@@ -29,6 +29,7 @@ from forcetorque.results.terminal.options import (
 )
 from forcetorque.results.terminal.output import (
     Format,
+    drawn_to,
     refuse_figure,
     refuse_output_folder,
     refuse_standard_output,
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
     from logging import Logger
 
     from forcetorque.experiment.calibration.artefact import Calibration
-    from forcetorque.results.result import Result
+    from forcetorque.results.result import DrawnResult, Result
 
 _RUN, _RUNS, _EXPERIMENT = "SensorRun", "Runs", "Experiment"
 _CALIBRATIONS, _ONE_CALIBRATION, _OTHERS = "Calibrations", "OneCalibration", "OtherCalibrations"
@@ -123,8 +124,8 @@ class _Analysis:
                 )
         for saved in self.offered.saved:
             yield _option(_name(saved), Path, Option(saved.help), saved.flags, required=saved.required)
-        if self.offered.drawing is not None:
-            yield _option("figure", Path, Option(f"PNG of {self.offered.drawing.help}."), ("--figure",))
+        if self.offered.figure is not None:
+            yield _option("figure", Path, Option(f"PNG of {self.offered.figure}."), ("--figure",))
         if self.offered.saved:
             yield _typed("force", ForceOption, False)
 
@@ -144,7 +145,7 @@ class _Analysis:
             if given[_name(saved)] is not None:
                 result = _written(result, saved, given[_name(saved)])
         if figure is not None:
-            result = self.drawn(result, figure)
+            result = drawn_to(cast("DrawnResult", result), figure)
         if any(given[_name(saved)] == STANDARD_OUTPUT for saved in self.offered.saved):  # the file itself went there
             show_warnings(result)
         else:
@@ -250,18 +251,6 @@ class _Analysis:
         own = groups.get(sensor, {})
         values = {_CALIBRATIONS: own, _ONE_CALIBRATION: own or None, _OTHERS: rest}
         return {self.named_by_kind[kind]: value for kind, value in values.items() if kind in self.named_by_kind}
-
-    def drawn(self, result: Result, figure: Path) -> Result:
-        """The result with the name of its figure, which is drawn."""
-        from forcetorque.base.output_file import write_bytes_atomically
-        from forcetorque.results.figures import png_bytes
-
-        drawing = self.offered.drawing
-        assert drawing is not None  # noqa: S101 - else there is no --figure
-        shown = [getattr(result, field) for field in drawing.of] or [result]
-        write_bytes_atomically(figure, png_bytes(named(drawing.function)(*shown)))
-        named_in_result = "figure" in type(result).model_fields
-        return result.model_copy(update={"figure": str(figure)}) if named_in_result else result
 
 
 def _written(result: Any, saved: Saved, path: Path) -> Result:

@@ -13,14 +13,15 @@ from enum import StrEnum
 from io import TextIOWrapper
 from pathlib import Path
 from shutil import get_terminal_size
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs, refuse_existing
 
 if TYPE_CHECKING:
-    from forcetorque.results.result import Result
+    from forcetorque.results.result import DrawnResult, Result
 
+_Drawn = TypeVar("_Drawn", bound="DrawnResult")
 
 _PIPE_WIDTH = 120
 """Columns of a table that goes to a file or a pipe."""
@@ -53,6 +54,8 @@ def start_logging() -> logging.Logger:
         handler.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
         logger.addHandler(handler)
         logger.setLevel(logging.INFO)
+        # where its cache is and that it is built is of no use to who reads the result
+        logging.getLogger("matplotlib").setLevel(logging.ERROR)
     return logger
 
 
@@ -262,3 +265,23 @@ def refuse_figure(figure: Path | None, *, force: bool | None = None) -> None:
         raise ForceTorqueError(f"--figure {figure}: expected an existing folder to write to, there is none")
     declare_outputs(figure, force=force)
     new_figure(1.0)
+
+
+def drawn_to(result: _Drawn, file: Path) -> _Drawn:
+    """Draw a result to a file.
+
+    Args:
+        result: The result.
+        file: PNG to write or to replace.
+
+    Returns:
+        The result, which names the file.
+    """
+    from forcetorque.base.output_file import write_bytes_atomically
+    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.results.figures import png_bytes
+
+    with stated_in(f"--figure {file}"):
+        figure = result.figure()
+    write_bytes_atomically(file, png_bytes(figure))
+    return result.model_copy(update={"figure_file": str(file)})

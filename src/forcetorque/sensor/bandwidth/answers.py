@@ -33,7 +33,7 @@ def response_answer(response: Response) -> Answer:
         subject=f"{response.sensor} ({response.serial}), {response.excitation}, {response.signal}",
         verdict=shown[0] if shown else "NOT DETERMINED",
         why=("; ".join((*shown[1:], *first, *filtered)), *response.refused[:1]),
-        written=() if response.figure is None else (response.figure,),
+        written=(response.figure_file,),
         concern=Concern.BAD if not shown else Concern.UNCERTAIN if response.refused else Concern.NONE,
     )
 

@@ -17,7 +17,7 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, table_of
 from forcetorque.sensor.bandwidth.decays import DecayCurve, Decays, EventRow, ResponseNumber, free_decays, numbers
 from forcetorque.sensor.bandwidth.excited_records import ExcitationKind, ExcitedRecord, component_index, excited_records
@@ -125,9 +125,10 @@ FOLDED_SHARE = 0.35
 """Part of the rate from which on a vibration may well be one from above half of it, folded back."""
 
 
-class Response(Result):
+class Response(DrawnResult):
     """What a sensor does to fast forces."""
 
+    drawn_by: ClassVar[str] = "forcetorque.sensor.figures:response_figure"
     answered_by: ClassVar[str | None] = "forcetorque.sensor.bandwidth.answers:response_answer"
 
     schema_name: Literal["forcetorque/response/1"] = Field(default="forcetorque/response/1", alias="schema")
@@ -158,8 +159,6 @@ class Response(Result):
     """Filter that undoes the response; null where it is not determined well enough."""
     refused: tuple[str, ...]
     """What is not determined, and why."""
-    figure: str | None = None
-    """File of the figure."""
     decays: tuple[DecayCurve, ...] = Field(default=(), repr=False)
     """Decays and their fits, for the figure."""
 
@@ -186,8 +185,6 @@ class Response(Result):
             "±: half a 95 % interval. It is the response of the sensor with all that is mounted on and under it; "
             f"vibrations above {0.5 * self.rate_hz:.5g} Hz, half of the rate, are not seen, or folded below it"
         )
-        if self.figure is not None:
-            yield f"drawn to {self.figure}"
 
     def records(self) -> list[dict[str, object]]:
         """Give the numbers as flat lines.

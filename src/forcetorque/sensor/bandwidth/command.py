@@ -48,11 +48,10 @@ def response(
 
     Python: `run.response("impact", calibration)`
     """
-    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.sensor_run import SensorRun
-    from forcetorque.results.terminal.output import refuse_figure
+    from forcetorque.results.terminal.output import drawn_to, refuse_figure
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment
     from forcetorque.sensor.bandwidth.bandwidth import response
 
@@ -74,9 +73,5 @@ def response(
             intervals=interval or (),
         )
     if figure is not None:
-        from forcetorque.results.figures import png_bytes
-        from forcetorque.sensor.figures import response_figure
-
-        write_bytes_atomically(figure, png_bytes(response_figure(result)))
-        result = result.model_copy(update={"figure": str(figure)})
+        result = drawn_to(result, figure)
     show(result, output_format, details=details, experiments=experiments)

@@ -10,30 +10,29 @@ from forcetorque.results.answer import Answer, Concern
 from forcetorque.sensor.gains.amplifier_gains import ChannelGain, GainChange
 
 if TYPE_CHECKING:
+    from forcetorque.sensor.gains.gains import Gains
     from forcetorque.sensor.gains.result import SensorRow
 
 _VERBS = {GainChange.RAISE: "RAISE", GainChange.LOWER: "LOWER", GainChange.LOWER_AND_REPEAT: "LOWER"}
 
 
-def gains_answers(sensors: Sequence[SensorRow], margin: float, figure: str | None) -> Iterator[Answer]:
+def gains_answers(gains: Gains) -> Iterator[Answer]:
     """Give the answer for every sensor.
 
     Args:
-        sensors: The sensors.
-        margin: Share of the limit that is kept free.
-        figure: File of the figure; None for none.
+        gains: Ranges and advice.
 
     Yields:
         One answer each.
     """
-    for row in sensors:
+    for row in gains.sensors:
         raised = any(channel.change is GainChange.RAISE for channel in row.channels)
         yield Answer(
             subject=f"{row.sensor} ({row.serial})",
             verdict=_verdict(row.channels),
-            why=(_nearest(row, margin), *(_UNKNOWN_CONTACT if raised and not row.contact_stated else ())),
+            why=(_nearest(row, gains.margin), *(_UNKNOWN_CONTACT if raised and not row.contact_stated else ())),
             step=_step(row),
-            written=() if figure is None else (figure,),
+            written=(gains.figure_file,),
             concern=_concern(row, raised=raised),
         )
 

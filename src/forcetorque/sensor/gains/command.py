@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.results.command import Drawing, Option, command
+from forcetorque.results.command import Option, command
 
 if TYPE_CHECKING:
     from forcetorque.experiment.calibrations_under_test import OneCalibration
@@ -24,13 +24,7 @@ def _numbers(option: str, text: str) -> tuple[float, ...]:
     return numbers
 
 
-@command(
-    Drawing(
-        function="forcetorque.sensor.figures:gain_figure",
-        of=("drawn",),
-        help="the channels against their limits, before and after",
-    )
-)
+@command("the channels against their limits, before and after")
 def gains(
     run: Annotated["SensorRun", Option("Sensor with raw counts.", "--sensor", all_sensors=True)],
     calibration: Annotated[

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -22,8 +22,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.frozen_and_saturated_samples import smallest_steps, white_variance
 from forcetorque.recording.recording import Interval, Use
-from forcetorque.results.answer import Answer
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table
 from forcetorque.robot.model import RobotModel
 from forcetorque.sensor.gains.amplifier_gains import (
@@ -34,7 +33,6 @@ from forcetorque.sensor.gains.amplifier_gains import (
     axis_resolution,
     channel_ranges,
 )
-from forcetorque.sensor.gains.answers import gains_answers
 from forcetorque.sensor.gains.result import ResolutionRow, SensorRow, strongest_rows
 
 _STILL = 0.01
@@ -144,8 +142,12 @@ class SensorGains(ArrayRecord):
         return np.array([channel.factor for channel in self.channels])
 
 
-class Gains(Result):
+class Gains(DrawnResult):
     """How far the channels of sensors are from saturation, and which amplifier gains would suit them."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.sensor.gains.answers:gains_answers"
+    drawn_by: ClassVar[str] = "forcetorque.sensor.figures:gain_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("drawn",)
 
     schema_name: Literal["forcetorque/gains/1"] = Field(default="forcetorque/gains/1", alias="schema")
     """Form of the result."""
@@ -153,20 +155,10 @@ class Gains(Result):
     """Name of the experiment."""
     margin: float
     """Share of the limit that is kept free."""
-    figure: str | None = None
-    """File of the figure."""
     sensors: tuple[SensorRow, ...]
     """Sensors in the order of the file."""
     drawn: tuple[SensorGains, ...] = Field(default=(), exclude=True, repr=False)
     """Samples and channels of each, for figures."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say of every sensor which gains to change.
-
-        Yields:
-            One per sensor.
-        """
-        yield from gains_answers(self.sensors, self.margin, self.figure)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the tables of every sensor.
@@ -177,8 +169,6 @@ class Gains(Result):
         for row in self.sensors:
             yield from row.blocks()
         yield f"left: share of the limit, to be kept above {100.0 * self.margin:g} %"
-        if self.figure is not None:
-            yield f"drawn to {self.figure}"
 
     def records(self) -> list[dict[str, object]]:
         """Give the channels as flat lines.

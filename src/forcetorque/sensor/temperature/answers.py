@@ -11,20 +11,19 @@ from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import plus_minus
 
 if TYPE_CHECKING:
-    from forcetorque.sensor.temperature.temperature_drift import SensorThermal, ThermalDriftRow
+    from forcetorque.sensor.temperature.temperature_drift import Thermal, ThermalDriftRow
 
 
-def thermal_answers(sensors: Sequence[SensorThermal], figure: str | None) -> Iterator[Answer]:
+def thermal_answers(thermal: Thermal) -> Iterator[Answer]:
     """Give the answer for every sensor.
 
     Args:
-        sensors: The sensors.
-        figure: File of the figure; None for none.
+        thermal: Drifts of sensors.
 
     Yields:
         One answer each.
     """
-    for row in sensors:
+    for row in thermal.sensors:
         force, moment = (_largest(row.components[part]) for part in FORCE_AND_MOMENT)
         left = "left " if row.corrected else ""
         drift = f"{left}drift of {force.signal} {_drift(force)}"
@@ -40,7 +39,7 @@ def thermal_answers(sensors: Sequence[SensorThermal], figure: str | None) -> Ite
             ),
             step="" if row.corrected else _STATE if stated else "record it heated and cooled several times",
             command=typed("bench", "thermal", EXPERIMENT, "--details") if stated else "",
-            written=() if figure is None else (figure,),
+            written=(thermal.figure_file,),
             concern=Concern.NONE if row.told_from_time else Concern.UNCERTAIN,
         )
 

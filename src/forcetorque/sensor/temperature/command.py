@@ -4,7 +4,7 @@
 from collections.abc import Collection
 from typing import TYPE_CHECKING, Annotated
 
-from forcetorque.results.command import Drawing, Option, command
+from forcetorque.results.command import Option, command
 
 if TYPE_CHECKING:
     from forcetorque.experiment.calibrations_under_test import OneCalibration
@@ -12,13 +12,7 @@ if TYPE_CHECKING:
     from forcetorque.sensor.temperature.temperature_drift import Thermal
 
 
-@command(
-    Drawing(
-        function="forcetorque.sensor.figures:thermal_figure",
-        of=("sensors",),
-        help="the drift over temperature, heating and cooling apart",
-    )
-)
+@command("the drift over temperature, heating and cooling apart")
 def thermal(
     run: Annotated[
         "SensorRun",

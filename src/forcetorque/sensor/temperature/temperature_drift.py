@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Sequence
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -20,10 +20,8 @@ from forcetorque.experiment.sensor_reading import Correction, readings_at
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval
-from forcetorque.results.answer import Answer
-from forcetorque.results.capability import named
 from forcetorque.results.number_text import with_error
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 from forcetorque.robot.mechanics.samples import padded_samples
 from forcetorque.sensor.temperature.cycles import Cycles, cycles_of
@@ -154,8 +152,12 @@ class SensorThermal(Row):
         return tuple(f"{key} = [{', '.join(f'{value:.4g}' for value in values)}]" for key, values in lines.items())
 
 
-class Thermal(Result):
+class Thermal(DrawnResult):
     """What temperature does to sensors at constant load."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.sensor.temperature.answers:thermal_answers"
+    drawn_by: ClassVar[str] = "forcetorque.sensor.figures:thermal_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("sensors",)
 
     interval_uses = ()
 
@@ -163,18 +165,8 @@ class Thermal(Result):
     """Form of the result."""
     experiment: str
     """Name of the experiment."""
-    figure: str | None = None
-    """File of the figure."""
     sensors: tuple[SensorThermal, ...]
     """Sensors in the order of the file."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say by how much every sensor drifts with temperature.
-
-        Yields:
-            One per sensor.
-        """
-        yield from named("forcetorque.sensor.temperature.answers:thermal_answers")(self.sensors, self.figure)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the drift of every sensor.
@@ -184,8 +176,6 @@ class Thermal(Result):
         """
         for sensor in self.sensors:
             yield from sensor.blocks()
-        if self.figure is not None:
-            yield f"drawn to {self.figure}"
 
     def records(self) -> list[dict[str, object]]:
         """Give components and channels as flat lines.

@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table
 from forcetorque.skin.layout.defects import (
     duplicates,
@@ -62,9 +62,11 @@ _MOST = 6
 """Ranges of numbers that a table shows; JSON and CSV have all numbers."""
 
 
-class SkinCheck(Result):
+class SkinCheck(DrawnResult):
     """What is wrong with a layout of skin."""
 
+    drawn_by: ClassVar[str] = "forcetorque.skin.figures:skin_layout_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("positions", "normals")
     answered_by: ClassVar[str | None] = "forcetorque.skin.answers:skin_check_answer"
 
     schema_name: Literal["forcetorque/skin_check/1"] = Field(default="forcetorque/skin_check/1", alias="schema")
@@ -83,8 +85,6 @@ class SkinCheck(Result):
     """Modules with taxels."""
     thermal_pads: int
     """Thermal pads."""
-    figure: str | None = None
-    """File of the figure."""
     findings: tuple[LayoutFindingRow, ...]
     """What is wrong."""
     positions: Annotated[FloatArray, ArrayField((None, 3))] = Field(exclude=True)
@@ -118,8 +118,6 @@ class SkinCheck(Result):
             f"{self.patch} in {self.frame}: {self.taxels} taxels on {self.modules} modules, {self.thermal_pads} "
             f"thermal pads, {self.message_columns} numbers in a message; {counted(len(self.findings), 'finding')}"
         )
-        if self.figure is not None:
-            yield f"drawn to {self.figure}"
 
     def columns(self) -> list[str]:
         """Name the columns of the CSV.

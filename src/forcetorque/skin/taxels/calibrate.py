@@ -13,7 +13,7 @@ from forcetorque.base.errors import ExperimentError, FitError, known_names
 from forcetorque.experiment.additions import ADDED, added_to, with_recording_notes
 from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
 from forcetorque.recording.recording import Use
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, table_of
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
@@ -41,9 +41,11 @@ _SHOWN = 12
 """Taxels of the table; JSON and CSV have all."""
 
 
-class SkinCalibration(Result):
+class SkinCalibration(DrawnResult):
     """Curves of the taxels of a patch, what they are worth, and which taxels have none."""
 
+    drawn_by: ClassVar[str] = "forcetorque.skin.figures:taxel_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("picture",)
     answered_by: ClassVar[str | None] = "forcetorque.skin.answers:skin_calibration_answer"
 
     schema_name: Literal["forcetorque/skin_calibrate/1"] = Field(default="forcetorque/skin_calibrate/1", alias="schema")
@@ -66,8 +68,6 @@ class SkinCalibration(Result):
     """The same at higher pressures, among those that nowhere fall."""
     file: str | None = None
     """File of the calibration."""
-    figure: str | None = None
-    """File of the figure."""
     taxels: tuple[TaxelRow, ...]
     """Taxels in the order of their columns."""
     candidates: tuple[CandidateRow, ...]
@@ -102,9 +102,8 @@ class SkinCalibration(Result):
         if self.least_inside is not None:
             above = "" if self.least_above is None else f"; above them, of those that nowhere fall, {self.least_above}"
             yield f"least error at fitted pressures: {self.least_inside}{above}"
-        for name, file in (("kept in", self.file), ("drawn to", self.figure)):
-            if file is not None:
-                yield f"{name} {file}"
+        if self.file is not None:
+            yield f"kept in {self.file}"
 
     def save(self, path: Path | str) -> None:
         """Write the curves.

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final, Literal
+from typing import ClassVar, Final, Literal
 
 import numpy as np
 from pydantic import Field
@@ -15,9 +15,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, SkinError
 from forcetorque.experiment.additions import added_to, with_recording_notes
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.results.answer import Answer
-from forcetorque.results.capability import named
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, table_of
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import PressureFrame
@@ -104,8 +102,12 @@ _SHOWN: Final = 12
 """Contacts of the table; JSON and CSV have all."""
 
 
-class SkinWrench(Result):
+class SkinWrench(DrawnResult):
     """Contacts on a patch over a recording."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.skin.answers:skin_wrench_answer"
+    drawn_by: ClassVar[str] = "forcetorque.skin.figures:skin_wrench_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("picture",)
 
     schema_name: Literal["forcetorque/skin_wrench/1"] = Field(default="forcetorque/skin_wrench/1", alias="schema")
     """Form of the result."""
@@ -133,8 +135,6 @@ class SkinWrench(Result):
     """Largest norm of the force of all contacts together."""
     mean_force_N: float
     """Its mean while there is a contact; 0 without any."""
-    figure: str | None = None
-    """File of the figure."""
     contacts: tuple[SkinContactRow, ...]
     """Contacts, in time."""
     lives: tuple[ContactLifeRow, ...]
@@ -143,16 +143,6 @@ class SkinWrench(Result):
     """Contacts that were let go, and what their taxels still read; none where heat was not followed."""
     picture: SkinWrenchPicture = Field(exclude=True, repr=False)
     """Forces over time and a field of pressure, for figures."""
-
-    def answers(self) -> Iterator[Answer]:
-        """Say when the patch was touched, and how hard.
-
-        Yields:
-            One answer.
-        """
-        yield named("forcetorque.skin.answers:skin_wrench_answer")(
-            self, offered=any(row.re_tare == OFFERED for row in self.releases)
-        )
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the first contacts, and warnings about all.
@@ -177,8 +167,6 @@ class SkinWrench(Result):
             yield table_of(self.releases[:_SHOWN], "released, and what was left")
         if any(row.re_tare == OFFERED for row in self.releases):
             yield "where nothing touched the patch after a release, --re-tare takes what was left as rest"
-        if self.figure is not None:
-            yield f"drawn to {self.figure}"
 
     def columns(self) -> list[str]:
         """Name the columns of the CSV.

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a command draws is had from Python: its result has `figure()`."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from typing import ClassVar, Literal
+
+import pytest
+from matplotlib.figure import Figure
+from pydantic import Field
+from typer.core import TyperGroup as Group
+from typer.main import get_command
+
+import forcetorque
+from forcetorque.app.command_line import whole_program
+from forcetorque.base.errors import MissingExtraError
+from forcetorque.results.capability import named
+from forcetorque.results.figures import in_figure_style, new_figure
+from forcetorque.results.result import DrawnResult, result_classes
+from tests.app.commands import question_of
+
+
+@in_figure_style
+def toy_lines(values: tuple[float, ...], name: str) -> Figure:
+    """Values over their index, under a name."""
+    figure = new_figure(2.0)
+    figure.subplots().plot(values, label=name)
+    return figure
+
+
+class Toy(DrawnResult):
+    """Numbers with a name."""
+
+    drawn_by: ClassVar[str] = f"{__name__}:toy_lines"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("values", "title")
+
+    schema_name: Literal["forcetorque/toy/1"] = Field(default="forcetorque/toy/1", alias="schema")
+    """Form of the result."""
+    values: tuple[float, ...]
+    """Numbers."""
+
+    @property
+    def title(self) -> str:
+        """Their name."""
+        return f"{len(self.values)} values"
+
+
+def test_a_result_draws_its_fields() -> None:
+    """By the function that it names, of fields and properties; a notebook shows the figure."""
+    figure = Toy(values=(1.0, 3.0)).figure()
+    (line,) = figure.axes[0].lines
+    assert (list(line.get_ydata()), line.get_label()) == ([1.0, 3.0], "2 values")
+    assert figure._repr_png_().startswith(b"\x89PNG")  # type: ignore[attr-defined]
+
+
+def test_the_file_of_the_figure_is_named() -> None:
+    """In JSON, null without a file, behind the schema, which comes first; and once below the details."""
+    toy = Toy(values=(1.0,))
+    assert list(json.loads(toy.json_text())) == ["schema", "figure", "values"]
+    assert json.loads(toy.json_text())["figure"] is None
+    drawn = toy.model_copy(update={"figure_file": "toy.png"})
+    assert json.loads(drawn.json_text())["figure"] == "toy.png"
+    assert drawn.details() == "drawn to toy.png\n"
+
+
+def test_without_matplotlib_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In one line, with the command to install it."""
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(MissingExtraError, match=r"pip install forcetorque\[report\]"):
+        Toy(values=(1.0,)).figure()
+
+
+def test_every_command_with_a_figure_gives_a_result_with_one() -> None:
+    """Results name functions and fields that there are; those of other commands have no figure."""
+    results = result_classes(forcetorque)
+    drawn = {name for name, kind in results.items() if issubclass(kind, DrawnResult)}
+    program = get_command(whole_program())
+    assert isinstance(program, Group)
+    offered = {question_of(words) for words in _drawing_commands(program)}
+    assert offered == drawn
+    assert len(drawn) == 16
+    for name in drawn:
+        kind = results[name]
+        assert issubclass(kind, DrawnResult)
+        if "figure" not in vars(kind):
+            assert callable(named(kind.drawn_by))
+            assert all(field in kind.model_fields or hasattr(kind, field) for field in kind.drawn_fields)
+
+
+def _drawing_commands(group: Group, words: tuple[str, ...] = ()) -> Iterator[str]:
+    """Words of every command with `--figure`."""
+    for name, command in group.commands.items():
+        if isinstance(command, Group):
+            yield from _drawing_commands(command, (*words, name))
+        elif any("--figure" in option.opts for option in command.params):
+            yield " ".join((*words, name))
