@@ -121,7 +121,9 @@ def write_warm(folder: Path) -> None:
     degrees = 20.0 + 20.0 * np.where(phase < 0.5, 2.0 * phase, 2.0 - 2.0 * phase)
     noise = 0.1 * np.array([1.0, 1.0, 1.0, 0.05, 0.05, 0.05]) * rng.normal(size=(len(time), 6))
     reading = [10.0, 5.0, 20.0, 1.0, 1.0, 1.0] + np.outer(degrees, PER_DEGREE) + noise
-    write_table(folder / "warm.csv", "t fx fy fz tx ty tz T".split(), np.column_stack([time, reading, degrees]))
+    write_table(
+        folder / "warm.csv", ["t", "fx", "fy", "fz", "tx", "ty", "tz", "T"], np.column_stack([time, reading, degrees])
+    )
     load = 'motion = ["log"]\nmass_kg = 0.5\ncentre_of_mass_m = [0.0, 0.0, 0.05]'
     variable = '[[sensor.variable]]\nname = "temperature"\n\n'
     text = LOG.format(name="warm", load=load, other=TEMPERATURE, variable=variable)
@@ -144,7 +146,7 @@ def write_taps(folder: Path) -> None:
     wrench[:, 2], applied[:, 2] = reading, force[::FINER]
     wrench += 0.05 * np.array([1.0, 1.0, 1.0, 0.05, 0.05, 0.05]) * rng.normal(size=wrench.shape)
     applied[:, 2] += 0.02 * rng.normal(size=len(reading))
-    names = "t fx fy fz tx ty tz hx hy hz htx hty htz".split()
+    names = ["t", "fx", "fy", "fz", "tx", "ty", "tz", "hx", "hy", "hz", "htx", "hty", "htz"]
     write_table(folder / "taps.csv", names, np.column_stack([time[::FINER], wrench, applied]))
     text = LOG.format(name="taps", load='applied = "log"', other=APPLIED, variable="")
     (folder / "taps.toml").write_text(text, encoding="utf-8")

@@ -3,8 +3,8 @@
 
 A block `toml` whose first line is `# NAME.toml` writes that file; where the file exists, its keys take the place of the
 values `"?"` in it. A block `console` holds commands behind `$ ` and the first lines that each prints; `...` stands for
-the rest. `# exit code 1` behind a command is what it ends with. Scripts of the examples are commands too. A block `python` runs, and a block `text` that follows
-it has the first lines that it prints.
+the rest. `# exit code 1` behind a command is what it ends with. Scripts of the examples are commands too. A block
+`python` runs, and a block `text` that follows it has the first lines that it prints.
 """
 
 from __future__ import annotations

@@ -30,7 +30,8 @@ def _run(name: str, folder: Path, patch: pytest.MonkeyPatch, *, write: bool) -> 
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(page.name, marks=() if page.name in FAST else pytest.mark.long) for page in GUIDES.glob("*.md")]
+    "name",
+    [pytest.param(page.name, marks=() if page.name in FAST else pytest.mark.long) for page in GUIDES.glob("*.md")],
 )
 def test_a_guide_prints_what_it_shows(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
@@ -55,7 +56,9 @@ def test_the_table_of_the_wrist_is_what_its_script_writes() -> None:
 def test_another_output_is_noticed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Negative control: a line that is not printed is put right, and a command that fails is an error."""
     monkeypatch.chdir(tmp_path)
-    page = "```console\n$ forcetorque --version\nforcetorque 0.0.0\n```\n\n```python\nprint(1)\n```\n\n```text\n2\n```\n"
+    page = (
+        "```console\n$ forcetorque --version\nforcetorque 0.0.0\n```\n\n```python\nprint(1)\n```\n\n```text\n2\n```\n"
+    )
     come = run_page(page)
     assert "forcetorque 0.0.0" not in come
     assert come.endswith("```text\n1\n```\n")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of the guide to wrist sensors: an arm that holds a gripper still in 30 poses, and once more after a power-up.
+"""The table of the guide to wrist sensors: 30 static poses with a gripper, and one more after a power-up.
 
 `python -m tests.scenes.wrist_table` writes the file that the guide reads.
 """
