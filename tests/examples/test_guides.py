@@ -14,31 +14,26 @@ from tests.scenes.wrist_table import FILE, table_text
 ROOT = Path(__file__).resolve().parents[2]
 GUIDES = ROOT / "docs" / "guides"
 LONGEST = 60
-FAST = ("wrist.md", "notebook.md")
-
-
-def _run(name: str, folder: Path, patch: pytest.MonkeyPatch, *, write: bool) -> tuple[str, str]:
-    """Text of a guide, and what it comes to in a folder with the files that it reads."""
-    page = GUIDES / name
-    shutil.copytree(ROOT / "docs" / "tutorial", folder / "docs" / "tutorial")
-    shutil.copytree(ROOT / "examples", folder / "examples", ignore=shutil.ignore_patterns("__pycache__"))
-    patch.chdir(folder)
-    come = run_page(page.read_text(encoding="utf-8"))
-    if write:
-        page.write_text(come, encoding="utf-8")
-    return page.read_text(encoding="utf-8"), come
+PAGES = (*sorted(GUIDES.glob("*.md")), ROOT / "docs" / "agents.md")
+FAST = ("wrist.md", "notebook.md", "agents.md")
+"""Pages that run in a few seconds."""
 
 
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param(page.name, marks=() if page.name in FAST else pytest.mark.long) for page in GUIDES.glob("*.md")],
+    "page",
+    [pytest.param(page, id=page.name, marks=() if page.name in FAST else pytest.mark.long) for page in PAGES],
 )
 def test_a_guide_prints_what_it_shows(
-    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+    page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
 ) -> None:
     """From the first command to the last, in one folder. `pytest --write-snapshots` renews what the page shows."""
-    shown, come = _run(name, tmp_path, monkeypatch, write=request.config.getoption("--write-snapshots"))
-    assert shown == come
+    shutil.copytree(ROOT / "docs" / "tutorial", tmp_path / "docs" / "tutorial")
+    shutil.copytree(ROOT / "examples", tmp_path / "examples", ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.chdir(tmp_path)
+    come = run_page(page.read_text(encoding="utf-8"))
+    if request.config.getoption("--write-snapshots"):
+        page.write_text(come, encoding="utf-8")
+    assert page.read_text(encoding="utf-8") == come
 
 
 def test_guides_are_short() -> None:
