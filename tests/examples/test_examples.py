@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -25,6 +26,7 @@ ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
 NOTEBOOK = ROOT / "examples" / "14_from_arrays.ipynb"
+SCRIPTS = sorted((ROOT / "examples").glob("*.py"))
 LARGEST_NOTEBOOK = 100_000
 """Bytes, its picture included."""
 YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
@@ -116,6 +118,21 @@ def test_the_notebook_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, requ
     assert shown["expected"].shape == (len(shown["seconds"]), 6)
     assert len(shown["run"].figure(shown["calibration"]).axes) == 6
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.name)
+def test_a_script_without_arguments_says_what_it_takes(
+    script: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One usage line that names every argument, and exit code 2; its first lines say the same."""
+    monkeypatch.setattr(sys, "argv", [script.name])
+    with pytest.raises(SystemExit) as stop:
+        runpy.run_path(str(script), run_name="__main__")
+    assert stop.value.code == 2
+    usage = capsys.readouterr().err
+    assert usage.startswith(f"usage: {script.name} [-h] ")
+    assert "the following arguments are required: " in usage
+    assert f"Usage: python examples/{script.name} " in script.read_text(encoding="utf-8")
 
 
 def test_the_script_of_the_page_on_uses_runs(demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
