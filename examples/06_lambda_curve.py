@@ -8,7 +8,7 @@ The rule chooses lambda from the fitted data alone; this table shows afterwards 
 
 from __future__ import annotations
 
-import sys
+import argparse
 from pathlib import Path
 
 import numpy as np
@@ -56,6 +56,6 @@ def main(path: Path) -> None:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    main(Path(sys.argv[1]))
+    parser = argparse.ArgumentParser(description="Evaluate every lambda on the validation intervals of an experiment.")
+    parser.add_argument("experiment", type=Path, help="experiment file (TOML) with a validation interval")
+    main(parser.parse_args().experiment)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draw the force space of a sensor: what the model demands, what it measured with its prior.
 
-    python examples/09_force_space.py OUTPUT.png SENSOR EXPERIMENT...
+Usage: python examples/09_force_space.py OUTPUT.png SENSOR EXPERIMENT.toml...
 
 The picture in docs/simulation.md is `docs/images/force_space.png l_leg_ft` of grid.toml and bsl_2.toml of
 `forcetorque simulate icub-insitu`. Other logs, such as examples/02_icub_yoga_forward.toml, are drawn the same way.
@@ -9,7 +9,7 @@ The picture in docs/simulation.md is `docs/images/force_space.png l_leg_ft` of g
 
 from __future__ import annotations
 
-import sys
+import argparse
 from pathlib import Path
 
 import numpy as np
@@ -23,15 +23,20 @@ from forcetorque.results.figures import png_bytes
 
 def main() -> None:
     """Draw one row per experiment, all its intervals together."""
-    output, sensor, *files = sys.argv[1:]
+    parser = argparse.ArgumentParser(description="Draw expected and measured forces of a sensor.")
+    parser.add_argument("output", type=Path, help="picture to write (PNG)")
+    parser.add_argument("sensor", help="name of the sensor, such as l_leg_ft")
+    parser.add_argument("experiments", nargs="+", type=Path, help="experiment files (TOML), one row each")
+    arguments = parser.parse_args()
+    sensor = arguments.sensor
     clouds = {}
-    for file in files:
+    for file in arguments.experiments:
         experiment = load_experiment(file)
         spans = estimate_experiment(experiment, corrections_of(experiment, {}))
         measured = np.concatenate([span.measured.of_name(sensor)[:, :3] for span in spans])
         expected = np.concatenate([span.estimates.expected_of(sensor)[:, :3] for span in spans])
         clouds[experiment.name] = [("prior matrix", measured), ("model", expected)]
-    Path(output).write_bytes(png_bytes(force_space_figure(clouds)))
+    arguments.output.write_bytes(png_bytes(force_space_figure(clouds)))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Take a picture of the first page of a report, of simulated recordings.
 
-    python examples/13_report_page_one.py OUTPUT.png FOLDER
+Usage: python examples/13_report_page_one.py OUTPUT.png FOLDER
 
 Simulates a humanoid into FOLDER, calibrates the sensor of its left leg from three motions and from one, writes the
 report on another day's recording, and opens it in the browser of the system (chromium or chrome). The picture in
@@ -10,6 +10,7 @@ docs/report.md is `docs/images/report_page_one.png build/report_page_one`.
 
 from __future__ import annotations
 
+import argparse
 import shutil
 import subprocess
 import sys
@@ -33,7 +34,11 @@ offset = "tared"
 
 def main() -> None:
     """Simulate, calibrate, report, and take the picture."""
-    output, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+    parser = argparse.ArgumentParser(description="Take a picture of the first page of a report.")
+    parser.add_argument("output", type=Path, help="picture to write (PNG)")
+    parser.add_argument("folder", type=Path, help="folder to make for recordings, calibrations and report")
+    arguments = parser.parse_args()
+    output, folder = arguments.output.resolve(), arguments.folder.resolve()
     browser = next(filter(None, map(shutil.which, BROWSERS)), None)
     if browser is None:
         sys.exit(f"no browser to take the picture with: none of {', '.join(BROWSERS)} is installed")

@@ -9,6 +9,7 @@ Stacks a bought sensor and two of ours on the device of thesis chapter 6, takes 
 
 from __future__ import annotations
 
+import argparse
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -178,6 +179,6 @@ def main(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    main(Path(sys.argv[1]))
+    parser = argparse.ArgumentParser(description="Compare sensors and methods on the simulated calibration device.")
+    parser.add_argument("folder", type=Path, help="folder for recordings and files; made if it does not exist")
+    main(parser.parse_args().folder)

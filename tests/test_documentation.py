@@ -17,6 +17,7 @@ import forcetorque
 from forcetorque.app.command_line import whole_program
 from forcetorque.app.python.experiment import Experiment
 from forcetorque.app.python.run import Run
+from forcetorque.app.run.result import ExitCode
 from forcetorque.results.capability import capabilities
 from tests.app.added_command import added_command
 from tests.app.commands import typed_commands
@@ -31,6 +32,7 @@ HOLDERS = {
 }
 """What the lines of the page on Python call: an experiment, a sensor of it, the library and its packages."""
 INDEX = ROOT / "docs" / "README.md"
+LLMS = ROOT / "docs" / "llms.txt"
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").glob("*.md")])
 every_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
 
@@ -101,6 +103,40 @@ def test_every_page_is_in_the_index() -> None:
     linked = {(INDEX.parent / link.partition("#")[0]).resolve() for link in _links(INDEX)}
     assert set(PAGES) - linked == {INDEX}
     assert "docs/README.md" in _links(ROOT / "README.md")
+
+
+def _listed(text: str) -> list[tuple[str, str, str]]:
+    """Title, target and line of every link of a file of the form llms.txt."""
+    return re.findall(r"^- \[(.+)\]\((\S+)\): (.+)$", text, re.MULTILINE)
+
+
+def test_llms_txt_has_every_page_once() -> None:
+    """Title as on the page, a line of its own; above the sections the name and a summary, as the convention has it."""
+    text = LLMS.read_text(encoding="utf-8")
+    head, *sections = re.split(r"^## .+\n", text, flags=re.MULTILINE)
+    assert re.match(r"# forcetorque\n\n> \S", head)
+    assert len(sections) >= 4
+    assert all(_listed(section) and len(_listed(section)) == section.count("\n- ") for section in sections)
+    targets = Counter((LLMS.parent / target).resolve() for _, target, _ in _listed(text))
+    assert targets == Counter(PAGES)
+    titles = {path: path.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ") for path in PAGES}
+    listed = {(LLMS.parent / target).resolve(): title for title, target, _ in _listed(text)}
+    assert listed == titles
+
+
+def _named(page: str) -> set[str]:
+    """What stands between backquotes and could be a command; options and files are none."""
+    return set(re.findall(r"`(?:forcetorque )?([a-z]+(?:[ -][a-z]+)*)`", page))
+
+
+def test_the_page_for_agents_names_every_command_and_exit_code() -> None:
+    """So that a program finds what there is without a list of its own."""
+    page = (ROOT / "docs" / "agents.md").read_text(encoding="utf-8")
+    assert set(typed_commands(whole_program())) - _named(page) == set()
+    codes = page.partition("## Exit codes")[2].partition("\n## ")[0]
+    assert re.findall(r"^\| (\d) \|", codes, re.MULTILINE) == [str(code) for code in sorted([*map(int, ExitCode), 2])]
+    with added_command():  # negative control
+        assert set(typed_commands(whole_program())) - _named(page) == {"extent"}
 
 
 def _with_pages(sidebar: str, pages: set[str]) -> str:

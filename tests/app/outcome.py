@@ -58,11 +58,12 @@ Run = Callable[..., Outcome]
 """Runs the command line in this process with the given words."""
 
 
-def typed(*words: object) -> Outcome:
-    """Run `forcetorque` with words as typed in a shell, in a terminal of 120 characters.
+def typed(*words: object, columns: int = 120) -> Outcome:
+    """Run `forcetorque` with words as typed in a shell.
 
     Args:
         words: What follows the name of the program.
+        columns: Width of the terminal.
 
     Returns:
         What it left.
@@ -72,7 +73,7 @@ def typed(*words: object) -> Outcome:
         # the handler of an earlier run writes to what standard error was then
         patch.setattr(logging.getLogger("forcetorque"), "handlers", [])
         patch.setattr(sys, "argv", ["forcetorque", *map(str, words)])
-        patch.setenv("COLUMNS", "120")
+        patch.setenv("COLUMNS", str(columns))
         with pytest.raises(SystemExit) as stop:
             main()
     code = stop.value.code

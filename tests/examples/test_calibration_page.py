@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What docs/calibration/calibration.md shows can be typed, and comes to the figures that stand there."""
+"""What calibration.md and method.md of docs/calibration show can be typed, and comes to the figures there."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ import pytest
 from forcetorque.experiment.core_tables import CalibrationTable
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = (ROOT / "docs" / "calibration" / "calibration.md").read_text(encoding="utf-8")
+PAGE = "".join(
+    (ROOT / "docs" / "calibration" / page).read_text(encoding="utf-8") for page in ("calibration.md", "method.md")
+)
 ALL = [f"{motion}{again}.toml" for motion in ("grid", "tz", "bsl", "bnsl") for again in ("", "_2")]
 LAST_DIGIT = 0.51
 """Units of the last digit that a printed figure may be off, and its rounding."""

@@ -6,10 +6,10 @@ from __future__ import annotations
 import json
 import os
 import re
+import runpy
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -18,6 +18,7 @@ from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.icub_matrix import read_matrix_file
 from tests.app.outcome import typed
+from tests.notebook import run_notebook, texts
 from tests.page_scripts import marked, printed
 from tests.scenes.device_designs import hardly_optimise
 
@@ -25,6 +26,9 @@ ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
 NOTEBOOK = ROOT / "examples" / "14_from_arrays.ipynb"
+SCRIPTS = sorted((ROOT / "examples").glob("*.py"))
+LARGEST_NOTEBOOK = 100_000
+"""Bytes, its picture included."""
 YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
 
 
@@ -94,21 +98,41 @@ def test_the_readmes_script_runs(demo: tuple[Path, str], monkeypatch: pytest.Mon
 
 
 @pytest.mark.usefixtures("blank_pictures")
-def test_the_notebook_runs(demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
-    """Cell by cell, after the demonstration: a saved, judged and drawn calibration from arrays."""
-    folder, _ = demo
-    monkeypatch.chdir(folder.parents[1])
-    shown: dict[str, Any] = {}
-    for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]:
-        if cell["cell_type"] == "code":
-            assert cell["outputs"] == []
-            exec(compile("".join(cell["source"]), str(NOTEBOOK), "exec"), shown)
-    assert read_calibration("build/demo/from_arrays.json").sensor.serial == "SIM001"
-    assert Path("build/demo/from_arrays.html").stat().st_size > 10_000
+def test_the_notebook_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> None:
+    """In an empty folder, cell by cell: it comes to the outputs that are stored in it, which are small.
+
+    `pytest --write-snapshots` stores what the cells show now.
+    """
+    monkeypatch.chdir(tmp_path)
+    stored = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
+    come = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
+    shown = run_notebook(come, str(NOTEBOOK))
+    if request.config.getoption("--write-snapshots"):
+        NOTEBOOK.write_text(json.dumps(come, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+        stored = come
+    assert texts(stored) == texts(come)
+    assert len(texts(stored)) >= 6
+    assert NOTEBOOK.stat().st_size < LARGEST_NOTEBOOK
+    assert read_calibration(shown["folder"] / "from_arrays.json").sensor.serial == "SIM001"
+    assert (shown["folder"] / "from_arrays.html").stat().st_size > 10_000
     assert shown["expected"].shape == (len(shown["seconds"]), 6)
-    figure = shown["run"].figure(shown["calibration"])
-    assert len(figure.axes) == 6
-    assert figure._repr_png_().startswith(b"\x89PNG")
+    assert len(shown["run"].figure(shown["calibration"]).axes) == 6
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.name)
+def test_a_script_without_arguments_says_what_it_takes(
+    script: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One usage line that names every argument, and exit code 2; its first lines say the same."""
+    monkeypatch.setattr(sys, "argv", [script.name])
+    with pytest.raises(SystemExit) as stop:
+        runpy.run_path(str(script), run_name="__main__")
+    assert stop.value.code == 2
+    usage = capsys.readouterr().err
+    assert usage.startswith(f"usage: {script.name} [-h] ")
+    assert "the following arguments are required: " in usage
+    assert f"Usage: python examples/{script.name} " in script.read_text(encoding="utf-8")
 
 
 def test_the_script_of_the_page_on_uses_runs(demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:

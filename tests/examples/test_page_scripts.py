@@ -14,10 +14,11 @@ from tests.page_scripts import marked, unmarked
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
 RUN_ELSEWHERE = {
+    "guides/notebook.md": "tests/examples/test_guides.py",
     "locomotion/balance.md": "tests/locomotion/standing/test_balance.py",
-    "calibration/calibration.md": "tests/examples/test_calibration_page.py",
+    "calibration/method.md": "tests/examples/test_calibration_page.py",
     "estimation/estimation.md": "tests/robot/mechanics/test_documentation.py",
-    "recording.md": "tests/experiment/test_written_logs.py",
+    "yarp.md": "tests/experiment/test_written_logs.py",
     "calibration/joint.md": "tests/calibration/joint/test_joint_calibration.py",
     "payload/robot_load.md": "tests/payload/robot_files/test_tare.py",
     "locomotion/coherence.md": "tests/locomotion/net_force/test_coherence_command.py",

@@ -29,7 +29,7 @@ lambda_counts2 = 1000
 """
 NOT_NEEDED = {"tolerance", "prior", "end_s", "support", "derivatives", "smoothing", "lambda_counts2"}
 """Keys of the complete texts that have a default, or may be absent."""
-DOCUMENT = Path(__file__).parents[2] / "docs" / "recording.md"
+DOCS = Path(__file__).parents[2] / "docs"
 
 
 def _parse(folder: Path, text: str) -> ExperimentFile:
@@ -73,7 +73,12 @@ def test_what_may_be_left_out_has_a_default(tmp_path: Path) -> None:
 
 
 def _documented() -> list[str]:
-    blocks = re.findall(r"```toml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
+    """Blocks of the page on experiment files, those of the page on YARP behind the first two."""
+    file, yarp = (
+        re.findall(r"```toml\n(.*?)```", (DOCS / page).read_text(encoding="utf-8"), re.DOTALL)
+        for page in ("recording.md", "yarp.md")
+    )
+    blocks = [*file[:2], *yarp, *file[2:]]
     assert len(blocks) == 10
     return blocks
 

@@ -82,8 +82,8 @@ def test_injected_faults_are_found_by_inspect(arm: Path) -> None:
 
 
 def test_the_documented_lines_run(arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What the page on recordings shows writes a folder that loads."""
-    page = (Path(__file__).parents[2] / "docs" / "recording.md").read_text(encoding="utf-8")
+    """What the page on YARP shows writes a folder that loads."""
+    page = (Path(__file__).parents[2] / "docs" / "yarp.md").read_text(encoding="utf-8")
     (code,) = (block for block in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "write_ports" in block)
     monkeypatch.chdir(arm)
     names: dict[str, Any] = {
@@ -91,6 +91,6 @@ def test_the_documented_lines_run(arm: Path, monkeypatch: pytest.MonkeyPatch) ->
         "recording": read_recording("recording"),
         "prior": read_matrix_file("matrix_SIM001.txt").matrix,
     }
-    exec(compile(code, "docs/recording.md", "exec"), names)
+    exec(compile(code, "docs/yarp.md", "exec"), names)
     experiment = load_experiment(edit(arm / YARP, 'path = "log"', 'path = "dumper"'))
     assert len(experiment.recording.stream("arm_ft")) == len(names["recording"].stream("arm_ft")) - 15

@@ -159,7 +159,7 @@ def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkey
     for name in ("matplotlib", "matplotlib.figure", "matplotlib.backends.backend_agg"):
         monkeypatch.setitem(sys.modules, name, None)
     before = snapshot(arm)
-    assert "pip install forcetorque[report]" in run("bench", "gains", PARQUET, "--figure", "gains.png").error()
+    assert "pip install 'forcetorque[report]'" in run("bench", "gains", PARQUET, "--figure", "gains.png").error()
     assert snapshot(arm) == before
     assert run("bench", "gains", PARQUET).code == 0
 

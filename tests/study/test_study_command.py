@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.base.errors import MissingExtraError
+from forcetorque.base.errors import MissingExtraError, install_line
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
@@ -176,13 +176,13 @@ def test_without_the_drawing_library_the_rest_is_made(days: Path, run: Run, monk
     """A warning says what is missing."""
 
     def missing(made: SensorStudy, folder: Path) -> list[str]:
-        raise MissingExtraError("figures need matplotlib; pip install forcetorque[report]")
+        raise MissingExtraError(f"figures are drawn by matplotlib: {install_line('report')}")
 
     monkeypatch.setattr("forcetorque.study.folder.write_figures", missing)
     done = run("study", "fits", *FILES, *QUICK, "-o", "out", "--format", "json")
     (sensor,) = done.result()["sensors"]
     assert sensor["files"] == [*TABLES, *CALIBRATIONS]
-    assert "WARNING: no figures: figures need matplotlib; pip install forcetorque[report]" in done.log
+    assert "WARNING: no figures: figures are drawn by matplotlib: pip install 'forcetorque[report]'" in done.log
 
 
 @pytest.mark.parametrize("mode", ["first_second", "fitted"])

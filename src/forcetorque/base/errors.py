@@ -69,6 +69,18 @@ class MissingExtraError(ForceTorqueError, ImportError):
     """A function needs an optional extra that is not installed."""
 
 
+def install_line(extra: str) -> str:
+    """Give the line that installs an extra of this library.
+
+    Args:
+        extra: Its name, as in `pyproject.toml`.
+
+    Returns:
+        The line, in quotes for shells that expand brackets.
+    """
+    return f"pip install 'forcetorque[{extra}]'"
+
+
 class SerialNumberError(ForceTorqueError, ValueError):
     """A calibration was offered to a sensor with another serial number."""
 

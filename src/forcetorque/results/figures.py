@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, require_shape
-from forcetorque.base.errors import MissingExtraError, ShapeError
+from forcetorque.base.errors import MissingExtraError, ShapeError, install_line
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.recording.alignment import GAP_PERIODS
 
@@ -127,7 +127,7 @@ def _figure_style() -> AbstractContextManager[None]:
     return rc_context(FIGURE_STYLE)
 
 
-_NO_MATPLOTLIB = "figures are drawn by matplotlib: pip install forcetorque[report]"
+_NO_MATPLOTLIB = f"figures are drawn by matplotlib: {install_line('report')}"
 
 
 def new_figure(height: float) -> Figure:

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.errors import FormatError, MissingExtraError
+from forcetorque.base.errors import FormatError, MissingExtraError, install_line
 from forcetorque.base.run_files import declare_input
 
 FORMATS = (".stl", ".obj", ".ply", ".glb", ".dae")
@@ -98,7 +98,7 @@ def read_mesh(file: Path, scale: Sequence[float]) -> Triangles:
     if file.suffix.lower() not in FORMATS:
         raise FormatError(f"{file}: expected a mesh that ends in {', '.join(FORMATS)}")
     if importlib.util.find_spec("trimesh") is None:
-        raise MissingExtraError("meshes need trimesh: pip install 'forcetorque[viewer]'")
+        raise MissingExtraError(f"meshes need trimesh: {install_line('viewer')}")
     if file.suffix.lower() == ".dae" and importlib.util.find_spec("collada") is None:
         raise MissingExtraError("meshes in DAE need pycollada: pip install pycollada")
     vertices, faces = _load(file)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.base.errors import ForceTorqueError, MissingExtraError, MissingFileError
+from forcetorque.base.errors import ForceTorqueError, MissingExtraError, MissingFileError, install_line
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.page import DATA_URL, ViewerServer, page_of
@@ -89,7 +89,7 @@ def require_playwright() -> None:
         MissingExtraError: If it is not.
     """
     if importlib.util.find_spec("playwright") is None:
-        raise MissingExtraError("--video needs playwright: pip install 'forcetorque[video]'")
+        raise MissingExtraError(f"--video needs playwright: {install_line('video')}")
 
 
 def film_page(url: str, film: Film, *, browser: Path) -> bytes:

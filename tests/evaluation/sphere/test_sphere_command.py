@@ -138,7 +138,7 @@ def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkey
         monkeypatch.setitem(sys.modules, name, None)
     before = snapshot(arm)
     refused = run("study", "sphere", PARQUET, "--figure", "spheres.png")
-    assert "pip install forcetorque[report]" in refused.error()
+    assert "pip install 'forcetorque[report]'" in refused.error()
     assert refused.log == []
     assert snapshot(arm) == before
     assert run("study", "sphere", PARQUET).code == 0

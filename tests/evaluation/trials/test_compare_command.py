@@ -274,7 +274,7 @@ def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkey
     for name in ("matplotlib", "matplotlib.figure", "matplotlib.backends.backend_agg"):
         monkeypatch.setitem(sys.modules, name, None)
     refused = run("study", "compare", PARQUET, "--figure", "compare.png")
-    assert "pip install forcetorque[report]" in refused.error()
+    assert "pip install 'forcetorque[report]'" in refused.error()
     assert refused.log == []
     assert run("study", "compare", PARQUET).code == 0
 

@@ -77,7 +77,7 @@ def test_without_matplotlib_the_error_says_what_to_install(gains: SensorGains, m
     """One line with the command; nothing else of the package needs it."""
     for name in ("matplotlib", "matplotlib.figure", "matplotlib.backends.backend_agg"):
         monkeypatch.setitem(sys.modules, name, None)
-    with pytest.raises(MissingExtraError, match=r"pip install forcetorque\[report\]$"):
+    with pytest.raises(MissingExtraError, match=r"pip install 'forcetorque\[report\]'$"):
         gain_figure([gains])
 
 

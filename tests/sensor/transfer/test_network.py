@@ -65,7 +65,7 @@ def test_without_the_extra_the_message_says_what_to_install(monkeypatch: pytest.
     """A missing scikit-learn is an error that names the extra, and one failed kind in a comparison."""
     for name in ("sklearn", "sklearn.exceptions", "sklearn.neural_network"):
         monkeypatch.setitem(sys.modules, name, None)
-    with pytest.raises(MissingExtraError, match=r"pip install forcetorque\[network\]"):
+    with pytest.raises(MissingExtraError, match=r"pip install 'forcetorque\[network\]'"):
         fit_network(STIMULUS, OUTPUT)
     found = compare(STIMULUS, OUTPUT, fitters={"line": fit_linear, "network": fit_network})
     assert [score.name for score in found.scores] == ["line"]

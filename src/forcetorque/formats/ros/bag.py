@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import IntArray
-from forcetorque.base.errors import ForceTorqueError, FormatError, MissingExtraError, MissingFileError
+from forcetorque.base.errors import ForceTorqueError, FormatError, MissingExtraError, MissingFileError, install_line
 from forcetorque.base.input_file import accept_input, require_unpacked
 
 LARGEST_CHUNK = 1 << 28
@@ -237,7 +237,7 @@ def opened_bag(path: Path) -> Iterator[Bag]:
         from rosbags.rosbag1 import Reader as Reader1
         from rosbags.rosbag2 import Reader as Reader2
     except ImportError as error:
-        raise MissingExtraError(f"{path}: bags are read by rosbags: pip install forcetorque[ros]") from error
+        raise MissingExtraError(f"{path}: bags are read by rosbags: {install_line('ros')}") from error
     _require_bag(path)
     bound_mcap()
     cdr = path.suffix != ".bag" or path.is_dir()

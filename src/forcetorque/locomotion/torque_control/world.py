@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
-from forcetorque.base.errors import MissingExtraError, RobotError
+from forcetorque.base.errors import MissingExtraError, RobotError, install_line
 from forcetorque.base.pose import make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import reading_sign
@@ -110,9 +110,7 @@ def import_mujoco() -> Any:
     try:
         import mujoco
     except ImportError as error:
-        raise MissingExtraError(
-            "the closed loop runs in MuJoCo, which is not installed: pip install forcetorque[closed-loop]"
-        ) from error
+        raise MissingExtraError(f"the closed loop runs in MuJoCo: {install_line('closed-loop')}") from error
     return mujoco
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import base64
 from importlib import resources
 
-from forcetorque.base.errors import MissingExtraError
+from forcetorque.base.errors import MissingExtraError, install_line
 from forcetorque.results.document.content import (
     NO_ROWS,
     Block,
@@ -39,7 +39,7 @@ def html_bytes(document: Document) -> bytes:
     try:
         from jinja2 import Environment, StrictUndefined
     except ImportError as error:
-        raise MissingExtraError("reports are written by jinja2: pip install forcetorque[report]") from error
+        raise MissingExtraError(f"reports are written by jinja2: {install_line('report')}") from error
     folder = resources.files("forcetorque.results.document")
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     environment.filters |= {"kind": _kind, "data_url": _data_url, "pieces": _pieces, "joined": with_joined_units}

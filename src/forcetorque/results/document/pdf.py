@@ -8,7 +8,7 @@ from datetime import UTC
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from forcetorque.base.errors import MissingExtraError
+from forcetorque.base.errors import MissingExtraError, install_line
 from forcetorque.results.document.content import (
     NO_ROWS,
     Block,
@@ -220,7 +220,7 @@ def pdf_bytes(document: Document) -> bytes:
     try:
         import matplotlib as mpl
     except ImportError as error:
-        raise MissingExtraError("PDF is written by fpdf2: pip install forcetorque[report]") from error
+        raise MissingExtraError(f"letters of a PDF are those of matplotlib: {install_line('report')}") from error
     page = _numbered_pages()
     fonts = Path(mpl.get_data_path()) / "fonts" / "ttf"
     try:
@@ -237,7 +237,7 @@ def _numbered_pages() -> FPDF:
     try:
         from fpdf import FPDF
     except ImportError as error:
-        raise MissingExtraError("PDF is written by fpdf2: pip install forcetorque[report]") from error
+        raise MissingExtraError(f"PDF is written by fpdf2: {install_line('report')}") from error
 
     class Numbered(FPDF):
         """Pages with their number at the foot."""

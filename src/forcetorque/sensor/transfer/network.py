@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, array
-from forcetorque.base.errors import FitError, MissingExtraError, SensorError
+from forcetorque.base.errors import FitError, MissingExtraError, SensorError, install_line
 from forcetorque.sensor.transfer.transfer_function import TransferFunction, calibration_points
 
 _ITERATIONS = 5000
@@ -81,9 +81,7 @@ def fit_network(stimulus: Any, output: Any, *, neurons: int = 4, seed: int = 0, 
         from sklearn.exceptions import ConvergenceWarning
         from sklearn.neural_network import MLPRegressor
     except ImportError as error:
-        raise MissingExtraError(
-            "fit_network: expected scikit-learn to be installed; run pip install forcetorque[network]"
-        ) from error
+        raise MissingExtraError(f"networks are fitted by scikit-learn: {install_line('network')}") from error
     if neurons < 1:
         raise FitError(f"network: expected at least 1 neuron, got {neurons}")
     stimuli, outputs = calibration_points(stimulus, output, parameters=3 * neurons + 1)

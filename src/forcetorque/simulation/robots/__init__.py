@@ -4,7 +4,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from forcetorque.base.errors import MissingExtraError, RobotError, known_names
+from forcetorque.base.errors import MissingExtraError, RobotError, install_line, known_names
 
 ARM_URDF = Path(__file__).parent / "arm.urdf"
 """A small arm; its sensor is `arm_ft`, its base stands level."""
@@ -41,6 +41,4 @@ def named_robot(names: Sequence[str]) -> Path:
         if name not in known:
             raise RobotError(f"no robot is called {name!r}; {known_names(name, [*own, *known])}")
         return Path(icub_models.get_model_file(name))
-    raise MissingExtraError(
-        f"robot {', '.join(names)}: expected the package icub-models: pip install forcetorque[icub]"
-    )
+    raise MissingExtraError(f"robot {', '.join(names)}: expected the package icub-models: {install_line('icub')}")
