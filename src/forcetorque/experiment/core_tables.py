@@ -177,7 +177,8 @@ class ProcessingTable(Table):
         Annotated[Smoothing, Tag("table")] | Annotated[Literal["logged"], Tag("word")],
         Discriminator(word_or_table),
     ] = Smoothing(window_s=0.3, order=3)
-    """Filter that differentiates joint positions, or `logged` to take velocity and acceleration from the log."""
+    """Filter that differentiates joint positions and orientations, or `logged` to take velocity and acceleration from
+    the log; if left out, it holds five samples of a stream below 10 Hz."""
     smoothing: Smoothing | None = None
     """Filter of reading and reference alike inside each interval, against vibration; none if left out."""
 
@@ -285,7 +286,7 @@ def processing_of(table: ProcessingTable, *, gravity: float) -> Processing:
     default = Processing()
     return Processing(
         derivative_window=default.derivative_window
-        if derivatives == "logged"
+        if derivatives == "logged" or "derivatives" not in table.model_fields_set
         else SavitzkyGolay(window_s=derivatives.window_s, order=derivatives.order),
         logged_derivatives=derivatives == "logged",
         smoothing=None if smoothing is None else SavitzkyGolay(window_s=smoothing.window_s, order=smoothing.order),

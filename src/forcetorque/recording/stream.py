@@ -6,13 +6,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any, Self
+from typing import Any, Final, Self
 
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_mapping
 from forcetorque.base.errors import RecordingError, ShapeError, known_names
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
+
+ROW_CLOCK: Final = "row"
+"""Clock of samples without times, each of a robot at rest: sample k is stamped k seconds."""
 
 
 class Labels(StrEnum):

@@ -19,7 +19,7 @@ from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.recording.alignment import interpolate, usable_samples
 from forcetorque.recording.recording import Recording
-from forcetorque.recording.smoothing import SavitzkyGolay
+from forcetorque.recording.smoothing import DERIVATIVE_WINDOW
 from forcetorque.recording.stream import Stream
 from forcetorque.recording.stream_faults import true_runs
 from forcetorque.robot.dynamics import expected_wrenches
@@ -51,7 +51,6 @@ _DEVIATIONS = 5.0
 _MEDIAN_OF_NORM = 1.538
 """Median of the norm of three normal errors of deviation 1."""
 _SURE = 5.0
-_FILTER = SavitzkyGolay(window_s=0.3, order=3)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -122,7 +121,7 @@ def fit_gravity(model: RobotModel, joint: str, support: str, recording: Recordin
     joints = required_joints(tree, _PROBE)
     if len(at_ns) < _FEWEST or not set(joints) <= set(recording.joint_signals("position")):
         return None
-    motion = joint_motion_at(recording, joints, at_ns, window=_FILTER)
+    motion = joint_motion_at(recording, joints, at_ns, window=DERIVATIVE_WINDOW)
     whole = np.isfinite(motion.position).all(axis=1) & np.isfinite(motion.acceleration).all(axis=1)
     whole &= np.isfinite(wrench).all(axis=1)
     if int(whole.sum()) < _FEWEST:
