@@ -64,6 +64,14 @@ def drafted() -> str:
     return draft_experiment([FOLDER / "log.csv"], urdf=FOLDER / "robot.urdf").content
 
 
+def test_elements_of_lists_are_matched_by_the_name_and_length_of_the_list() -> None:
+    """As arrays are; elements without the first, and lists of another length, are nothing."""
+    names = [f"observation.wrench[{k}]" for k in range(6)] + ["observation.temperature"]
+    names += [f"acc[{k}]" for k in range(3)] + [f"ft[{k}]" for k in range(1, 7)] + [f"gyro[{k}]" for k in range(4)]
+    seen = {one.quantity: one.columns for one in column_matches([read_heading(name) for name in names], [])}
+    assert seen == {"wrench": (0, 1, 2, 3, 4, 5), "temperature": (6,), "proper_acceleration": (7, 8, 9)}
+
+
 def test_what_is_left_is_asked_and_what_is_known_is_not(drafted: str) -> None:
     """Units stand in the headings and joints are called as in the URDF; sensor, sign and gravity are asked."""
     assert _keys(drafted) == list(ANSWERS)

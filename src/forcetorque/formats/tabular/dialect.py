@@ -323,7 +323,9 @@ def _of_rows(rows: Sequence[Sequence[str]], numbers: Sequence[int], delimiter: s
         if not any(row[-1] for row in below):
             got += f": a {delimiter!r} ends each row"
         return (
-            f"{numbers[0]}: expected a heading for every column, got {got}; make the first line as long as the others"
+            f"{numbers[0]}: expected a heading for every column, got {got}; make the first line as long as the others, "
+            f"or specify skip_rows = {numbers[0]} and column_names of [[recording.stream]]: in `forcetorque init` "
+            "--column-names with a name for each column, between commas"
         )
     for k, cell in enumerate(below[0], start=1):
         if _DATE.match(cell) and not is_date(cell):

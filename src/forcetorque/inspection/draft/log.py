@@ -13,9 +13,15 @@ from forcetorque.formats.headings import read_heading
 from forcetorque.formats.log_format import LogDescription, LogFormat, LogSketch, SketchingFormat
 from forcetorque.formats.registry import format_name, format_named, not_a_log_reason, not_recognised, recognised_format
 from forcetorque.inspection.draft.joints import joints_question
-from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream, column_matches, relative, time_column
-from forcetorque.inspection.draft.tables_and_arrays import (
+from forcetorque.inspection.draft.streams import (
+    DraftedLog,
+    DraftedStream,
     array_groups,
+    column_matches,
+    relative,
+    time_column,
+)
+from forcetorque.inspection.draft.tables_and_arrays import (
     array_lines,
     array_streams,
     array_time,

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from forcetorque.base.toml_file import OPEN
@@ -16,6 +16,8 @@ from forcetorque.inspection.draft.streams import (
     ColumnMatch,
     DraftedLog,
     DraftedStream,
+    array_groups,
+    array_words,
     column_matches,
     relative,
     time_column,
@@ -254,19 +256,6 @@ def _extent(sketch: LogSketch, places: Sequence[int]) -> str:
     return f"from {min(low):.4g} to {max(high):.4g}" if low and high else ""
 
 
-_ARRAY_WORDS = {
-    "wrench": ("wrench", "ft", "force_torque", "forcetorque"),
-    "position": ("pos", "position", "positions", "q"),
-    "velocity": ("vel", "velocity", "velocities", "dq", "qd"),
-    "acceleration": ("accelerations", "ddq", "qdd"),
-    "torque": ("torque", "torques", "tau", "effort"),
-    "proper_acceleration": ("acc", "accel", "accelerometer", "acceleration"),
-    "angular_velocity": ("gyro", "omega", "gyroscope", "angular"),
-    "temperature": ("temp", "temperature"),
-}
-_WIDTHS = {"wrench": 6, "proper_acceleration": 3, "angular_velocity": 3, "temperature": 1}
-
-
 def array_streams(sketch: LogSketch, joints: Sequence[str]) -> tuple[DraftedStream, ...]:
     """Arrays with the same number of rows are one stream, as far as they look like something."""
     streams: list[DraftedStream] = []
@@ -283,34 +272,6 @@ def array_streams(sketch: LogSketch, joints: Sequence[str]) -> tuple[DraftedStre
                 )
             )
     return tuple(streams)
-
-
-def array_groups(members: Sequence[SketchedColumns], joints: Sequence[str]) -> Iterable[ColumnMatch]:
-    """Say what arrays look like by the words in their names, as far as their width fits; each quantity once.
-
-    Args:
-        members: Arrays with the same number of rows.
-        joints: Joints of the robot that move; none if it is not known.
-
-    Yields:
-        What they look like.
-    """
-    quantities: set[str] = set()
-    for k, array in enumerate(members):
-        words = set(_words(array.name))
-        for quantity, likely in _ARRAY_WORDS.items():
-            width = _WIDTHS.get(quantity)
-            fits = array.columns == width if width else 1 < array.columns <= max(len(joints), 64)
-            joint_like = width or "joint" in words or "joints" in words or array.columns == len(joints)
-            if quantity not in quantities and fits and joint_like and words & set(likely):
-                quantities.add(quantity)
-                yield ColumnMatch(quantity=quantity, columns=(k,))
-                break
-
-
-def _words(name: str) -> list[str]:
-    apart = "".join(f" {c.lower()}" if c.isupper() else c if c.isalnum() else " " for c in name)
-    return apart.split()
 
 
 def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames: Mapping[str, str]) -> list[str]:
@@ -364,7 +325,7 @@ def array_time(columns: Sequence[SketchedColumns]) -> SketchedColumns | None:
     """
     rising = [column for column in columns if column.step is not None]
     named = [
-        column for column in rising if {"time", "stamp", "timestamps", "timestamp", "t"} & set(_words(column.name))
+        column for column in rising if {"time", "stamp", "timestamps", "timestamp", "t"} & set(array_words(column.name))
     ]
     return next(iter([*named, *rising]), None)
 
