@@ -211,6 +211,8 @@ class LogSketch:
     """Whether the last two of those lines have names and units, of which the names of the columns are made."""
     has_headings: bool = True
     """Whether the file itself names them; without, they are called by their number, from 1."""
+    names_specified: bool = False
+    """Whether the user names them, in place of the file."""
     quaternion: tuple[int, ...] = ()
     """Places of the first columns of four that have norm 1 in each of the first rows, as quaternions do."""
     skipped_arrays: Mapping[str, str] = field(default_factory=dict)

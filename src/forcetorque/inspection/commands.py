@@ -27,6 +27,10 @@ def init(
         str | None,
         typer.Option(help="Format of the log, such as ros or hdf5, as in [recording]. Default: by what is there."),
     ] = None,
+    column_names: Annotated[
+        str | None,
+        typer.Option(help="Names of all columns of a table without headings, between commas, as t,fx,fy,fz,tx,ty,tz."),
+    ] = None,
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
@@ -42,7 +46,8 @@ def init(
     start_logging().info("reading %s", ", ".join(map(str, log)))
     refuse_two_on_standard_output(output, output_format)
     declare_outputs(output, force=force)
-    draft = draft_experiment(log, output, urdf=urdf, log_format=log_format, force=force)
+    names = [] if column_names is None else [name.strip() for name in column_names.split(",")]
+    draft = draft_experiment(log, output, urdf=urdf, log_format=log_format, column_names=names, force=force)
     if output != STANDARD_OUTPUT:  # else the file itself went there
         show(draft, output_format, details=details)
 

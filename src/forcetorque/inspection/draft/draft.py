@@ -40,6 +40,7 @@ from forcetorque.inspection.draft.sensors_and_supports import (
     support_lines,
 )
 from forcetorque.inspection.draft.streams import DraftedLog, relative
+from forcetorque.inspection.draft.tables_and_arrays import example_names
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
 from forcetorque.recording.recording import Recording
@@ -138,6 +139,7 @@ def draft_experiment(
     *,
     urdf: Path | str | None = None,
     log_format: str | None = None,
+    column_names: Sequence[str] = (),
     force: bool = False,
 ) -> Draft:
     """Draft the experiment file of a log.
@@ -151,6 +153,7 @@ def draft_experiment(
         output: File to write; None to write none.
         urdf: The robot; None for a wrist sensor whose pose is logged.
         log_format: Name of the format; recognised from the files if None.
+        column_names: Names of all columns, of tables whose first lines do not name them; none for those of the files.
         force: Whether an existing file may be replaced.
 
     Returns:
@@ -169,7 +172,7 @@ def draft_experiment(
         raise ExperimentError("expected a log to begin an experiment file of, got none")
     folder = Path() if file == STANDARD_OUTPUT else file.parent
     model = None if urdf is None else read_urdf(Path(urdf))
-    log = draft_log([Path(path) for path in files], model, log_format)
+    log = draft_log([Path(path) for path in files], model, log_format, column_names)
     robot = None if urdf is None else relative(Path(urdf), folder)
     text, notes, recording = _written(log, folder, model, robot)
     if output is not None:
@@ -272,6 +275,12 @@ def _best(sensor: DraftedSensor) -> GravityFit | None:
 
 
 def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel | None) -> Iterator[str]:
+    for table in (stream.table for stream in log.streams if stream.table is not None):
+        if table.is_table and not (table.has_headings or table.names_specified):
+            yield (
+                f"{table.path}: no line of headings, so no sensor is looked for: name its columns, as `forcetorque "
+                f"init {table.path} --column-names {','.join(example_names(table))}` if they are that"
+            )
     for sensor in sensors:
         what = "raw channels" if sensor.is_raw else "a wrench"
         yield f"{sensor.stream}: looks like {what}; sensor {'to be named' if sensor.tags else sensor.name}"
