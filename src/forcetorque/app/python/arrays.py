@@ -15,6 +15,7 @@ import numpy.typing as npt
 from forcetorque.app.python.experiment import Experiment
 from forcetorque.base.arrays import FloatArray, IntArray, require_shape
 from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.toml_file import one_for_each
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.experiment import ExperimentSensor, FitOptions, Role
 from forcetorque.recording.recording import Interval, Recording, Support, Use
@@ -73,7 +74,7 @@ def experiment_of_arrays(
         judge: Span that judges, or several, in the same way; none if left out.
         serial: Serial number of the sensor.
         prior: Matrix that it was calibrated with before; shape (6, c); N/count, N m/count; None where there is none.
-        full_scale: Full scale of its components; shape (6,); N, N m.
+        full_scale: Full scale of its components; shape (6,), or one number for all; N, N m.
         limit_counts: Largest magnitude of a raw reading, at which it saturates; counts; that of 16 bits if left out.
         quantity: Whether the reading is `raw` or a calibrated `wrench`, which needs the prior that made it, or
             `numpy.eye(6)` with `full_scale` where that is not known.
@@ -187,7 +188,7 @@ def _plain(given: Any) -> npt.NDArray[Any]:
 
 
 def _full_scale(given: Any) -> FloatArray:
-    full_scale = _numbers(given, "full_scale")
+    full_scale = _numbers(one_for_each(given, 6), "full_scale")
     require_shape(full_scale, name="full_scale", shape=(6,))
     if not (np.isfinite(full_scale) & (full_scale > 0.0)).all():
         raise ExperimentError(f"full_scale: expected six finite numbers above 0, N and N m, got {full_scale.tolist()}")
