@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 def init(
     log: Annotated[list[Path], typer.Argument(help="A log of any format, or several tables of one recording.")],
     urdf: Annotated[
-        Path | None, typer.Option("--urdf", help="The robot. Default: none, a wrist sensor whose pose is logged.")
+        Path | None,
+        typer.Option("--urdf", help="The robot. Default: the log's own description; without, a wrist sensor."),
     ] = None,
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Experiment file to write; - for standard output.")

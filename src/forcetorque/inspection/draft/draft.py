@@ -16,7 +16,7 @@ from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_b
 from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
-from forcetorque.formats.log_format import not_read_message
+from forcetorque.formats.log_format import LoggedRobot, not_read_message
 from forcetorque.formats.registry import format_named
 from forcetorque.inspection.draft.gravity import GravityFit, fit_gravity
 from forcetorque.inspection.draft.intervals import (
@@ -28,6 +28,7 @@ from forcetorque.inspection.draft.intervals import (
 )
 from forcetorque.inspection.draft.joints import standing_lines
 from forcetorque.inspection.draft.log import draft_log, recording_lines
+from forcetorque.inspection.draft.logged_robot import difference, logged_robot, model_of, with_fixed_frame
 from forcetorque.inspection.draft.sensors_and_supports import (
     DraftedSensor,
     base_of_arm,
@@ -81,6 +82,8 @@ class Draft(Result):
     """Questions to answer."""
     notes: tuple[str, ...]
     """Findings about the log, and reasons for what is unknown."""
+    robot_file: str | None = None
+    """URDF that was written from the log's own description; None for none."""
     content: str = Field(exclude=True, repr=False)
     """Content of the file."""
 
@@ -98,6 +101,7 @@ class Draft(Result):
             why=self.notes[-1:] if first is None else (f"line {first.line}, {first.key}: {first.question}",),
             step=step,
             command=typed(*("inspect" if count else self._next).split(), self.file),
+            written=() if self.robot_file is None else (self.robot_file,),
             concern=Concern.UNCERTAIN if count else Concern.NONE,
         )
 
@@ -151,7 +155,8 @@ def draft_experiment(
     Args:
         logs: A log of any format, or several tables of one recording.
         output: File to write; None to write none.
-        urdf: The robot; None for a wrist sensor whose pose is logged.
+        urdf: The robot; None for that which the log itself describes, which is written beside the file, or for a wrist
+            sensor whose pose is logged.
         log_format: Name of the format; recognised from the files if None.
         column_names: Names of all columns, of tables whose first lines do not name them; none for those of the files.
         force: Whether an existing file may be replaced.
@@ -160,7 +165,7 @@ def draft_experiment(
         The file, and its questions.
 
     Raises:
-        OutputError: If the file exists already.
+        OutputError: If the file exists already, or a URDF that would be written beside it.
         ExperimentError: If no log is given.
         FormatError: If the log is of no known format.
     """
@@ -171,10 +176,18 @@ def draft_experiment(
     if not files:
         raise ExperimentError("expected a log to begin an experiment file of, got none")
     folder = Path() if file == STANDARD_OUTPUT else file.parent
-    model = None if urdf is None else read_urdf(Path(urdf))
-    log = draft_log([Path(path) for path in files], model, log_format, column_names)
-    robot = None if urdf is None else relative(Path(urdf), folder)
-    text, notes, recording = _written(log, folder, model, robot)
+    paths = [Path(path) for path in files]
+    logged = logged_robot(paths, log_format if not column_names else None)
+    model = model_of(logged) if urdf is None else read_urdf(Path(urdf))
+    log = draft_log(paths, model, log_format, column_names)
+    is_written = output is not None and file != STANDARD_OUTPUT
+    robot_file = file.with_suffix(".urdf") if is_written and urdf is None and logged.urdf is not None else None
+    if robot_file is not None:
+        refuse_output(robot_file, force=force)
+    text, notes, recording = _written(log, folder, model, _robot_line(urdf, robot_file, logged, folder), logged)
+    notes = (*_about_robot(logged, None if urdf is None else Path(urdf), robot_file, model), *notes)
+    if robot_file is not None and logged.urdf is not None:
+        write_bytes_atomically(robot_file, logged.urdf.encode())
     if output is not None:
         write_bytes_atomically(file, text.encode())
     questions = tuple(QuestionRow(line=q.line, key=q.key, question=q.words) for q in unanswered_keys(text))
@@ -184,14 +197,36 @@ def draft_experiment(
         streams={} if recording is None else stream_rows(recording.streams),
         questions=questions,
         notes=notes,
+        robot_file=None if robot_file is None else str(robot_file),
         content=text,
     )
 
 
+def _robot_line(urdf: Path | str | None, robot_file: Path | None, logged: LoggedRobot, folder: Path) -> str | None:
+    """The key of the robot; a question where the log's own description is not written."""
+    if urdf is not None:
+        return line("urdf", relative(Path(urdf), folder))
+    if robot_file is not None:
+        return line("urdf", relative(robot_file, folder), f"written from {logged.source}")
+    if logged.urdf is None:
+        return None
+    return question("urdf", f"file of the robot; `forcetorque init` with -o FILE writes that of {logged.source}")
+
+
+def _about_robot(
+    logged: LoggedRobot, urdf: Path | None, robot_file: Path | None, model: RobotModel | None
+) -> Iterator[str]:
+    if robot_file is not None:
+        yield f"{robot_file}: written from {logged.source}; --urdf takes another robot"
+    if urdf is not None and model is not None and (words := difference(logged, model, urdf)) is not None:
+        yield words
+
+
 def _written(
-    log: DraftedLog, folder: Path, model: RobotModel | None, robot: str | None
+    log: DraftedLog, folder: Path, model: RobotModel | None, robot: str | None, logged: LoggedRobot
 ) -> tuple[str, tuple[str, ...], Recording | None]:
     sensors = draft_sensors(log.streams, model)
+    sensors = tuple(with_fixed_frame(sensor, log.streams, logged, model) for sensor in sensors)
     frames = {sensor.stream: sensor.name for sensor in sensors if not sensor.tags}
     recorded = recording_lines(log, folder, model, frames)
     recording, reason = _read("\n".join(recorded), folder, sensors, model)
@@ -209,7 +244,7 @@ def _written(
     lines = ['# What is "?" is a question: put the answer there. Every command says which is next.']
     lines += [line("schema", "forcetorque/experiment/1"), line("name", log.paths[0].stem)]
     if robot is not None:
-        lines += ["", "[robot]", line("urdf", robot)]
+        lines += ["", "[robot]", robot]
     if model is not None:
         lines += standing_lines(log, sensors, model, base)
     lines += ["", *recorded, *clock_lines(log, first_look)]
@@ -265,7 +300,8 @@ def _with_evidence(
         return sensor
     joints = sensor_joints(sensor, model)[:_MOST_JOINTS]
     stream = recording.stream(sensor.stream)
-    fits = {joint: fit_gravity(model, joint, base, recording, stream) for joint in joints}
+    pose = None if sensor.mount is None else sensor.mount.pose
+    fits = {joint: fit_gravity(model, joint, base, recording, stream, link_H_sensor=pose) for joint in joints}
     evidence = {joint: fit for joint, fit in fits.items() if fit is not None and fit.is_significant}
     return replace(sensor, evidence=evidence)
 

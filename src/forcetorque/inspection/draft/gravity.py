@@ -102,7 +102,15 @@ class GravityFit:
         return "child_to_parent" if self.inertia < 0.0 else "parent_to_child"
 
 
-def fit_gravity(model: RobotModel, joint: str, support: str, recording: Recording, stream: Stream) -> GravityFit | None:
+def fit_gravity(
+    model: RobotModel,
+    joint: str,
+    support: str,
+    recording: Recording,
+    stream: Stream,
+    *,
+    link_H_sensor: FloatArray | None = None,
+) -> GravityFit | None:
     """Fit the forces of a stream to the orientation of a sensor in a joint.
 
     Args:
@@ -111,11 +119,14 @@ def fit_gravity(model: RobotModel, joint: str, support: str, recording: Recordin
         support: Link that is assumed to be at rest.
         recording: Streams with the joints from the support to the distal links.
         stream: Stream with the wrench.
+        link_H_sensor: Pose of a sensor without a tag in the child link; shape (4, 4); m; None where both are one frame.
 
     Returns:
         The fit; None where too few windows have all joints.
     """
     probe = _probe(model, joint)
+    if link_H_sensor is not None:
+        probe = replace(probe, sensors={_PROBE: replace(probe.sensors[_PROBE], child_H_sensor=link_H_sensor)})
     tree = build_tree(probe, support)
     at_ns, wrench = _windows(stream)
     joints = required_joints(tree, _PROBE)
