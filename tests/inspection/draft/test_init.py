@@ -64,6 +64,33 @@ def drafted() -> str:
     return draft_experiment([FOLDER / "log.csv"], urdf=FOLDER / "robot.urdf").content
 
 
+SENSORS_OWN = {
+    "ATI": "Time (s),Fx (N),Fy (N),Fz (N),Tx (Nm),Ty (Nm),Tz (Nm)",
+    "Robotiq": "time_s,Fx [N],Fy [N],Fz [N],Mx [Nm],My [Nm],Mz [Nm]",
+    "OnRobot": "timestamp_s,force_x [N],force_y [N],force_z [N],torque_x [Nm],torque_y [Nm],torque_z [Nm]",
+    "Bota": "stamp_s,force.x [N],force.y [N],force.z [N],torque.x [Nm],torque.y [Nm],torque.z [Nm]",
+}
+
+
+@pytest.mark.parametrize("maker", SENSORS_OWN)
+def test_a_table_of_a_sensor_alone_asks_for_the_sensor_alone(tmp_path: Path, maker: str) -> None:
+    """No column says how it is held, so nothing is asked of that; a thermometer is its variable; the file is read."""
+    rows = np.column_stack(
+        [0.01 * np.arange(300), np.random.default_rng(5).normal(size=(300, 6)), 30.0 + np.zeros(300)]
+    )
+    text = "\n".join([f"{SENSORS_OWN[maker]},temperature [degC]", *(",".join(map(str, row)) for row in rows)])
+    (tmp_path / "log.csv").write_text(f"{text}\n")
+    draft = draft_experiment(tmp_path / "log.csv", tmp_path / "x.toml")
+    assert [question.key for question in draft.questions] == ["serial", "full_scale"]
+    content = tomllib.loads(draft.content)
+    assert content["load"] == {"frame": "ft_sensor", "motion": "none"}
+    assert content["sensor"][0]["variable"] == [{"name": "temperature"}]
+    (tmp_path / "x.toml").write_text(answered(draft.content, ANSWERS))
+    (sensor,) = load_experiment(tmp_path / "x.toml").sensors
+    assert sensor.variables[0].linear.unit == "degC"
+    assert [row.kind for row in inspect_log(tmp_path / "x.toml").findings] == []
+
+
 NAMES = ("t", "fx", "fy", "fz", "tx", "ty", "tz")
 
 

@@ -44,7 +44,7 @@ from forcetorque.inspection.draft.streams import DraftedLog, relative
 from forcetorque.inspection.draft.tables_and_arrays import example_names
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
-from forcetorque.recording.recording import Recording
+from forcetorque.recording.recording import NO_MOTION, Recording
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -126,7 +126,8 @@ class Draft(Result):
 
     @property
     def _next(self) -> str:
-        return "calibrate -o new.json" if "[[sensor]]" in self.content else "inspect"
+        fitted = "[[sensor]]" in self.content and f"\n{line('motion', NO_MOTION)}" not in self.content
+        return "calibrate -o new.json" if fitted else "inspect"
 
     def columns(self) -> list[str]:
         """Name the columns of the CSV.
@@ -377,10 +378,17 @@ def _wrist_lines(log: DraftedLog, sensors: Sequence[DraftedSensor]) -> list[str]
     """The `[load]` table of a wrist sensor whose pose is logged."""
     if not sensors:
         return []
+    if all(stream.is_sensor_alone for stream in log.streams):
+        words = "no column says how the sensor is held: inspect it, or `forcetorque bench` thermal or response"
+        warm = any("temperature" in stream.quantities for stream in log.streams)
+        variable = ["", "[[sensor.variable]]", line("name", "temperature")] if warm else []
+        return [*variable, "", "[load]", line("frame", sensors[0].name), line("motion", NO_MOTION, words)]
     posed = [s.name for s in log.streams if {"orientation", "gravity"} & set(s.quantities)]
     poses = posed or [s.name for s in log.streams if "proper_acceleration" in s.quantities]
     # of tables the frame is asked, and has to be that of the sensor; other logs have their own
-    words = "streams with gravity, orientation or acceleration along the axes of the sensor"
+    words = (
+        "streams with gravity, orientation or acceleration along the axes of the sensor, none for a sensor by itself"
+    )
     shown = f", as {toml_value(poses)} if that is turned as the sensor is" if poses else ""
     motion = line("motion", poses) if poses and log.format == "tabular" else question("motion", f"{words}{shown}")
     words = "child_to_parent if a hanging load reads down, parent_to_child if the opposite"

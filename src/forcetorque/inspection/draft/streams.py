@@ -60,6 +60,8 @@ _MOTIONS = {
 _STATES = re.compile(r"^(?:.*_)?joint_states?_|^field_(?=position|velocity|effort)")
 """Prefixes of tables of joint messages that programs of ROS write."""
 _FIXED_ROWS = 9
+_MOST_OF_SENSOR = 10
+"""Columns of a table of one sensor: times, six components or channels, a temperature, a status."""
 _OF_JOINTS = {"j", "joint", "joints"}
 """Words of columns that are of joints, however many they are."""
 
@@ -326,6 +328,13 @@ class DraftedStream:
     """The table that it is read from; None where the log describes itself."""
     groups: tuple[ColumnMatch, ...] = ()
     """Columns of the table by quantity."""
+
+    @property
+    def is_sensor_alone(self) -> bool:
+        """Whether it is a table of one sensor and hardly anything else, so that nothing says how that is held."""
+        if self.table is None or not self.table.is_table or len(self.table.columns) > _MOST_OF_SENSOR:
+            return False
+        return self.reads_load and set(self.quantities) <= {"wrench", "raw", "temperature"}
 
     @property
     def reads_load(self) -> bool:
