@@ -23,6 +23,7 @@ from forcetorque.formats.log_format import SketchingFormat, not_read_message
 from forcetorque.formats.prior.prior_file import PriorFile
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.formats.registry import format_named, not_recognised, recognised_format
+from forcetorque.inspection.draft.first_look import first_look_at_sensor
 from forcetorque.inspection.draft.log import likely_quantities
 from forcetorque.inspection.file_contents import (
     ClockRow,
@@ -37,6 +38,7 @@ from forcetorque.inspection.file_contents import (
     stream_table,
 )
 from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
+from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone, sensor_answer
 from forcetorque.recording.recording import Finding, Recording
 from forcetorque.results.answer import Answer
 from forcetorque.results.capability import named
@@ -79,7 +81,7 @@ class FindingRow(Row):
 class Inspection(Result):
     """Contents of a log, and findings."""
 
-    of_several: ClassVar[tuple[str, ...]] = ("clocks",)
+    of_several: ClassVar[tuple[str, ...]] = ("clocks", "sensor")
 
     schema_name: Literal["forcetorque/inspect/2"] = Field(default="forcetorque/inspect/2", alias="schema")
     """Form of the result."""
@@ -95,6 +97,8 @@ class Inspection(Result):
     """Clocks that the experiment file aligns, in its order; findings have the same as text."""
     unread: tuple[ColumnRow, ...] = ()
     """Columns or arrays of a log that does not describe itself, in place of streams."""
+    sensor: SensorAlone | None = None
+    """What the log of a sensor by itself shows; findings are then about it."""
     skipped_arrays: dict[str, str] = {}
     """Arrays that no experiment file can specify, such as `1 x 3 struct array`, by name."""
     ranges_of: str | None = None
@@ -106,9 +110,12 @@ class Inspection(Result):
         """Say what was found, grouped to events.
 
         Yields:
-            One for a recording; none for columns that wait for a file, or the calibration of a maker.
+            One for a recording, or the log of a sensor by itself; none for other columns that wait for a file, or the
+            calibration of a maker.
         """
-        if self.streams:
+        if self.sensor is not None:
+            yield sensor_answer(self.sensor, self.source, self.duration_s)
+        elif self.streams:
             yield named("forcetorque.inspection.answers:inspection_answer")(self)
 
     def blocks(self) -> Iterator[Table | str]:
@@ -128,7 +135,8 @@ class Inspection(Result):
             if self.skipped_arrays:
                 yield not_read_message(self.skipped_arrays)
             yield sketch_text(self.unread, self.source)
-            return
+            if self.sensor is None:
+                return
         yield stream_table(self.streams, f"{self.source}: streams")
         yield finding_table(self.findings, self.source)
         for (stream, kind, channel), count in Counter(row.group for row in self.findings).items():
@@ -228,12 +236,17 @@ def _without_experiment(source: Path, name: str | None) -> Inspection | None:
         return None
     sketch = known.sketch(source)
     unread = column_rows(sketch, likely_quantities(sketch))
+    log = first_look_at_sensor(source, name)
+    found = None if log is None else sensor_alone(log)
+    recording = Recording(streams={}) if log is None or found is None else log.recording
+    start, end = recording.span_ns if recording.streams else (0, 0)
     return Inspection(
         source=str(source),
-        streams={},
-        duration_s=0.0,
-        findings=(),
+        streams=stream_rows(recording.streams),
+        duration_s=1e-9 * (end - start),
+        findings=() if found is None else finding_rows(start, found[1]),
         unread=unread,
+        sensor=None if found is None else found[0],
         skipped_arrays=dict(sketch.skipped_arrays),
         ranges_of=f"of those{sketch.range_text} alone: {sketch.stopped}" if sketch.range_text else None,
     )

@@ -3,21 +3,19 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
-from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_bytes_atomically
 from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.formats.log_format import LoggedRobot, not_read_message
-from forcetorque.formats.registry import format_named
+from forcetorque.inspection.draft.first_look import read_drafted
 from forcetorque.inspection.draft.gravity import GravityFit, fit_gravity
 from forcetorque.inspection.draft.intervals import (
     DraftedInterval,
@@ -69,6 +67,8 @@ class QuestionRow(Row):
 
 class Draft(Result):
     """A draft of an experiment file."""
+
+    of_several: ClassVar[tuple[str, ...]] = ("robot_file",)
 
     schema_name: Literal["forcetorque/init/1"] = Field(default="forcetorque/init/1", alias="schema")
     """Form of the result."""
@@ -230,10 +230,10 @@ def _written(
     sensors = tuple(with_fixed_frame(sensor, log.streams, logged, model) for sensor in sensors)
     frames = {sensor.stream: sensor.name for sensor in sensors if not sensor.tags}
     recorded = recording_lines(log, folder, model, frames)
-    recording, reason = _read("\n".join(recorded), folder, sensors, model)
+    recording, reason = read_drafted("\n".join(recorded), folder, sensors, model)
     first_look = recording
     if recording is None:
-        first_look, _ = _read(likeliest_text(recorded), folder, sensors, model)
+        first_look, _ = read_drafted(likeliest_text(recorded), folder, sensors, model)
     base = None if model is None else base_of_arm(model)
     sensors = tuple(_with_evidence(sensor, first_look, model, base) for sensor in sensors)
     if recording is None and any(sensor.evidence for sensor in sensors):
@@ -268,29 +268,6 @@ def _written(
     for interval in intervals or whole_log(words, use="calibration" if sensors else "ignore"):
         lines += interval_lines(interval, extra)
     return "\n".join(lines) + "\n", tuple(notes), recording
-
-
-def _read(
-    text: str, folder: Path, sensors: Sequence[DraftedSensor], model: RobotModel | None
-) -> tuple[Recording | None, str]:
-    """The recording of the table without questions; else the reason why it cannot be read."""
-    if unanswered_keys(text):
-        return None, "the log is read once the questions of [recording] are answered"
-    try:
-        content = tomllib.loads(text)["recording"]
-        known = format_named(content["format"])
-        context = ExperimentContext(
-            experiment=folder / "experiment.toml",
-            inputs=Inputs(folder),
-            sensors={sensor.stream: sensor.name for sensor in sensors},
-            joint_units={} if model is None else {name: joint.type.unit for name, joint in model.joints.items()},
-        )
-        reading = known.read(known.table.model_validate(content), context)
-    except ValidationError as error:
-        return None, f"the log cannot be read yet: {error.errors()[0]['msg']}"
-    except ForceTorqueError as error:
-        return None, f"the log cannot be read yet: {error}"
-    return Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings), ""
 
 
 def _with_evidence(
