@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -389,7 +390,7 @@ def _parquet_batches(file: Path, table: Any, flat: FlatColumns, columns: Sequenc
     try:
         for group in range(table.metadata.num_row_groups):  # one at a time: a request for all makes Arrow hold them all
             for batch in table.iter_batches(batch_size=BATCH_ROWS, row_groups=[group], columns=sources):
-                yield flat.flattened(batch, columns, lambda row, first=start: _row(file, first + row))
+                yield flat.flattened(batch, columns, partial(_shifted_row, file, start))
                 start += len(batch)
     except FormatError:
         raise
@@ -401,6 +402,10 @@ def _damaged(name: Path | str, error: BaseException) -> FormatError:
     return FormatError(
         f"{name}: expected a whole table, got one that cannot be read: {' '.join(str(error).split())[:200]}"
     )
+
+
+def _shifted_row(name: Path | str, first: int, row: int) -> str:
+    return _row(name, first + row)
 
 
 def _row(name: Path | str, row: int) -> str:
