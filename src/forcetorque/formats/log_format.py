@@ -104,8 +104,12 @@ class LoggedRobot:
 
     urdf: str | None = None
     """URDF; None for none."""
+    topic: str = ""
+    """Stream or topic that has it."""
     source: str = ""
-    """What of which log has it."""
+    """The same, with the log."""
+    conflict: str = ""
+    """Why there is no URDF although the log has some; empty where that is not so."""
     frames: Mapping[str, FixedFrame] = field(default_factory=dict)
     """Frames that do not move against others, by their names."""
 

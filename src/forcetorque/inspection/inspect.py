@@ -19,12 +19,13 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.streams import load_tried_clocks
-from forcetorque.formats.log_format import SketchingFormat, not_read_message
+from forcetorque.formats.log_format import RobotLoggingFormat, SketchingFormat, not_read_message
 from forcetorque.formats.prior.prior_file import PriorFile
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.formats.registry import format_named, not_recognised, recognised_format
 from forcetorque.inspection.draft.first_look import first_look_at_sensor
 from forcetorque.inspection.draft.log import likely_quantities
+from forcetorque.inspection.draft.logged_robot import robot_findings
 from forcetorque.inspection.file_contents import (
     ClockRow,
     ColumnRow,
@@ -269,7 +270,10 @@ def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding,
     if log_format is not None:
         reading = log_format.describe(source).reading
         recording = Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings)
-        return recording, inspect_recording(recording)
+        findings = inspect_recording(recording)
+        if isinstance(log_format, RobotLoggingFormat):
+            findings = (*robot_findings(log_format.robot(source), recording), *findings)
+        return recording, findings
     if source.is_dir():
         raise not_recognised(source)
     parsed = _parsed(source)

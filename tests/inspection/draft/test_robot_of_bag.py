@@ -26,10 +26,11 @@ SHIFT_M = (0.0, 0.0, 0.02)
 EMPTY = np.zeros(0)
 
 
-def _topics(form: str, **changes: Any) -> dict[str, tuple[str, list[Any]]]:
+def _topics(form: str, *, most: int | None = None, **changes: Any) -> dict[str, tuple[str, list[Any]]]:
     """The log of the tutorial, whose wrench is along the axes of a frame that is turned against the URDF's link."""
     types = Types(form)
     head, *lines = log_text().splitlines()
+    lines = lines[:most]
     names = [name.removesuffix("_rad") for name in head.split(",")[1:6]]
     rows = np.array([line.split(",") for line in lines], dtype=np.float64)
     force, moment = rows[:, 6:9], rows[:, 9:12] - np.cross(SHIFT_M, rows[:, 6:9])
@@ -106,18 +107,28 @@ def test_another_robot_than_that_of_the_bag_is_named(bag: Path, tmp_path: Path) 
 
 def test_inspect_tells_what_a_bag_has_of_its_robot(bag: Path) -> None:
     """In place of a topic that nothing reads."""
-    said = {row.stream: row.message for row in inspect_log(bag).findings}
-    assert "the URDF of the robot" in said["/robot_description"]
-    assert "fixed frames" in said["/tf_static"]
+    said = {(row.stream, row.kind): row.message for row in inspect_log(bag).findings}
+    assert "the URDF of the robot" in said["/robot_description", "not_read"]
+    assert "fixed frames" in said["/tf_static", "not_read"]
+    robot = said["/robot_description", "robot"]
+    assert "5.3 kg; 5 of 5 moving joints are logged" in robot
+    assert f"frame 'ft_frame' of '/ft' is fixed to its link 'upper_arm' by /tf_static of {bag}" in robot
 
 
 def test_descriptions_that_cannot_be_taken_are_refused_with_the_remedy(tmp_path: Path) -> None:
     """Of two robots, and of one that is no URDF."""
     types = Types("mcap")
-    two = {"/left/robot_description": (STRING, [types.text("<robot name='left'><link name='base'/></robot>")])}
-    with pytest.raises(FormatError, match="got different ones in /left/robot_description and /robot_description.*--ur"):
-        draft_experiment(write_bag(tmp_path, "mcap", _topics("mcap") | two))
-    other = _topics("sqlite3", **{"/robot_description": (STRING, [Types("sqlite3").text("<sdf/>")])})
+    left = types.text("<robot name='left'><link name='base'/></robot>")
+    topics = _topics("mcap", most=100) | {"/left/robot_description": (STRING, [left])}
+    bag = write_bag(tmp_path, "mcap", topics)
+    with pytest.raises(FormatError, match="different ones in /left/robot_description and /robot_description;.*--urdf"):
+        draft_experiment(bag)
+    assert any("different ones" in row.message for row in inspect_log(bag).findings if row.kind == "robot")
+    (tmp_path / "mine.urdf").write_text(robot_text())
+    note = draft_experiment(bag, urdf=tmp_path / "mine.urdf").notes[0]
+    assert note.startswith(f"{tmp_path / 'mine.urdf'} is not compared with the log: ")
+    assert "--urdf" not in note
+    other = _topics("sqlite3", most=100, **{"/robot_description": (STRING, [Types("sqlite3").text("<sdf/>")])})
     with pytest.raises(FormatError, match="expected the root element <robot>, got <sdf>.*; name the URDF .* by --urdf"):
         draft_experiment(write_bag(tmp_path, "sqlite3", other))
 
@@ -127,7 +138,7 @@ def test_frames_that_lead_to_no_fixed_joint_are_left_alone(tmp_path: Path) -> No
     types = Types("mcap")
     turn = np.array([0.0, 0.0, 0.0, 1.0])
     ring = [types.transform(0, turn, SHIFT_M, *pair) for pair in (("a", "ft_frame"), ("ft_frame", "a"))]
-    topics = _topics("mcap", **{"/tf_static": (TF, [types.make(TF, transforms=ring)])})
+    topics = _topics("mcap", most=400, **{"/tf_static": (TF, [types.make(TF, transforms=ring)])})
     draft = draft_experiment(write_bag(tmp_path, "mcap", topics), tmp_path / "arm.toml")
     assert "joint" in {q.key for q in draft.questions}
     assert "mount" not in tomllib.loads(draft.content)["sensor"][0]

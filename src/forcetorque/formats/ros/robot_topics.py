@@ -53,25 +53,25 @@ def robot_of_bag(bag: Bag) -> LoggedRobot:
         bag: The bag.
 
     Returns:
-        The last description, and the last transform of every fixed frame.
-
-    Raises:
-        FormatError: If two topics have different descriptions, or a message is not whole.
+        The last description, unless topics have different ones, and the last transform of every fixed frame.
     """
     types = bag.types
     descriptions = {topic: _last_text(bag, topic) for topic, kind in types.items() if is_description(topic, kind)}
     texts = {topic: text for topic, text in descriptions.items() if text.strip()}
-    if len(set(texts.values())) > 1:
-        raise FormatError(
-            f"{bag.path}: expected one description of the robot, got different ones in {' and '.join(sorted(texts))}; "
-            "write that of the robot to a file, and name it by --urdf"
-        )
-    topic = next(iter(sorted(texts)), None)
+    several = len(set(texts.values())) > 1
+    conflict = (
+        f"{bag.path}: expected one description of the robot, got different ones in {' and '.join(sorted(texts))}"
+        if several
+        else ""
+    )
+    topic = None if several else next(iter(sorted(texts)), None)
     frames: dict[str, FixedFrame] = {}
     for static in sorted(topic for topic, kind in types.items() if is_static(topic, kind)):
         frames |= {frame.child: frame for frame in _fixed_frames(bag, static)}
     return LoggedRobot(
         urdf=None if topic is None else texts[topic],
+        topic=topic or next(iter(sorted(texts)), ""),
+        conflict=conflict,
         source="" if topic is None else f"{topic} of {bag.path}",
         frames=frames,
     )

@@ -17,6 +17,7 @@ from forcetorque.formats.registry import format_named, recognised_format
 from forcetorque.inspection.draft.sensors_and_supports import DraftedMount, DraftedSensor
 from forcetorque.inspection.draft.streams import DraftedStream
 from forcetorque.inspection.draft.toml_lines import listed
+from forcetorque.recording.recording import Finding, Recording
 from forcetorque.robot.model import JointType, RobotModel
 from forcetorque.robot.mounting import rotation_vector
 from forcetorque.robot.urdf import read_urdf_text
@@ -24,6 +25,7 @@ from forcetorque.robot.urdf import read_urdf_text
 _SAME_MASS_KG, _SAME_POSE = 1e-6, 1e-6
 """Masses, and entries of poses in m and 1, that differ by less are the same: files are rounded."""
 _MOST_NAMED = 6
+_REMEDY = "name the URDF of the robot by --urdf, which is then taken in its place"
 
 
 def logged_robot(paths: Sequence[Path], log_format: str | None) -> LoggedRobot:
@@ -53,14 +55,54 @@ def model_of(logged: LoggedRobot) -> RobotModel | None:
         The robot; None where it has none.
 
     Raises:
-        FormatError: If the description is no URDF.
+        FormatError: If the description is no URDF, or there are several.
     """
+    if logged.conflict:
+        raise FormatError(f"{logged.conflict}; {_REMEDY}")
     if logged.urdf is None:
         return None
     try:
         return read_urdf_text(logged.urdf, where=logged.source)
     except ForceTorqueError as error:
-        raise FormatError(f"{error}; name the URDF of the robot by --urdf, which is then taken in its place") from error
+        raise FormatError(f"{error}; {_REMEDY}") from error
+
+
+def robot_findings(logged: LoggedRobot, recording: Recording) -> tuple[Finding, ...]:
+    """Compare a log with the robot that it describes.
+
+    Args:
+        logged: What the log has of its robot.
+        recording: Its streams.
+
+    Returns:
+        One finding about the robot, its joints in the log, and the frames of wrenches; none where it has no robot.
+    """
+    try:
+        model = model_of(logged)
+    except FormatError as error:
+        return (Finding(stream=logged.topic, kind="robot", message=str(error), count=0),)
+    if model is None:
+        return ()
+    moving = [name for name, joint in model.joints.items() if joint.type.moves and joint.mimic is None]
+    positions = recording.joint_signals("position")
+    missing, unknown = [name for name in moving if name not in positions], [n for n in positions if n not in moving]
+    words = [f"robot {model.name!r}: {sum(link.mass for link in model.links.values()):.4g} kg"]
+    words.append(f"{len(moving) - len(missing)} of {len(moving)} moving joints are logged")
+    if missing:
+        words.append(f"not logged: {listed(missing, _MOST_NAMED)}")
+    if unknown:
+        words.append(f"logged and not in the robot: {listed(unknown, _MOST_NAMED)}")
+    for stream in recording.streams.values():
+        frame = None if "wrench" not in stream.signals else stream.signals["wrench"].frame
+        if frame is not None and frame not in model.links:
+            words.append(_frame_text(stream.name, frame, _link_of(frame, logged.frames, model)))
+    return (Finding(stream=logged.topic, kind="robot", message="; ".join(words), count=0),)
+
+
+def _frame_text(stream: str, frame: str, found: tuple[str, FloatArray, str] | None) -> str:
+    if found is None:
+        return f"frame {frame!r} of {stream!r} is no link of it, and no fixed frame of the log leads to one"
+    return f"frame {frame!r} of {stream!r} is fixed to its link {found[0]!r} by {found[2]}"
 
 
 def difference(logged: LoggedRobot, model: RobotModel, file: Path) -> str | None:
@@ -77,7 +119,7 @@ def difference(logged: LoggedRobot, model: RobotModel, file: Path) -> str | None
     try:
         own = model_of(logged)
     except FormatError as error:
-        return f"{logged.source} is not compared with {file}: {error}"
+        return f"{file} is not compared with the log: {str(error).removesuffix(f'; {_REMEDY}')}"
     words = [] if own is None else list(_differences(own, model))
     return f"{logged.source} differs from {file}, which is taken: {'; '.join(words)}" if words else None
 
