@@ -205,6 +205,15 @@ def test_a_planted_delay_of_each_pair_is_within_its_interval(name: str) -> None:
     assert abs(shift.delay_s - 0.057) < 2.0 * shift.delay_half_width_s < 0.05
 
 
+@pytest.mark.parametrize("name", ["wrench and gravity", "joints and wrench"])
+def test_a_delay_is_found_beside_a_stream_of_five_hertz(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    """The default window of derivatives, 0.3 s, holds a single step of such a stream."""
+    monkeypatch.setitem(RATES_HZ, PAIRS[name].to if name == "wrench and gravity" else PAIRS[name].stream, 5.0)
+    shift = told(PAIRS[name], 1, delay_s=0.12)
+    assert shift.delay_half_width_s is not None
+    assert abs(shift.delay_s - 0.12) < 2.0 * shift.delay_half_width_s < 0.1
+
+
 def test_a_planted_drift_of_a_gyro_is_within_its_interval() -> None:
     """Against joints, with the delay of the middle."""
     shift = told(PAIRS["gyro and joints"], 2, delay_s=-0.08, drift=1e-3)

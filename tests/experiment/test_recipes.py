@@ -222,6 +222,31 @@ def test_lines_are_skipped_and_a_rate_stands_for_a_time(poses: Path) -> None:
     assert stream.clock == "log"
 
 
+def test_columns_of_one_table_may_have_two_clocks(poses: Path) -> None:
+    """The file is listed as two streams, and one of them is brought to the clock of the other."""
+    time = 0.1 * np.arange(len(SENSED))
+    _table(poses / "log.csv", np.column_stack([time, SENSED, TURN.as_quat()]), "t,a,b,c,d,e,f,qx,qy,qz,qw\n")
+    stamped = 'stamp = { column = "t", unit = "s" }'
+    pose, wrench = (
+        "\n".join(line for line in text.splitlines() if not line.startswith(("clock", "column_names")))
+        .replace(f"{name}.txt", "log.csv")
+        .replace('stamp = "row"', stamped)
+        for name, text in (("pose", POSE), ("wrench", WRENCH.replace('"base"', '"tool"')))
+    )
+    clock = '\n[[clock]]\nstream = "wrench"\nto = "pose"\ndelay_s = 0.3\n'
+    streams = _recording(poses, f"{HEAD}{pose}\n{wrench}\n{clock}{REST}").streams
+    np.testing.assert_array_equal(streams["pose"].stamp_ns - streams["wrench"].stamp_ns, 300_000_000)
+    np.testing.assert_allclose(streams["wrench"].signal("wrench").values, SENSED, atol=1e-9)
+
+
+def test_one_number_is_the_full_scale_of_all_axes(poses: Path) -> None:
+    """As in the file of a bench."""
+    text = TEXT.replace("[100.0, 100.0, 200.0, 10.0, 10.0, 10.0]", "50")
+    (poses / "tool.toml").write_text(text)
+    (sensor,) = load_experiment(poses / "tool.toml").sensors
+    np.testing.assert_array_equal(sensor.full_scale, np.full(6, 50.0))
+
+
 def test_files_of_one_stream_follow_each_other(poses: Path) -> None:
     """Rows without a time are numbered on; rows with one must go on in time."""
     for name in ("pose", "wrench"):

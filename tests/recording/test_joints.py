@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,8 +11,8 @@ import numpy as np
 from forcetorque.base.errors import RecordingError
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Recording
-from forcetorque.recording.smoothing import SavitzkyGolay
-from forcetorque.recording.stream import Stream
+from forcetorque.recording.smoothing import DERIVATIVE_WINDOW, SavitzkyGolay
+from forcetorque.recording.stream import ROW_CLOCK, Stream
 from forcetorque.robot.motion import joint_motion_at
 from tests.recording.recordings import EPOCH_NS, even_stamps, jittered_stamps, recording, refused, signal, stream
 
@@ -53,6 +54,19 @@ def test_joints_of_several_streams_meet_at_the_instants() -> None:
     np.testing.assert_allclose(motion.acceleration, 0.0, atol=ACCELERATION)
     swapped = joint_motion_at(_two_streams(), ("hip", "elbow", "knee"), at, window=WINDOW)
     assert np.abs(swapped.position - expected).max() > 1.0
+
+
+def test_samples_without_times_are_poses_at_rest() -> None:
+    """Row k is stamped k seconds, which is no motion; the same stamps of a clock are one."""
+    stamps = np.arange(12, dtype=np.int64) * 1_000_000_000
+    values = signal("position", np.random.default_rng(3).normal(size=(12, 2)), ("hip", "knee"))
+    poses = replace(stream(stamps, values, name="poses"), clock=ROW_CLOCK)
+    motion = joint_motion_at(recording(poses), ("hip", "knee"), stamps, window=DERIVATIVE_WINDOW)
+    np.testing.assert_array_equal(motion.position, values.values)
+    assert not motion.velocity.any()
+    assert not motion.acceleration.any()
+    with refused(RecordingError, "cannot carry order 3"):
+        joint_motion_at(recording(replace(poses, clock="log")), ("hip",), stamps, window=DERIVATIVE_WINDOW)
 
 
 def test_a_parabola_has_its_acceleration() -> None:

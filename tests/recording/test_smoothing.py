@@ -12,7 +12,7 @@ from scipy.signal import savgol_coeffs
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.recording.alignment import GAP_PERIODS, seconds_since
-from forcetorque.recording.smoothing import SavitzkyGolay, smooth
+from forcetorque.recording.smoothing import DERIVATIVE_WINDOW, EvenGrid, SavitzkyGolay, smooth
 from tests.recording.recordings import EPOCH_NS, even_stamps, jittered_stamps, refused
 
 PERIOD = 0.01
@@ -190,6 +190,31 @@ def test_a_window_with_too_few_samples_is_refused() -> None:
         RecordingError, r"a window of 0\.02 s holds 3 sample\(s\) of 0\.01 s, which cannot carry order 3; len"
     ):
         smooth(even_stamps(100), np.ones((100, 1)), SavitzkyGolay(window_s=0.02, order=3))
+
+
+@pytest.mark.parametrize("rate_hz", [2.0, 5.0, 9.0, 10.0, 30.0])
+def test_the_default_window_follows_a_slow_stream(rate_hz: float) -> None:
+    """A cubic has its derivatives from the rate on at which five samples take 2 s; the doubled window is exact too."""
+    time = np.arange(40) / rate_hz
+    stamps = EPOCH_NS + np.rint(time * 1e9).astype(np.int64)
+    for window in (DERIVATIVE_WINDOW, DERIVATIVE_WINDOW.doubled()):
+        result = smooth(stamps, time[:, None] ** 3, window, derivative=2)[:, 0]
+        np.testing.assert_allclose(result, 6.0 * time, rtol=0.0, atol=1e-4 * max(rate_hz, time[-1]))
+
+
+def test_the_doubled_window_is_twice_as_long_on_a_slow_stream() -> None:
+    """Flattening is estimated by the ratio of both."""
+    grid = EvenGrid.of(EPOCH_NS + np.arange(40) * 200_000_000)
+    short, long = (grid.length_of(window) for window in (DERIVATIVE_WINDOW, DERIVATIVE_WINDOW.doubled()))
+    assert long - 1 == 2 * (short - 1) == 8
+
+
+def test_stamps_slower_than_any_motion_are_refused() -> None:
+    """Seconds between samples are poses at rest, or stamps in another unit."""
+    with refused(
+        RecordingError, r"holds 1 sample\(s\) of 1 s, which cannot carry order 3; lengthen the window, or .*row"
+    ):
+        smooth(EPOCH_NS + np.arange(40) * 1_000_000_000, np.ones((40, 1)), DERIVATIVE_WINDOW, derivative=1)
 
 
 def test_an_order_below_the_derivative_is_refused() -> None:

@@ -37,6 +37,17 @@ def test_the_response_is_shown_and_drawn(taps: Path, run: Run) -> None:
     assert (len(lines), lines[0].startswith("sensor,serial,quantity,source,value,half_width_95")) == (7, True)
 
 
+def test_taps_of_a_sensor_by_itself_need_no_force(taps: Path, run: Run, tmp_path: Path) -> None:
+    """Nothing says what it must read, and it rings all the same."""
+    alone = tmp_path / "alone.toml"
+    text = taps.read_text().replace('path = "."', f'path = "{taps.parent}"')
+    stated = 'applied = "log"\nmeasure_direction = "child_to_parent"'
+    assert stated in text
+    alone.write_text(text.replace(stated, 'motion = "none"'))
+    words = ("--excitation", "impact", "--format", "csv")
+    assert run("bench", "response", alone, *words).out == run("bench", "response", taps, *words).out != ""
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

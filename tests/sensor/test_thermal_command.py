@@ -35,6 +35,20 @@ def test_drift_is_shown_and_drawn(chamber: Path, run: Run) -> None:
     assert (len(lines), lines[0].startswith("sensor,serial,signal,unit,drift_per_degC")) == (7, True)
 
 
+def test_a_sensor_by_itself_needs_no_motion(chamber: Path, run: Run, tmp_path: Path) -> None:
+    """The drift is that of the file with a motion, whose streams it does not use; what needs a motion is refused."""
+    text = chamber.read_text()
+    head, rest = text.split("[recording]")
+    alone = tmp_path / "alone.toml"
+    stated = head[: head.index("[load]")] + '[load]\nframe = "ft"\nmotion = "none"\n\n'
+    alone.write_text(f"{stated}[recording]{rest}".replace('path = "."', f'path = "{chamber.parent}"'))
+    drifts = [run("bench", "thermal", file, "--format", "json").result()["sensors"] for file in (chamber, alone)]
+    assert drifts[0] == drifts[1]
+    assert "nothing says what the sensor must read" in run("payload", alone).error()
+    alone.write_text(alone.read_text().replace('motion = "none"', 'motion = ["log"]'))
+    assert "expected measure_direction, child_to_parent or parent_to_child" in run("inspect", alone).error()
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

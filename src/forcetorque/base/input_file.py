@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import stat
+from io import BytesIO
 from pathlib import Path
 from xml.etree.ElementTree import Element, ParseError, TreeBuilder
 
@@ -140,11 +141,28 @@ def read_xml(file: Path, *, comments: bool = False) -> Element | None:
         FormatError: If it is not XML, or uses entities or external files.
     """
     declare_input(file)
+    return _parsed_xml(file, str(file), comments=comments)
+
+
+def xml_of_text(text: str, *, where: str) -> Element | None:
+    """Parse XML that is no file.
+
+    Args:
+        text: The XML.
+        where: What has it, for messages.
+
+    Returns:
+        Its root element.
+    """
+    return _parsed_xml(BytesIO(text.encode()), where, comments=False)
+
+
+def _parsed_xml(source: Path | BytesIO, where: str, *, comments: bool) -> Element | None:
     try:
         parser = DefusedXMLParser(target=TreeBuilder(insert_comments=comments))
-        root: Element | None = parse(file, parser=parser).getroot()
+        root: Element | None = parse(source, parser=parser).getroot()
     except ParseError as error:
-        raise FormatError(f"{file}:{error.position[0]}: expected XML, got {error.msg}") from error
+        raise FormatError(f"{where}:{error.position[0]}: expected XML, got {error.msg}") from error
     except (DefusedXmlException, ValueError, LookupError) as error:
-        raise FormatError(f"{file}: expected plain XML, got {error!r}") from error
+        raise FormatError(f"{where}: expected plain XML, got {error!r}") from error
     return root

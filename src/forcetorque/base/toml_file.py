@@ -44,6 +44,20 @@ Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
 
 _Content = TypeVar("_Content", bound=Table)
 
+
+def one_for_each(value: Any, count: int) -> Any:
+    """Read a key that takes one number for all, or a list with a number for each.
+
+    Args:
+        value: The number, or the list.
+        count: How many there are.
+
+    Returns:
+        The number as often as there are; a list as it is.
+    """
+    return (value,) * count if isinstance(value, int | float) and not isinstance(value, bool) else value
+
+
 OPEN = "?"
 """Value of a key that is still to be filled in by the user; no command runs before."""
 

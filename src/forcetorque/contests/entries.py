@@ -17,7 +17,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.toml_file import Finite, NotNegative, Table, Text, read_toml
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
-from forcetorque.experiment.core_tables import SixPositive
+from forcetorque.experiment.core_tables import FullScale
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.loading import load_experiment
@@ -87,7 +87,7 @@ class ContestantTable(Table):
     """Name in the catalogue of sensors, for its full scale."""
     range: Annotated[int, Field(ge=1, strict=True)] | None = None
     """Which of its ranges there, from 1; needed where it has several."""
-    full_scale: SixPositive | None = None
+    full_scale: FullScale | None = None
     """Full scale of fx, fy, fz, tx, ty, tz in place of the catalogue's; N, N m."""
 
     @model_validator(mode="after")

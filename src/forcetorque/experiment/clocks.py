@@ -13,12 +13,12 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, RecordingError
 from forcetorque.experiment import file as schema
-from forcetorque.experiment.core_tables import ClockTable
+from forcetorque.experiment.core_tables import ClockTable, processing_of
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.recording.alignment import ClockShift, on_clock_of, seconds_since, usable_samples
 from forcetorque.recording.clock_offset import estimate_delay
 from forcetorque.recording.recording import Finding, Recording, Support, Use
-from forcetorque.recording.smoothing import SavitzkyGolay, smooth_columns
+from forcetorque.recording.smoothing import smooth_columns
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.dynamics import joints_between, motion_of_link
 from forcetorque.robot.mechanics.estimate import estimate
@@ -28,8 +28,6 @@ from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, build_tree
 
-_TURN_WINDOW = SavitzkyGolay(window_s=0.3, order=3)
-"""Filter that differentiates an orientation, as that of joints."""
 _PRODUCTS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 """Axes of angular velocity that centrifugal and gyroscopic terms multiply."""
 
@@ -145,7 +143,7 @@ def _gravity(recording: Recording, motion: Motion, reading: Stream, reference: S
     # a point of a body that turns about another one feels what is linear in these; left out it would pass for noise,
     # which it is not: it comes again with the motion
     speed = _turning(recording, motion, reading, reference)
-    turned = smooth_columns(reference.stamp_ns, speed, _TURN_WINDOW, derivative=1)
+    turned = smooth_columns(reference.stamp_ns, speed, motion.processing.derivative_window, derivative=1)
     return np.column_stack([gravity, turned, *_products(speed)])
 
 
@@ -156,7 +154,9 @@ def _acceleration(recording: Recording, motion: Motion, reading: Stream, referen
 def _turning(recording: Recording, motion: Motion, reading: Stream, reference: Stream) -> FloatArray:
     """Angular velocity along the axes of the frame: `R^T dR/dt` is that of its skew."""
     rows = reference.signals["orientation"].values
-    speed = smooth_columns(reference.stamp_ns, rows, _TURN_WINDOW, derivative=1).reshape(-1, 3, 3)
+    speed = smooth_columns(reference.stamp_ns, rows, motion.processing.derivative_window, derivative=1).reshape(
+        -1, 3, 3
+    )
     skew = rows.reshape(-1, 3, 3).transpose(0, 2, 1) @ speed
     return np.column_stack([skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]])
 
@@ -354,7 +354,7 @@ def _motion(parsed: schema.ExperimentFile, model: RobotModel | None) -> Motion:
         support=supports[0] if supports else None,
         sensors={entry.stream: entry.name for entry in parsed.sensor},
         loaded=frozenset() if parsed.robot is None else parsed.loaded_links,
-        processing=Processing(gravity=gravity),
+        processing=replace(processing_of(parsed.processing, gravity=gravity), logged_derivatives=False),
     )
 
 

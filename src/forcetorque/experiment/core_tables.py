@@ -19,7 +19,7 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import known_names
-from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text, word_or_table
+from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text, one_for_each, word_or_table
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.calibration.artefact import GENERATIVE
 from forcetorque.experiment.calibration.assumptions import REPEATABILITY
@@ -40,6 +40,30 @@ def _of_six_axes(values: Any) -> Any:
 
 SixPositive = Annotated[tuple[Positive, ...], Field(min_length=_AXES, max_length=_AXES), BeforeValidator(_of_six_axes)]
 """Of forces in N, then of moments in N m."""
+
+
+def _full_scale(value: Any) -> Any:
+    return one_for_each(value, _AXES)
+
+
+FullScale = Annotated[
+    SixPositive,
+    BeforeValidator(_full_scale),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "number", "exclusiveMinimum": 0},
+                {
+                    "type": "array",
+                    "items": {"type": "number", "exclusiveMinimum": 0},
+                    "minItems": _AXES,
+                    "maxItems": _AXES,
+                },
+            ]
+        }
+    ),
+]
+"""Full scale of fx, fy, fz in N and of tx, ty, tz in N m; one number where all are the same."""
 
 
 class Variable(Table):
@@ -110,8 +134,9 @@ class Sensor(Table):
     calibrated reading then takes the place of counts."""
     limit_counts: Positive = 32767.0
     """Largest magnitude of a raw reading; counts."""
-    full_scale: SixPositive | None = None
-    """Full scale of fx, fy, fz, tx, ty, tz; N, N m; needed with the prior `identity`, which says nothing of sizes."""
+    full_scale: FullScale | None = None
+    """Full scale of fx, fy, fz, tx, ty, tz, or one number for all; N, N m; needed with the prior `identity`, which says
+    nothing of sizes."""
     reading_noise: SixPositive | None = None
     """Standard deviation by which a reading differs from sample to sample; N, N m; for `estimate --fuse`."""
     reading_deviation: SixPositive | None = None
@@ -177,7 +202,8 @@ class ProcessingTable(Table):
         Annotated[Smoothing, Tag("table")] | Annotated[Literal["logged"], Tag("word")],
         Discriminator(word_or_table),
     ] = Smoothing(window_s=0.3, order=3)
-    """Filter that differentiates joint positions, or `logged` to take velocity and acceleration from the log."""
+    """Filter that differentiates joint positions and orientations, or `logged` to take velocity and acceleration from
+    the log; if left out, it holds five samples of a stream below 10 Hz."""
     smoothing: Smoothing | None = None
     """Filter of reading and reference alike inside each interval, against vibration; none if left out."""
 
@@ -247,7 +273,11 @@ class ClockTable(Table):
     @model_validator(mode="after")
     def _estimated_or_stated(self) -> ClockTable:
         if self.to in self.streams:
-            raise PydanticCustomError("clock_itself", "expected to, another stream, got the same one")
+            raise PydanticCustomError(
+                "clock_itself",
+                "expected to, another stream, got the same one; for columns of one table list two [[recording.stream]] "
+                "with the same file",
+            )
         estimated = self.delay_s == "estimate"
         if self.drift == "estimate" and not estimated:
             raise PydanticCustomError("clock_drift", 'drift = "estimate" needs delay_s = "estimate"')
@@ -285,7 +315,7 @@ def processing_of(table: ProcessingTable, *, gravity: float) -> Processing:
     default = Processing()
     return Processing(
         derivative_window=default.derivative_window
-        if derivatives == "logged"
+        if derivatives == "logged" or "derivatives" not in table.model_fields_set
         else SavitzkyGolay(window_s=derivatives.window_s, order=derivatives.order),
         logged_derivatives=derivatives == "logged",
         smoothing=None if smoothing is None else SavitzkyGolay(window_s=smoothing.window_s, order=smoothing.order),

@@ -84,6 +84,54 @@ class LogDescription:
     """What is in it, and what could not be read as a finding."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class FixedFrame:
+    """A frame that a log says does not move against another."""
+
+    parent: str
+    """The other frame."""
+    child: str
+    """The frame."""
+    parent_H_child: FloatArray
+    """Its pose in the other; shape (4, 4); m."""
+    source: str
+    """What of which log says so."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoggedRobot:
+    """What a log itself has of its robot."""
+
+    urdf: str | None = None
+    """URDF; None for none."""
+    topic: str = ""
+    """Stream or topic that has it."""
+    source: str = ""
+    """The same, with the log."""
+    conflict: str = ""
+    """Why there is no URDF although the log has some; empty where that is not so."""
+    frames: Mapping[str, FixedFrame] = field(default_factory=dict)
+    """Frames that do not move against others, by their names."""
+
+
+@runtime_checkable
+class RobotLoggingFormat(Protocol):
+    """A format whose logs may describe their robot."""
+
+    def robot(self, path: Path) -> LoggedRobot:
+        """Read what a log has of its robot.
+
+        Args:
+            path: File or folder that is recognised.
+
+        Returns:
+            Description and frames, as far as there are.
+
+        Raises:
+            ForceTorqueError: If what there is cannot be read.
+        """
+
+
 class LogContext(Protocol):
     """What a reader may know of the experiment that specifies a log.
 
@@ -211,6 +259,8 @@ class LogSketch:
     """Whether the last two of those lines have names and units, of which the names of the columns are made."""
     has_headings: bool = True
     """Whether the file itself names them; without, they are called by their number, from 1."""
+    names_specified: bool = False
+    """Whether the user names them, in place of the file."""
     quaternion: tuple[int, ...] = ()
     """Places of the first columns of four that have norm 1 in each of the first rows, as quaternions do."""
     skipped_arrays: Mapping[str, str] = field(default_factory=dict)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, get_args
 
 from forcetorque.inspection.plausibility.hypotheses import FaultKind
+from forcetorque.inspection.sensor_alone import sensor_answer
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.number_text import amount
 
@@ -122,7 +123,9 @@ def _belongs(row: FindingRow, event: Event) -> bool:
 
 
 def inspection_answers(inspection: Inspection) -> Iterator[Answer]:
-    """Give the answer for a recording; there is none for columns without units, or the calibration of a maker.
+    """Give the answer for a recording, or the log of a sensor by itself.
+
+    There is none for other columns that wait for a file, or the calibration of a maker.
 
     Args:
         inspection: The inspection.
@@ -130,7 +133,9 @@ def inspection_answers(inspection: Inspection) -> Iterator[Answer]:
     Yields:
         One answer.
     """
-    if inspection.streams:
+    if inspection.sensor is not None:
+        yield sensor_answer(inspection.sensor, inspection.source, inspection.duration_s)
+    elif inspection.streams:
         yield inspection_answer(inspection)
 
 

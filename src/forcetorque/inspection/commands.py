@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 def init(
     log: Annotated[list[Path], typer.Argument(help="A log of any format, or several tables of one recording.")],
     urdf: Annotated[
-        Path | None, typer.Option("--urdf", help="The robot. Default: none, a wrist sensor whose pose is logged.")
+        Path | None,
+        typer.Option("--urdf", help="The robot. Default: the log's own description; without, a wrist sensor."),
     ] = None,
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Experiment file to write; - for standard output.")
@@ -26,6 +27,10 @@ def init(
     log_format: Annotated[
         str | None,
         typer.Option(help="Format of the log, such as ros or hdf5, as in [recording]. Default: by what is there."),
+    ] = None,
+    column_names: Annotated[
+        str | None,
+        typer.Option(help="Names of all columns of a table without headings, between commas, as t,fx,fy,fz,tx,ty,tz."),
     ] = None,
     force: ForceOption = False,
     details: DetailsOption = False,
@@ -42,7 +47,8 @@ def init(
     start_logging().info("reading %s", ", ".join(map(str, log)))
     refuse_two_on_standard_output(output, output_format)
     declare_outputs(output, force=force)
-    draft = draft_experiment(log, output, urdf=urdf, log_format=log_format, force=force)
+    names = [] if column_names is None else [name.strip() for name in column_names.split(",")]
+    draft = draft_experiment(log, output, urdf=urdf, log_format=log_format, column_names=names, force=force)
     if output != STANDARD_OUTPUT:  # else the file itself went there
         show(draft, output_format, details=details)
 

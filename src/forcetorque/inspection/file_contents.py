@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Annotated
 
 import numpy as np
@@ -274,7 +274,7 @@ def column_rows(sketch: LogSketch, likely: dict[int, str]) -> tuple[ColumnRow, .
     return tuple(_column_row(column, likely.get(k)) for k, column in enumerate(sketch.columns))
 
 
-def sketch_text(rows: Iterable[ColumnRow], source: str) -> str:
+def sketch_text(rows: Sequence[ColumnRow], source: str) -> str:
     """Explain the next step for a log that does not describe itself.
 
     Args:
@@ -286,9 +286,12 @@ def sketch_text(rows: Iterable[ColumnRow], source: str) -> str:
     """
     with_unit = sum(row.unit is not None for row in rows)
     units = f"the headings have {with_unit} unit(s)" if with_unit else "it has no units"
+    names = [row.column for row in rows]
+    unnamed = names == [str(k) for k in range(1, len(names) + 1)]
+    option = ", with --column-names and a name for each column between commas, for the file has no headings," * unnamed
     return (
-        f"the log is read with an experiment file that describes it, because {units}: `forcetorque init {source}` "
-        "drafts one, with a question for each value that the log does not have"
+        f"the log is read with an experiment file that describes it, because {units}: `forcetorque init {source}`"
+        f"{option} drafts one, with a question for each value that the log does not have"
     )
 
 

@@ -22,7 +22,7 @@ from forcetorque.inspection.diagnosis import diagnosed, fault_finding, stability
 from forcetorque.inspection.plausibility.checks import FEWEST, examine
 from forcetorque.inspection.plausibility.hypotheses import Explanation
 from forcetorque.inspection.residual_findings import model_findings
-from forcetorque.recording.recording import Finding, Interval, Recording, Use
+from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.taxels.faults import TaxelFault
@@ -150,7 +150,7 @@ def _model_findings(run: SensorRun, calibration: Calibration | None, *, with_cau
     if run.sensor.quantity == "raw" and run.sensor.prior is None and calibration is None:
         return
     correction = run.read_by(None, calibration).bare
-    supported = [interval for interval in run.experiment.recording.intervals if interval.support is not None]
+    supported = [one for one in run.experiment.recording.intervals if _has_motion(one.support)]
     touched = {interval.label: run.touched_beyond(interval) for interval in supported}
     unknown = [label for label, names in touched.items() if names]
     fault = None
@@ -176,6 +176,11 @@ def _model_findings(run: SensorRun, calibration: Calibration | None, *, with_cau
         except ForceTorqueError as error:
             text = f"no comparison with the model over {interval.label}: {error}"
             yield Finding(stream=stream, kind="not_compared", message=text, count=0)
+
+
+def _has_motion(support: Support | MovingSupport | None) -> bool:
+    """Whether something says how the support moves, as nothing does of a sensor by itself."""
+    return isinstance(support, Support) or (support is not None and not support.is_unknown)
 
 
 def _causes(

@@ -19,11 +19,13 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.streams import load_tried_clocks
-from forcetorque.formats.log_format import SketchingFormat, not_read_message
+from forcetorque.formats.log_format import RobotLoggingFormat, SketchingFormat, not_read_message
 from forcetorque.formats.prior.prior_file import PriorFile
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.formats.registry import format_named, not_recognised, recognised_format
+from forcetorque.inspection.draft.first_look import first_look_at_sensor
 from forcetorque.inspection.draft.log import likely_quantities
+from forcetorque.inspection.draft.logged_robot import robot_findings
 from forcetorque.inspection.file_contents import (
     ClockRow,
     ColumnRow,
@@ -37,6 +39,7 @@ from forcetorque.inspection.file_contents import (
     stream_table,
 )
 from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
+from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
 from forcetorque.recording.recording import Finding, Recording
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Table, table_of
@@ -79,7 +82,7 @@ class Inspection(Result):
 
     answered_by: ClassVar[str | None] = "forcetorque.inspection.answers:inspection_answers"
 
-    of_several: ClassVar[tuple[str, ...]] = ("clocks",)
+    of_several: ClassVar[tuple[str, ...]] = ("clocks", "sensor")
 
     schema_name: Literal["forcetorque/inspect/2"] = Field(default="forcetorque/inspect/2", alias="schema")
     """Form of the result."""
@@ -95,6 +98,8 @@ class Inspection(Result):
     """Clocks that the experiment file aligns, in its order; findings have the same as text."""
     unread: tuple[ColumnRow, ...] = ()
     """Columns or arrays of a log that does not describe itself, in place of streams."""
+    sensor: SensorAlone | None = None
+    """What the log of a sensor by itself shows; findings are then about it."""
     skipped_arrays: dict[str, str] = {}
     """Arrays that no experiment file can specify, such as `1 x 3 struct array`, by name."""
     ranges_of: str | None = None
@@ -119,7 +124,8 @@ class Inspection(Result):
             if self.skipped_arrays:
                 yield not_read_message(self.skipped_arrays)
             yield sketch_text(self.unread, self.source)
-            return
+            if self.sensor is None:
+                return
         yield stream_table(self.streams, f"{self.source}: streams")
         yield finding_table(self.findings, self.source)
         for (stream, kind, channel), count in Counter(row.group for row in self.findings).items():
@@ -219,12 +225,17 @@ def _without_experiment(source: Path, name: str | None) -> Inspection | None:
         return None
     sketch = known.sketch(source)
     unread = column_rows(sketch, likely_quantities(sketch))
+    log = first_look_at_sensor(source, name)
+    found = None if log is None else sensor_alone(log)
+    recording = Recording(streams={}) if log is None or found is None else log.recording
+    start, end = recording.span_ns if recording.streams else (0, 0)
     return Inspection(
         source=str(source),
-        streams={},
-        duration_s=0.0,
-        findings=(),
+        streams=stream_rows(recording.streams),
+        duration_s=1e-9 * (end - start),
+        findings=() if found is None else finding_rows(start, found[1]),
         unread=unread,
+        sensor=None if found is None else found[0],
         skipped_arrays=dict(sketch.skipped_arrays),
         ranges_of=f"of those{sketch.range_text} alone: {sketch.stopped}" if sketch.range_text else None,
     )
@@ -247,7 +258,10 @@ def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding,
     if log_format is not None:
         reading = log_format.describe(source).reading
         recording = Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings)
-        return recording, inspect_recording(recording)
+        findings = inspect_recording(recording)
+        if isinstance(log_format, RobotLoggingFormat):
+            findings = (*robot_findings(log_format.robot(source), recording), *findings)
+        return recording, findings
     if source.is_dir():
         raise not_recognised(source)
     parsed = _parsed(source)

@@ -232,10 +232,10 @@ def _columns(experiment: Experiment, sensor: ExperimentSensor, interval: Interva
             interval.support,
             JointMotion.at_rest((), np.empty((len(at_ns), 0))),
             at_ns,
-            window=replace(window, window_s=length),
+            window=chosen,
             gravity=0.0,
         )
-        for length in (window.window_s, 2.0 * window.window_s)
+        for chosen in (window, window.doubled())
     )
     velocity = np.broadcast_to(motion.angular_velocity, (len(at_ns), 3))
     turning = np.broadcast_to(motion.angular_acceleration, (len(at_ns), 3))
@@ -392,6 +392,5 @@ def _expected_wrenches(
     wrenches = expected(processing)
     if processing.logged_derivatives:
         return wrenches
-    window = processing.derivative_window
-    longer = expected(replace(processing, derivative_window=replace(window, window_s=2.0 * window.window_s)))
+    longer = expected(replace(processing, derivative_window=processing.derivative_window.doubled()))
     return [short + FLATTENED * np.nan_to_num(short - long) for short, long in zip(wrenches, longer, strict=True)]

@@ -54,7 +54,10 @@ class LoadSection(Section[Loads | None, WristLoads | LinkLoads | None]):
         if not tables or not loading.parsed.sensor:
             return None
         load = tables[0]
-        supports = {one.name: MovingSupport(frame=load.frame, motion_streams=load.streams) for one in tables}
+        supports = {
+            one.name: MovingSupport(frame=load.frame, motion_streams=load.streams, is_unknown=not load.streams)
+            for one in tables
+        }
         with stated_in(f"{loading.file}: load"):
             for stream in load.streams:
                 loading.recording.stream(stream)

@@ -7,16 +7,35 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal, Protocol
 
-from pydantic import Discriminator, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, Tag, model_validator
+from pydantic import (
+    BeforeValidator,
+    Discriminator,
+    Field,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    Tag,
+    WithJsonSchema,
+    model_validator,
+)
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import known_names
 from forcetorque.base.toml_file import NotNegative, Table, Text
 from forcetorque.base.wrench import MeasureDirection
+from forcetorque.recording.recording import NO_MOTION
 
 _OF_SENSOR = ("frame", "motion", "applied", "measure_direction", "drift", "mount", "tilt")
 """What is of the sensor, whatever hangs on it: stated with the first load."""
+
+
+def _streams(value: Any) -> Any:
+    """Names of streams; none for the word, which an empty list is not."""
+    if value == NO_MOTION:
+        return ()
+    if value == []:
+        raise PydanticCustomError("no_streams", 'expected a stream or more, or "none" for a sensor by itself')
+    return value
 
 
 class Load(Table):
@@ -26,12 +45,27 @@ class Load(Table):
     """Name, by which an interval says that this load hangs on the sensor."""
     frame: Text
     """Frame of the sensor, along whose axes it and the motion streams read."""
-    motion: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
-    """Streams with `gravity` (still poses), or `proper_acceleration` and `angular_velocity`."""
+    motion: (
+        Annotated[
+            tuple[Text, ...],
+            BeforeValidator(_streams),
+            WithJsonSchema(
+                {
+                    "anyOf": [
+                        {"const": NO_MOTION},
+                        {"type": "array", "items": {"type": "string", "minLength": 1}, "minItems": 1},
+                    ]
+                }
+            ),
+        ]
+        | None
+    ) = None
+    """Streams with `gravity` (still poses), or `proper_acceleration` and `angular_velocity`; `none` for a sensor by
+    itself, which is inspected, heated or tapped: nothing then says what it must read."""
     applied: Text | None = None
     """In place of motion and mass: stream with the `applied_wrench`, which is then what the sensor must read."""
-    measure_direction: MeasureDirection
-    """Who acts on whom in the reading; the load is the child."""
+    measure_direction: MeasureDirection = MeasureDirection.CHILD_TO_PARENT
+    """Who acts on whom in the reading; the load is the child; left out with `motion = "none"` only."""
     mass_kg: NotNegative | None = None
     """Mass; left out to estimate it on the calibration intervals; 0 for the bare sensor."""
     centre_of_mass_m: Annotated[FloatArray, ArrayField((3,))] | None = None
@@ -49,7 +83,14 @@ class Load(Table):
     def _motion_or_wrench(self) -> Load:
         if (self.motion is None) == (self.applied is None):
             raise PydanticCustomError(
-                "load_motion", "expected motion, the streams that tell how the load moves, or applied, a known wrench"
+                "load_motion",
+                "expected motion, the streams that tell how the load moves, or applied, a known wrench; "
+                'motion = "none" is for a sensor by itself',
+            )
+        if self.motion != () and "measure_direction" not in self.model_fields_set:
+            raise PydanticCustomError(
+                "direction_missing",
+                "expected measure_direction, child_to_parent or parent_to_child; it is never guessed",
             )
         if self.applied is not None and (self.mass_kg is not None or self.centre_of_mass_m is not None):
             raise PydanticCustomError("load_twice", "applied says what the sensor must read: leave the mass out")
@@ -58,7 +99,7 @@ class Load(Table):
     @property
     def streams(self) -> tuple[str, ...]:
         """Streams that say what the sensor must read."""
-        return self.motion or (self.applied or "",)
+        return (self.applied or "",) if self.motion is None else self.motion
 
 
 class OneOrSeveral:

@@ -40,6 +40,11 @@ _BLOCK, _FEWEST = 64, 32
 _QUIETEST = 4
 """Of the quarter of the blocks that move least the usual one counts: noise that comes with motion ends with it."""
 
+FLAT = 3
+"""Equal samples in a row at an end of the range that are a limit, where the signal jumps there."""
+_JUMP = 5.0
+"""Resolutions by which a signal jumps to a limit; the top of a smooth wave is reached by one or two."""
+
 Run = tuple[int, int]
 """First and last index of samples that lie behind each other."""
 
@@ -318,3 +323,26 @@ def ranges_of(values: FloatArray) -> FloatArray:
     largest = np.max(values, axis=0, where=finite, initial=-np.inf)
     smallest = np.min(values, axis=0, where=finite, initial=np.inf)
     return np.where(largest > smallest, largest - smallest, 0.0)
+
+
+def flat_tops(values: FloatArray) -> BoolArray:
+    """Find where a signal stays at an end of its range after it jumped there.
+
+    Args:
+        values: The signal; shape (n,).
+
+    Returns:
+        Whether each sample is of such a top; shape (n,).
+    """
+    steps = np.abs(np.diff(values))
+    flat = np.zeros(len(values), dtype=bool)
+    if not steps.any():
+        return flat
+    jump = _JUMP * max(float(np.min(steps[steps > 0.0])), float(np.median(steps)))
+    for end in (values.max(), values.min()):
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], (values == end).astype(np.int64), [0]])))
+        for first, after in edges.reshape(-1, 2):
+            # a weight that hangs still is an end of the range too, but it was hung on slowly, and jumps only away
+            if after - first >= FLAT and first > 0 and steps[first - 1] > jump:
+                flat[first:after] = True
+    return flat

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from operator import index
+from typing import Final
 
 import numpy as np
 
@@ -62,6 +63,10 @@ class Support(ArrayRecord):
             object.__setattr__(self, "gravity_direction", unit)
 
 
+NO_MOTION: Final = "none"
+"""Word of experiment files in place of the motion streams of a sensor by itself: nothing says how it is held."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class MovingSupport(ArrayRecord):
     """A frame that is the only unknown contact while an IMU measures how the robot moves."""
@@ -70,10 +75,12 @@ class MovingSupport(ArrayRecord):
     """Link of the robot model; it need not do not move."""
     motion_streams: tuple[str, ...] = field(metadata=names())
     """Streams with the IMU's signals: proper acceleration or gravity, and angular velocity."""
+    is_unknown: bool = False
+    """Whether nothing measures how it moves, as of a sensor by itself; there are then no streams."""
 
     def __post_init__(self) -> None:
         check_arrays(self)
-        if not self.motion_streams:
+        if not self.motion_streams and not self.is_unknown:
             raise RecordingError(f"support frame {self.frame!r}: expected the streams of an IMU, got none")
 
 

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 
@@ -59,6 +60,23 @@ class SavitzkyGolay:
     """Length of the window; s."""
     order: int
     """Order of the polynomial."""
+    least_samples: int = 0
+    """Samples that the window holds at least where it is widened for a slow stream."""
+    widest_s: float = 0.0
+    """Length to which it may be widened; s; 0 for a window that is not."""
+
+    def doubled(self) -> SavitzkyGolay:
+        """Give the window of twice the length, by which flattening is estimated.
+
+        Returns:
+            The window, with twice the length wherever it is widened too.
+        """
+        return replace(
+            self,
+            window_s=2.0 * self.window_s,
+            least_samples=2 * self.least_samples - 1 if self.least_samples else 0,
+            widest_s=2.0 * self.widest_s,
+        )
 
     def __post_init__(self) -> None:
         if not 0.0 < self.window_s < math.inf or self.order < 0:
@@ -66,6 +84,11 @@ class SavitzkyGolay:
                 f"Savitzky-Golay: expected a finite window above 0 s and an order of at least 0, "
                 f"got {self.window_s:g} s and {self.order}"
             )
+
+
+DERIVATIVE_WINDOW: Final = SavitzkyGolay(window_s=0.3, order=3, least_samples=5, widest_s=2.0)
+"""Window of derivatives where the experiment file specifies none: of streams below 10 Hz it is as long as the fewest
+samples that leave a residual, down to 2 Hz; slower stamps are poses at rest, or in another unit."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -114,10 +137,13 @@ class EvenGrid:
             RecordingError: If they cannot carry the order of the filter.
         """
         length = 2 * int(round(0.5 * window.window_s / self.period_s)) + 1
+        if (window.least_samples - 1) * self.period_s <= window.widest_s:
+            length = max(length, window.least_samples)
         if length <= window.order:
             raise RecordingError(
                 f"Savitzky-Golay: a window of {window.window_s:g} s holds {length} sample(s) of {self.period_s:.4g} s, "
-                f"which cannot carry order {window.order}; lengthen the window, or specify the stamps in their unit"
+                f"which cannot carry order {window.order}; lengthen the window, or specify the stamps in their unit, "
+                'or as "row" where each row is a pose at rest'
             )
         return length
 

@@ -154,7 +154,8 @@ def _stored_support(support: Support | MovingSupport | None) -> dict[str, Any] |
         return None
     if isinstance(support, Support):
         return {"frame": support.frame, "gravity_direction": support.gravity_direction.tolist()}
-    return {"frame": support.frame, "motion_streams": list(support.motion_streams)}
+    unknown = {"is_unknown": True} if support.is_unknown else {}
+    return {"frame": support.frame, "motion_streams": list(support.motion_streams), **unknown}
 
 
 def _support(entry: Mapping[str, Any]) -> Support | MovingSupport:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any, Self
+from typing import Any, Final, Self
 
 import numpy as np
 
@@ -14,6 +14,9 @@ from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, 
 from forcetorque.base.errors import RecordingError, ShapeError, known_names
 from forcetorque.base.labelled_arrays import AXIS, TIME, LabelledArray, xarray_dataset
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
+
+ROW_CLOCK: Final = "row"
+"""Clock of samples without times, each of a robot at rest: sample k is stamped k seconds."""
 
 
 class Labels(StrEnum):

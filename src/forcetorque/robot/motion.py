@@ -16,7 +16,7 @@ from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.smoothing import SavitzkyGolay, smooth_columns
-from forcetorque.recording.stream import Signal, Stream
+from forcetorque.recording.stream import ROW_CLOCK, Signal, Stream
 from forcetorque.robot.model import Joint, JointType, RobotModel
 
 _UNIT = 1e-6
@@ -247,7 +247,8 @@ def joint_motion_at(
         logged_derivatives: Whether velocities and accelerations are taken from the log instead.
 
     Returns:
-        The motion; shape (n, j) each; NaN where a stream has a gap.
+        The motion; shape (n, j) each; NaN where a stream has a gap. Samples without times are poses at rest: their
+        velocities and accelerations are zero.
 
     Raises:
         RecordingError: If a joint is in no stream, or the log lacks derivatives that are to be taken from it.
@@ -258,7 +259,9 @@ def joint_motion_at(
         motion[quantity] = np.empty((len(at_ns), len(joints)))
         for stream, signal, columns in _holders(recording, joints, source):
             values = signal.values[:, [signal.columns.index(joints[k]) for k in columns]]
-            if derivative and not logged_derivatives:
+            if derivative and stream.clock == ROW_CLOCK:
+                values = np.zeros_like(values)
+            elif derivative and not logged_derivatives:
                 values = smooth_columns(stream.stamp_ns, values, window, derivative=derivative)
             motion[quantity][:, columns] = interpolate(stream, values, at_ns)
     return JointMotion(names=tuple(joints), **motion)

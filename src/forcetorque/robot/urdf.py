@@ -15,7 +15,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, MissingFileError, RobotError
 from forcetorque.base.inertia import Inertia
-from forcetorque.base.input_file import read_xml
+from forcetorque.base.input_file import read_xml, xml_of_text
 from forcetorque.base.pose import make_pose, rotation_from_rpy, split_pose
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, Mimic, RobotModel, SensorFrame
@@ -290,21 +290,37 @@ def read_urdf(path: Path | str) -> RobotModel:
     file = Path(path)
     if not file.is_file():
         raise MissingFileError(f"{file}: expected a URDF file, there is none")
-    robot = read_xml(file)
+    return _robot(read_xml(file), str(file), file.stem)
+
+
+def read_urdf_text(text: str, *, where: str) -> RobotModel:
+    """Read a robot from URDF that is no file, such as a message.
+
+    Args:
+        text: The URDF.
+        where: What has it, for messages.
+
+    Returns:
+        The robot, as of `read_urdf`.
+    """
+    return _robot(xml_of_text(text, where=where), where, "robot")
+
+
+def _robot(robot: Element | None, where: str, name: str) -> RobotModel:
     if robot is None or robot.tag != "robot":
         got = "nothing" if robot is None else f"<{robot.tag}>"
-        raise FormatError(f"{file}: expected the root element <robot>, got {got}; expand xacro files first")
-    place = UrdfPlace(str(file))
+        raise FormatError(f"{where}: expected the root element <robot>, got {got}; expand xacro files first")
+    place = UrdfPlace(where)
     joints = _by_name(place, "joint", robot.findall("joint"), _read_joint)
     try:
         return RobotModel(
-            name=robot.get("name", file.stem),
+            name=robot.get("name", name),
             links=_by_name(place, "link", robot.findall("link"), _read_link),
             joints=joints,
             sensors=read_sensors(place, robot),
         )
     except RobotError as error:
-        raise RobotError(f"{file}: {error}") from error
+        raise RobotError(f"{where}: {error}") from error
 
 
 def _by_name(

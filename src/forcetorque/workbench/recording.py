@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError, known_names
-from forcetorque.base.toml_file import read_toml
+from forcetorque.base.toml_file import one_for_each, read_toml
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.input_files import Inputs, stated_in
@@ -274,9 +274,7 @@ def _loads(content: BenchFile, inputs: Inputs) -> BenchLoads:
 
 
 def _full_scale(sensor: BenchSensorTable, channels: int) -> FloatArray:
-    limits = sensor.full_scale
-    if isinstance(limits, float):
-        return np.full(channels, limits)
+    limits = one_for_each(sensor.full_scale, channels)
     if len(limits) != channels:
         raise ExperimentError(
             f"sensor.full_scale: expected a number for each of {channels} channels, got {len(limits)}"

@@ -39,6 +39,10 @@ class Types:
         counter = {"seq": k + 1} if self.ros1 else {}
         return self.make("std_msgs/msg/Header", stamp=time, frame_id=frame, **counter)
 
+    def text(self, value: str) -> Any:
+        """A text."""
+        return self.make("std_msgs/msg/String", data=value)
+
     def vector(self, values: Iterable[float]) -> Any:
         """Three numbers."""
         x, y, z = map(float, values)

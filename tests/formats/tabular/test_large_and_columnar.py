@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from dataclasses import replace
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ import pytest
 from forcetorque.base.errors import FormatError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.formats.tabular import row_readers as text
+from forcetorque.formats.tabular.log_format import sketch_table
 from forcetorque.formats.tabular.table import read_frame, read_table
 from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 from forcetorque.recording.stream import Stream
@@ -114,6 +116,47 @@ def test_parquet_with_any_type_of_stamp(tmp_path: Path, kind: str) -> None:
     values = _stream(tmp_path / "log").signal("wrench").values
     assert np.isnan(values[0, 0])
     assert np.isfinite(values).sum() == 6 * ROWS - 1
+
+
+LISTS = {
+    "list": pa.list_(pa.float64()),
+    "large list": pa.large_list(pa.float64()),
+    "fixed length": pa.list_(pa.float64(), 6),
+}
+OF_LIST = TableLayout(
+    stamp=LAYOUT.stamp, signals=(replace(WRENCH, columns=tuple(f"wrench[{k}]" for k in range(len(WRENCH.columns)))),)
+)
+
+
+@pytest.mark.parametrize("kind", LISTS)
+def test_lists_of_parquet_are_a_column_per_element(tmp_path: Path, kind: str) -> None:
+    """As the same numbers in columns, also beside lists of texts; an empty cell is a missing value."""
+    columns = _columns(ROWS)
+    rows = np.column_stack([columns[name] for name in WRENCH_COMPONENTS]).tolist()
+    table = {"t": columns["t"], "wrench": pa.array(rows, type=LISTS[kind]), "tags": [["a", "b"]] * ROWS}
+    path = tmp_path / "log"
+    pq.write_table(pa.table(table), path, row_group_size=70)
+    _same(_stream(path, OF_LIST))
+    sketch = sketch_table(path)
+    assert [column.name for column in sketch.columns] == ["t", *OF_LIST.signals[0].columns, "tags"]
+    assert [column.is_number for column in sketch.columns] == [True] * 7 + [False]
+    assert sketch.columns[3].largest == columns["fz"].max()
+    pq.write_table(pa.table(table | {"wrench": pa.array([None, *rows[1:]], type=LISTS[kind])}), path)
+    values = _stream(path, OF_LIST).signal("wrench").values
+    assert np.isnan(values[0]).all()
+    assert np.isfinite(values[1:]).all()
+
+
+def test_lists_of_several_lengths_are_refused_by_their_row(tmp_path: Path) -> None:
+    """Which element is missing is not known; a name beyond the first list is no column."""
+    rows = [[float(k)] * (5 if k == 150 else 6) for k in range(ROWS)]
+    path = tmp_path / "log"
+    pq.write_table(pa.table({"t": _columns(ROWS)["t"], "wrench": rows}), path, row_group_size=70)
+    with pytest.raises(FormatError, match=r"log: row 151: column 'wrench': expected a list of 6 numbers .*, got 5$"):
+        _stream(path, OF_LIST)
+    beyond = replace(OF_LIST.signals[0], columns=(*OF_LIST.signals[0].columns[:5], "wrench[6]"))
+    with pytest.raises(FormatError, match=r"expected one column 'wrench\[6\]'"):
+        _stream(path, replace(OF_LIST, signals=(beyond,)))
 
 
 def _replaced_in_footer(path: Path, old: bytes, new: bytes) -> None:

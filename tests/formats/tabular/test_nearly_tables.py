@@ -116,7 +116,11 @@ def test_a_quote_that_is_not_closed_is_refused_by_its_line(tmp_path: Path, line:
             ":2: .*or as 2026-11-23T10:05:03.123, got '14.11.2023 22.* in column 1;",
         ),
         (_text([["22:13:20.004", *row[1:]] for row in ROWS]), "utf-8", ":2: .*got '22:13.* in column 1;"),
-        (_text(ROWS).replace("\n", ",\n").replace(",\n", "\n", 1), "utf-8", ":1: .*7 headings and 8 columns"),
+        (
+            _text(ROWS).replace("\n", ",\n").replace(",\n", "\n", 1),
+            "utf-8",
+            ":1: .*7 headings and 8 columns.*skip_rows = 1 and column_names",
+        ),
         (_text([["1", *["2,500"] * 6]] * 30, delimiter=";"), "utf-8", ":2: .*'2,500' in column 2,.*thousands"),
         (_text(ROWS), "utf-16-le", "UTF-16; save it as UTF-8"),
         (_text(ROWS, headings=["t", "fx", "fy", "fz", "tx", "ty", "°"]), "cp1252", "another encoding than UTF-8"),

@@ -64,6 +64,77 @@ def drafted() -> str:
     return draft_experiment([FOLDER / "log.csv"], urdf=FOLDER / "robot.urdf").content
 
 
+SENSORS_OWN = {
+    "ATI": "Time (s),Fx (N),Fy (N),Fz (N),Tx (Nm),Ty (Nm),Tz (Nm)",
+    "Robotiq": "time_s,Fx [N],Fy [N],Fz [N],Mx [Nm],My [Nm],Mz [Nm]",
+    "OnRobot": "timestamp_s,force_x [N],force_y [N],force_z [N],torque_x [Nm],torque_y [Nm],torque_z [Nm]",
+    "Bota": "stamp_s,force.x [N],force.y [N],force.z [N],torque.x [Nm],torque.y [Nm],torque.z [Nm]",
+}
+
+
+@pytest.mark.parametrize("maker", SENSORS_OWN)
+def test_a_table_of_a_sensor_alone_asks_for_the_sensor_alone(tmp_path: Path, maker: str) -> None:
+    """No column says how it is held, so nothing is asked of that; a thermometer is its variable; the file is read."""
+    rows = np.column_stack(
+        [0.01 * np.arange(300), np.random.default_rng(5).normal(size=(300, 6)), 30.0 + np.zeros(300)]
+    )
+    text = "\n".join([f"{SENSORS_OWN[maker]},temperature [degC]", *(",".join(map(str, row)) for row in rows)])
+    (tmp_path / "log.csv").write_text(f"{text}\n")
+    draft = draft_experiment(tmp_path / "log.csv", tmp_path / "x.toml")
+    assert [question.key for question in draft.questions] == ["serial", "full_scale"]
+    content = tomllib.loads(draft.content)
+    assert content["load"] == {"frame": "ft_sensor", "motion": "none"}
+    assert content["sensor"][0]["variable"] == [{"name": "temperature"}]
+    (tmp_path / "x.toml").write_text(answered(draft.content, ANSWERS))
+    (sensor,) = load_experiment(tmp_path / "x.toml").sensors
+    assert sensor.variables[0].linear.unit == "degC"
+    assert [row.kind for row in inspect_log(tmp_path / "x.toml").findings] == []
+
+
+NAMES = ("t", "fx", "fy", "fz", "tx", "ty", "tz")
+
+
+def _numbers(path: Path, head: str = "") -> Path:
+    rows = np.column_stack([0.01 * np.arange(300), np.random.default_rng(5).normal(size=(300, 6))])
+    path.write_text(head + "".join(",".join(f"{value:.6g}" for value in row) + "\n" for row in rows))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("head", "skipped"), [("", 0), ("time,force,moment\n", 1), ("a,b,c,d,e,f,g\n", 1)], ids=["none", "few", "others"]
+)
+def test_named_columns_of_a_table_without_headings_make_a_sensor(tmp_path: Path, head: str, skipped: int) -> None:
+    """Also below a line of fewer headings, and in place of others; the file then holds the keys."""
+    log = _numbers(tmp_path / "log.csv", head)
+    text = draft_experiment(log, tmp_path / "x.toml", column_names=NAMES).content
+    content = tomllib.loads(text)
+    (entry,) = content["recording"]["stream"]
+    assert entry["column_names"] == list(NAMES)
+    assert entry.get("skip_rows", 0) == skipped
+    assert entry["signal"][0]["columns"] == list(NAMES[1:])
+    assert content["sensor"][0]["name"] == "ft_sensor"
+    for wrong in (NAMES[:-1], (*NAMES[:-1], "t")):
+        with pytest.raises(FormatError, match="expected a name for each of 7 columns, each once"):
+            draft_experiment(log, column_names=wrong)
+
+
+def test_a_table_without_headings_says_how_to_name_its_columns(tmp_path: Path) -> None:
+    """At once, with an example that can be typed; the question has it as the value of the key."""
+    log = _numbers(tmp_path / "log.csv")
+    draft = draft_experiment(log)
+    assert f"forcetorque init {log} --column-names t,fx,fy,fz,tx,ty,tz`" in draft.notes[0]
+    assert draft.questions[0].key == "column_names"
+    assert 'as ["t", "fx", "fy", "fz", "tx", "ty", "tz"]' in draft.questions[0].question
+
+
+def test_elements_of_lists_are_matched_by_the_name_and_length_of_the_list() -> None:
+    """As arrays are; elements without the first, and lists of another length, are nothing."""
+    names = [f"observation.wrench[{k}]" for k in range(6)] + ["observation.temperature"]
+    names += [f"acc[{k}]" for k in range(3)] + [f"ft[{k}]" for k in range(1, 7)] + [f"gyro[{k}]" for k in range(4)]
+    seen = {one.quantity: one.columns for one in column_matches([read_heading(name) for name in names], [])}
+    assert seen == {"wrench": (0, 1, 2, 3, 4, 5), "temperature": (6,), "proper_acceleration": (7, 8, 9)}
+
+
 def test_what_is_left_is_asked_and_what_is_known_is_not(drafted: str) -> None:
     """Units stand in the headings and joints are called as in the URDF; sensor, sign and gravity are asked."""
     assert _keys(drafted) == list(ANSWERS)

@@ -18,6 +18,7 @@ from forcetorque.app.python.given_numbers import brief, numbers
 from forcetorque.app.python.tables import experiment_of_tables, stream_of_arrays
 from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.toml_file import one_for_each
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.urdf import read_urdf
@@ -109,7 +110,7 @@ def experiment_of_arrays(
         judge: Span that judges, or several, in the same way; none if left out.
         serial: Serial number of the sensor.
         prior: Matrix that it was calibrated with before; shape (6, c); N/count, N m/count; None where there is none.
-        full_scale: Full scale of its components; shape (6,); N, N m.
+        full_scale: Full scale of its components; shape (6,), or one number for all; N, N m.
         limit_counts: Largest magnitude of a raw reading, at which it saturates; counts; that of 16 bits if left out.
         quantity: Whether the reading is `raw` or a calibrated `wrench`, which needs the prior that made it, or
             `numpy.eye(6)` with `full_scale` where that is not known.
@@ -192,7 +193,7 @@ def _robot(robot: RobotModel | Path | str) -> RobotModel:
 
 
 def _full_scale(given: Any) -> FloatArray:
-    full_scale = numbers(given, "full_scale")
+    full_scale = numbers(one_for_each(given, 6), "full_scale")
     require_shape(full_scale, name="full_scale", shape=(6,))
     if not (np.isfinite(full_scale) & (full_scale > 0.0)).all():
         raise ExperimentError(f"full_scale: expected six finite numbers above 0, N and N m, got {full_scale.tolist()}")

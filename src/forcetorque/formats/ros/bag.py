@@ -175,11 +175,12 @@ class Bag:
                 raise FormatError(f"{self.path}: topic {connection.topic!r}: expected one type of message, got two")
         return types
 
-    def messages(self, topic: str) -> Iterator[tuple[IntArray, list[bytes]]]:
+    def messages(self, topic: str, *, largest: int = LARGEST_MESSAGE) -> Iterator[tuple[IntArray, list[bytes]]]:
         """Give the messages of a topic.
 
         Args:
             topic: The topic.
+            largest: Bytes that a message may have.
 
         Yields:
             When some messages were received, shape (k,), ns, and their bytes.
@@ -192,8 +193,8 @@ class Bag:
         data: list[bytes] = []
         for _, stamp, message in self.reader.messages(connections=connections):
             content = self.unpack(message)
-            if len(content) > LARGEST_MESSAGE:
-                raise FormatError(f"{self.path}: {topic}: expected messages of at most {LARGEST_MESSAGE} bytes")
+            if len(content) > largest:
+                raise FormatError(f"{self.path}: {topic}: expected messages of at most {largest} bytes")
             stamps.append(stamp)
             data.append(content)
             if len(data) == BATCH_MESSAGES:

@@ -14,7 +14,14 @@ from pydantic import Field
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ForceTorqueError, FormatError, known_names
 from forcetorque.base.toml_file import Table, Text
-from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable, StreamReading
+from forcetorque.formats.log_format import (
+    LogContext,
+    LogDescription,
+    LoggedRobot,
+    LogReading,
+    LogTable,
+    StreamReading,
+)
 from forcetorque.formats.ros.bag import Bag, bag_files, is_bag, opened_bag
 from forcetorque.formats.ros.messages import (
     IMU_TYPE,
@@ -26,6 +33,7 @@ from forcetorque.formats.ros.messages import (
     decode,
     not_measured,
 )
+from forcetorque.formats.ros.robot_topics import is_description, is_static, robot_of_bag
 from forcetorque.formats.signals import SPECIFY_SENSE, WorldTable
 from forcetorque.recording.frames import QUATERNION_XYZW, OrientationLayout, OrientationSense, orientation_signals
 from forcetorque.recording.recording import Finding
@@ -294,7 +302,7 @@ class RosFormat:
         unread: list[Finding] = []
         with opened_bag(path) as bag:
             for topic, kind in sorted(bag.types.items()):
-                reason = _not_described(kind)
+                reason = _not_described(topic, kind)
                 if reason is None:
                     try:
                         readings[topic] = _read(bag, RosStream(name=topic, topic=topic), {})
@@ -319,6 +327,11 @@ class RosFormat:
             reading=LogReading.of(readings.values(), unread=unread, origin={"format": "ros", "path": str(path)}),
         )
 
+    def robot(self, path: Path) -> LoggedRobot:
+        """Read `robot_description` and `tf_static`."""
+        with opened_bag(path) as bag:
+            return robot_of_bag(bag)
+
     def read(self, specified: RosLog, context: LogContext) -> LogReading:
         """Read every topic that is specified."""
         is_file = bool(specified.path.suffix in (".bag", ".mcap", ".db3"))
@@ -332,7 +345,11 @@ class RosFormat:
         return LogReading.of(readings)
 
 
-def _not_described(kind: str) -> str | None:
+def _not_described(topic: str, kind: str) -> str | None:
+    if is_description(topic, kind):
+        return "the URDF of the robot, which `forcetorque init` takes where no --urdf is given"
+    if is_static(topic, kind):
+        return "fixed frames: `forcetorque init` looks for those of sensors that the URDF lacks"
     if kind in POSE_TYPES:
         return "poses: specify frame, whose they are, and world, in which they are seen, for each that is wanted"
     if kind == QUATERNION_TYPE:

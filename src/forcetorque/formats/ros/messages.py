@@ -225,6 +225,8 @@ MESSAGES: dict[str, Callable[[Cursor], tuple[Fields, ...]]] = {
     "tf/msg/tfMessage": transforms,
 }
 """How to find the fields, by the type of message."""
+TRANSFORM_TYPES = tuple(name for name, find in MESSAGES.items() if find is transforms)
+"""Types of transforms of tf."""
 _POSES = (transforms, transform_stamped, odometry, pose_stamped)
 POSE_TYPES = tuple(name for name, find in MESSAGES.items() if find in _POSES)
 """Types of poses of a frame: as ROS has it they rotate vectors along its axes to those of the header's frame."""

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from forcetorque.base.errors import FormatError
 from forcetorque.formats.headings import headings_of, named_columns, repeated_heading_message
 from forcetorque.formats.tabular.numbers import is_date
 from forcetorque.formats.tabular.table_layout import cells_of, open_text
@@ -117,6 +118,36 @@ def table_form(text: str) -> TableForm | None:
         if _is_below(form, lines[:first], lines[first:]):
             return _with_units(replace(form, skipped=tuple(lines[:count])), lines)
     return None
+
+
+def named_form(path: Path, text: str, names: Sequence[str]) -> TableForm | None:
+    """Find how a text holds a table whose columns have names that are not its own.
+
+    Args:
+        path: The file, for messages.
+        text: Its first lines.
+        names: Names of all columns.
+
+    Returns:
+        The form, in which a line of headings is one in front; None where the text holds no table.
+
+    Raises:
+        FormatError: If the names are not one for each column.
+    """
+    form = table_form(text)
+    if form is None:  # the first line may have fewer headings than there are columns
+        first, _, rest = text.partition("\n")
+        form = table_form(rest)
+        form = None if form is None or form.has_headings else replace(form, skipped=(first, *form.skipped))
+    if form is None:
+        return None
+    if len(names) != len(form.names) or len(set(names)) < len(names) or not all(names):
+        raise FormatError(
+            f"{path}: expected a name for each of {len(form.names)} columns, each once, got {len(names)}: "
+            f"{', '.join(names)}"
+        )
+    skipped = tuple(text.splitlines()[: form.lines_above])
+    return replace(form, names=tuple(names), has_headings=False, names_apart=False, skipped=skipped)
 
 
 def repeated_headings(lines: Sequence[str]) -> tuple[str, ...]:
@@ -323,7 +354,9 @@ def _of_rows(rows: Sequence[Sequence[str]], numbers: Sequence[int], delimiter: s
         if not any(row[-1] for row in below):
             got += f": a {delimiter!r} ends each row"
         return (
-            f"{numbers[0]}: expected a heading for every column, got {got}; make the first line as long as the others"
+            f"{numbers[0]}: expected a heading for every column, got {got}; make the first line as long as the others, "
+            f"or specify skip_rows = {numbers[0]} and column_names of [[recording.stream]]: in `forcetorque init` "
+            "--column-names with a name for each column, between commas"
         )
     for k, cell in enumerate(below[0], start=1):
         if _DATE.match(cell) and not is_date(cell):

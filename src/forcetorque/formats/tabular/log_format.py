@@ -31,7 +31,14 @@ from forcetorque.formats.log_format import (
     sketched_numbers,
 )
 from forcetorque.formats.signals import SpecifiedRate, SpecifiedSignal
-from forcetorque.formats.tabular.dialect import LOOKED_AT, MOST_COLUMNS, first_lines, rejection_reason, table_form
+from forcetorque.formats.tabular.dialect import (
+    LOOKED_AT,
+    MOST_COLUMNS,
+    first_lines,
+    named_form,
+    rejection_reason,
+    table_form,
+)
 from forcetorque.formats.tabular.numbers import ISO8601, column_of_dates
 from forcetorque.formats.tabular.row_readers import (
     first_batch,
@@ -105,19 +112,24 @@ def is_table(path: Path) -> bool:
     return form is not None and (form.has_headings or form.delimiter != " ")
 
 
-def sketch_table(path: Path) -> LogSketch:
-    """Look at a table that is recognised.
+def sketch_table(path: Path, names: Sequence[str] = ()) -> LogSketch:
+    """Look at a table that is recognised, or whose columns are named.
 
     Args:
         path: The file.
+        names: Names of all columns, of a text whose first lines do not name them; none for those of the file.
 
     Returns:
         Its columns.
 
     Raises:
-        FormatError: If it is no table after all.
+        FormatError: If it is no table after all, or the names are not those of its columns.
     """
-    return _sketch_parquet(path) if is_parquet_file(path) else _sketch_text(path)
+    if not is_parquet_file(path):
+        return _sketch_text(path, tuple(names))
+    if names:
+        raise FormatError(f"{path}: expected no names of columns: a Parquet file has its own; leave them out")
+    return _sketch_parquet(path)
 
 
 def _sketch_parquet(path: Path) -> LogSketch:
@@ -132,9 +144,9 @@ def _sketch_parquet(path: Path) -> LogSketch:
     return _with_extents(sketch, parquet_batches(path, numeric), numeric, 0 if batch is None else len(batch))
 
 
-def _sketch_text(path: Path) -> LogSketch:
+def _sketch_text(path: Path, names: tuple[str, ...]) -> LogSketch:
     text = first_lines(path)
-    form = table_form(text)
+    form = named_form(path, text, names) if names else table_form(text)
     if form is None:
         raise FormatError(
             rejection_reason(path)
@@ -162,7 +174,8 @@ def _sketch_text(path: Path) -> LogSketch:
         decimal=form.decimal,
         skipped=form.skipped,
         names_apart=form.names_apart,
-        has_headings=form.has_headings,
+        has_headings=form.has_headings and not names,
+        names_specified=bool(names),
         quaternion=_unit_fours(table),
     )
     numeric = [column.name for column in sketch.columns if column.smallest is not None]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -14,6 +15,7 @@ import pyarrow.csv as pacsv
 from forcetorque.base.arrow import arrow_text, require_small_parquet
 from forcetorque.base.errors import FormatError, known_names
 from forcetorque.formats.headings import named_columns, repeated_heading_message
+from forcetorque.formats.tabular.list_columns import FlatColumns
 from forcetorque.formats.tabular.numbers import ISO8601
 from forcetorque.formats.tabular.table_layout import (
     Rows,
@@ -204,8 +206,15 @@ def _placed(
             return FormatError(f"{file}:{number}: expected a quote on either side of a cell, got one; delete it")
         fields = cells_of(row, layout.delimiter)
         if len(fields) != len(names):
+            unnamed = layout.column_names is None and number == first_line == layout.skip_rows + 2
+            remedy = (
+                f"; if line {number - 1} does not name them all, specify skip_rows = {number - 1} and column_names"
+                if unnamed
+                else ""
+            )
             return FormatError(
-                f"{file}:{number}: expected {len(names)} columns separated by {layout.delimiter!r}, got {len(fields)}"
+                f"{file}:{number}: expected {len(names)} columns separated by {layout.delimiter!r}, got "
+                f"{len(fields)}{remedy}"
             )
         for name, k in wanted.items():
             try:
@@ -261,13 +270,13 @@ def parquet_rows(file: Path, layout: TableLayout) -> Rows:
     if layout.column_names is not None or layout.skip_rows:
         key = "column_names" if layout.column_names is not None else "skip_rows"
         raise FormatError(f"{file}: expected no {key}: a Parquet file has its own columns and no lines; delete the key")
-    table = _opened(file)
-    columns = _require_columns(str(file), layout, list(table.schema_arrow.names))
+    table, flat = _opened(file)
+    columns = _require_columns(str(file), layout, flat.names)
     require_small_parquet(file, table.metadata, columns)
     return Rows(
         name=str(file),
         count=table.metadata.num_rows,
-        batches=_parquet_batches(file, table, columns),
+        batches=_parquet_batches(file, table, flat, columns),
         place=lambda row: _row(file, row),
     )
 
@@ -285,7 +294,7 @@ def parquet_batches(file: Path, columns: Sequence[str]) -> Iterator[Any]:
     Raises:
         FormatError: If it is damaged.
     """
-    return _parquet_batches(file, _opened(file), columns)
+    return _parquet_batches(file, *_opened(file), columns)
 
 
 def parquet_columns(file: Path) -> list[str]:
@@ -295,9 +304,9 @@ def parquet_columns(file: Path) -> list[str]:
         file: The file.
 
     Returns:
-        Their names.
+        Their names, of lists those of the elements.
     """
-    return list(_opened(file).schema_arrow.names)
+    return list(_opened(file)[1].names)
 
 
 def parquet_size(file: Path) -> tuple[list[str], int]:
@@ -309,8 +318,8 @@ def parquet_size(file: Path) -> tuple[list[str], int]:
     Returns:
         Names, and number of rows.
     """
-    table = _opened(file)
-    return list(table.schema_arrow.names), int(table.metadata.num_rows)
+    table, flat = _opened(file)
+    return list(flat.names), int(table.metadata.num_rows)
 
 
 def first_batch(file: Path) -> Any:
@@ -325,23 +334,25 @@ def first_batch(file: Path) -> Any:
     Raises:
         FormatError: If it is damaged.
     """
-    table = _opened(file)
-    rows = max(1, _FIRST_CELLS // max(len(table.schema_arrow.names), 1))
+    table, flat = _opened(file)
+    rows = max(1, _FIRST_CELLS // max(len(flat.names), 1))
     try:
-        return next(table.iter_batches(batch_size=rows), None)
+        batch = next(table.iter_batches(batch_size=rows), None)
+        return None if batch is None else flat.flattened(batch, flat.names, lambda row: _row(file, row))
+    except FormatError:
+        raise
     except _READ_ERRORS as error:
         raise FormatError(_damaged(file, error)) from error
 
 
-def _opened(file: Path) -> Any:
+def _opened(file: Path) -> tuple[Any, FlatColumns]:
     import pyarrow.parquet as pq
 
     try:
         table = pq.ParquetFile(file)
-        table.schema_arrow.names  # noqa: B018 - read here, where its damage is an error of ours
+        return table, FlatColumns.of(table)
     except _READ_ERRORS as error:
         raise FormatError(_damaged(file, error)) from error
-    return table
 
 
 def frame_rows(frame: Any, layout: TableLayout) -> Rows:
@@ -366,7 +377,7 @@ def frame_rows(frame: Any, layout: TableLayout) -> Rows:
     return Rows(name="data frame", count=len(table), batches=batches, place=lambda row: _row("data frame", row))
 
 
-def _require_columns(name: str, layout: TableLayout, names: list[str]) -> list[str]:
+def _require_columns(name: str, layout: TableLayout, names: Sequence[str]) -> list[str]:
     columns = wanted_columns(layout)
     for column in columns:
         if names.count(column) != 1:
@@ -374,10 +385,15 @@ def _require_columns(name: str, layout: TableLayout, names: list[str]) -> list[s
     return columns
 
 
-def _parquet_batches(file: Path, table: Any, columns: Sequence[str]) -> Iterator[Any]:
+def _parquet_batches(file: Path, table: Any, flat: FlatColumns, columns: Sequence[str]) -> Iterator[Any]:
+    sources, start = flat.sources(columns), 0
     try:
         for group in range(table.metadata.num_row_groups):  # one at a time: a request for all makes Arrow hold them all
-            yield from table.iter_batches(batch_size=BATCH_ROWS, row_groups=[group], columns=list(columns))
+            for batch in table.iter_batches(batch_size=BATCH_ROWS, row_groups=[group], columns=sources):
+                yield flat.flattened(batch, columns, partial(_shifted_row, file, start))
+                start += len(batch)
+    except FormatError:
+        raise
     except _READ_ERRORS as error:
         raise FormatError(_damaged(file, error)) from error
 
@@ -386,6 +402,10 @@ def _damaged(name: Path | str, error: BaseException) -> FormatError:
     return FormatError(
         f"{name}: expected a whole table, got one that cannot be read: {' '.join(str(error).split())[:200]}"
     )
+
+
+def _shifted_row(name: Path | str, first: int, row: int) -> str:
+    return _row(name, first + row)
 
 
 def _row(name: Path | str, row: int) -> str:

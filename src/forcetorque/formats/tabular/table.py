@@ -29,10 +29,7 @@ from forcetorque.formats.tabular.row_readers import (
 from forcetorque.formats.tabular.table_layout import EvenRows, Rows, StampColumn, TableLayout, TableSignal
 from forcetorque.recording.frames import OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
-from forcetorque.recording.stream import QUANTITIES, Signal, Stream
-
-ROW_CLOCK = "row"
-"""Clock of a table without times: row k is stamped k seconds."""
+from forcetorque.recording.stream import QUANTITIES, ROW_CLOCK, Signal, Stream
 
 ROW_NS = 1_000_000_000
 """Time between rows that have none."""

@@ -3,21 +3,19 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
-from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_bytes_atomically
 from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
-from forcetorque.formats.log_format import not_read_message
-from forcetorque.formats.registry import format_named
+from forcetorque.formats.log_format import LoggedRobot, not_read_message
+from forcetorque.inspection.draft.first_look import read_drafted
 from forcetorque.inspection.draft.gravity import GravityFit, fit_gravity
 from forcetorque.inspection.draft.intervals import (
     DraftedInterval,
@@ -28,6 +26,7 @@ from forcetorque.inspection.draft.intervals import (
 )
 from forcetorque.inspection.draft.joints import standing_lines
 from forcetorque.inspection.draft.log import draft_log, recording_lines
+from forcetorque.inspection.draft.logged_robot import difference, logged_robot, model_of, with_fixed_frame
 from forcetorque.inspection.draft.sensors_and_supports import (
     DraftedSensor,
     base_of_arm,
@@ -40,9 +39,10 @@ from forcetorque.inspection.draft.sensors_and_supports import (
     support_lines,
 )
 from forcetorque.inspection.draft.streams import DraftedLog, relative
+from forcetorque.inspection.draft.tables_and_arrays import example_names
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
-from forcetorque.recording.recording import Recording
+from forcetorque.recording.recording import NO_MOTION, Recording
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -68,6 +68,8 @@ class QuestionRow(Row):
 class Draft(Result):
     """A draft of an experiment file."""
 
+    of_several: ClassVar[tuple[str, ...]] = ("robot_file",)
+
     schema_name: Literal["forcetorque/init/1"] = Field(default="forcetorque/init/1", alias="schema")
     """Form of the result."""
     file: str
@@ -80,6 +82,8 @@ class Draft(Result):
     """Questions to answer."""
     notes: tuple[str, ...]
     """Findings about the log, and reasons for what is unknown."""
+    robot_file: str | None = None
+    """URDF that was written from the log's own description; None for none."""
     content: str = Field(exclude=True, repr=False)
     """Content of the file."""
 
@@ -97,6 +101,7 @@ class Draft(Result):
             why=self.notes[-1:] if first is None else (f"line {first.line}, {first.key}: {first.question}",),
             step=step,
             command=typed(*("inspect" if count else self._next).split(), self.file),
+            written=() if self.robot_file is None else (self.robot_file,),
             concern=Concern.UNCERTAIN if count else Concern.NONE,
         )
 
@@ -121,7 +126,8 @@ class Draft(Result):
 
     @property
     def _next(self) -> str:
-        return "calibrate -o new.json" if "[[sensor]]" in self.content else "inspect"
+        fitted = "[[sensor]]" in self.content and f"\n{line('motion', NO_MOTION)}" not in self.content
+        return "calibrate -o new.json" if fitted else "inspect"
 
     def columns(self) -> list[str]:
         """Name the columns of the CSV.
@@ -138,6 +144,7 @@ def draft_experiment(
     *,
     urdf: Path | str | None = None,
     log_format: str | None = None,
+    column_names: Sequence[str] = (),
     force: bool = False,
 ) -> Draft:
     """Draft the experiment file of a log.
@@ -149,15 +156,17 @@ def draft_experiment(
     Args:
         logs: A log of any format, or several tables of one recording.
         output: File to write; None to write none.
-        urdf: The robot; None for a wrist sensor whose pose is logged.
+        urdf: The robot; None for that which the log itself describes, which is written beside the file, or for a wrist
+            sensor whose pose is logged.
         log_format: Name of the format; recognised from the files if None.
+        column_names: Names of all columns, of tables whose first lines do not name them; none for those of the files.
         force: Whether an existing file may be replaced.
 
     Returns:
         The file, and its questions.
 
     Raises:
-        OutputError: If the file exists already.
+        OutputError: If the file exists already, or a URDF that would be written beside it.
         ExperimentError: If no log is given.
         FormatError: If the log is of no known format.
     """
@@ -168,10 +177,18 @@ def draft_experiment(
     if not files:
         raise ExperimentError("expected a log to begin an experiment file of, got none")
     folder = Path() if file == STANDARD_OUTPUT else file.parent
-    model = None if urdf is None else read_urdf(Path(urdf))
-    log = draft_log([Path(path) for path in files], model, log_format)
-    robot = None if urdf is None else relative(Path(urdf), folder)
-    text, notes, recording = _written(log, folder, model, robot)
+    paths = [Path(path) for path in files]
+    logged = logged_robot(paths, log_format if not column_names else None)
+    model = model_of(logged) if urdf is None else read_urdf(Path(urdf))
+    log = draft_log(paths, model, log_format, column_names)
+    is_written = output is not None and file != STANDARD_OUTPUT
+    robot_file = file.with_suffix(".urdf") if is_written and urdf is None and logged.urdf is not None else None
+    if robot_file is not None:
+        refuse_output(robot_file, force=force)
+    text, notes, recording = _written(log, folder, model, _robot_line(urdf, robot_file, logged, folder), logged)
+    notes = (*_about_robot(logged, None if urdf is None else Path(urdf), robot_file, model), *notes)
+    if robot_file is not None and logged.urdf is not None:
+        write_bytes_atomically(robot_file, logged.urdf.encode())
     if output is not None:
         write_bytes_atomically(file, text.encode())
     questions = tuple(QuestionRow(line=q.line, key=q.key, question=q.words) for q in unanswered_keys(text))
@@ -181,20 +198,42 @@ def draft_experiment(
         streams={} if recording is None else stream_rows(recording.streams),
         questions=questions,
         notes=notes,
+        robot_file=None if robot_file is None else str(robot_file),
         content=text,
     )
 
 
+def _robot_line(urdf: Path | str | None, robot_file: Path | None, logged: LoggedRobot, folder: Path) -> str | None:
+    """The key of the robot; a question where the log's own description is not written."""
+    if urdf is not None:
+        return line("urdf", relative(Path(urdf), folder))
+    if robot_file is not None:
+        return line("urdf", relative(robot_file, folder), f"written from {logged.source}")
+    if logged.urdf is None:
+        return None
+    return question("urdf", f"file of the robot; `forcetorque init` with -o FILE writes that of {logged.source}")
+
+
+def _about_robot(
+    logged: LoggedRobot, urdf: Path | None, robot_file: Path | None, model: RobotModel | None
+) -> Iterator[str]:
+    if robot_file is not None:
+        yield f"{robot_file}: written from {logged.source}; --urdf takes another robot"
+    if urdf is not None and model is not None and (words := difference(logged, model, urdf)) is not None:
+        yield words
+
+
 def _written(
-    log: DraftedLog, folder: Path, model: RobotModel | None, robot: str | None
+    log: DraftedLog, folder: Path, model: RobotModel | None, robot: str | None, logged: LoggedRobot
 ) -> tuple[str, tuple[str, ...], Recording | None]:
     sensors = draft_sensors(log.streams, model)
+    sensors = tuple(with_fixed_frame(sensor, log.streams, logged, model) for sensor in sensors)
     frames = {sensor.stream: sensor.name for sensor in sensors if not sensor.tags}
     recorded = recording_lines(log, folder, model, frames)
-    recording, reason = _read("\n".join(recorded), folder, sensors, model)
+    recording, reason = read_drafted("\n".join(recorded), folder, sensors, model)
     first_look = recording
     if recording is None:
-        first_look, _ = _read(likeliest_text(recorded), folder, sensors, model)
+        first_look, _ = read_drafted(likeliest_text(recorded), folder, sensors, model)
     base = None if model is None else base_of_arm(model)
     sensors = tuple(_with_evidence(sensor, first_look, model, base) for sensor in sensors)
     if recording is None and any(sensor.evidence for sensor in sensors):
@@ -206,7 +245,7 @@ def _written(
     lines = ['# What is "?" is a question: put the answer there. Every command says which is next.']
     lines += [line("schema", "forcetorque/experiment/1"), line("name", log.paths[0].stem)]
     if robot is not None:
-        lines += ["", "[robot]", line("urdf", robot)]
+        lines += ["", "[robot]", robot]
     if model is not None:
         lines += standing_lines(log, sensors, model, base)
     lines += ["", *recorded, *clock_lines(log, first_look)]
@@ -231,29 +270,6 @@ def _written(
     return "\n".join(lines) + "\n", tuple(notes), recording
 
 
-def _read(
-    text: str, folder: Path, sensors: Sequence[DraftedSensor], model: RobotModel | None
-) -> tuple[Recording | None, str]:
-    """The recording of the table without questions; else the reason why it cannot be read."""
-    if unanswered_keys(text):
-        return None, "the log is read once the questions of [recording] are answered"
-    try:
-        content = tomllib.loads(text)["recording"]
-        known = format_named(content["format"])
-        context = ExperimentContext(
-            experiment=folder / "experiment.toml",
-            inputs=Inputs(folder),
-            sensors={sensor.stream: sensor.name for sensor in sensors},
-            joint_units={} if model is None else {name: joint.type.unit for name, joint in model.joints.items()},
-        )
-        reading = known.read(known.table.model_validate(content), context)
-    except ValidationError as error:
-        return None, f"the log cannot be read yet: {error.errors()[0]['msg']}"
-    except ForceTorqueError as error:
-        return None, f"the log cannot be read yet: {error}"
-    return Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings), ""
-
-
 def _with_evidence(
     sensor: DraftedSensor, recording: Recording | None, model: RobotModel | None, base: str | None
 ) -> DraftedSensor:
@@ -262,7 +278,8 @@ def _with_evidence(
         return sensor
     joints = sensor_joints(sensor, model)[:_MOST_JOINTS]
     stream = recording.stream(sensor.stream)
-    fits = {joint: fit_gravity(model, joint, base, recording, stream) for joint in joints}
+    pose = None if sensor.mount is None else sensor.mount.pose
+    fits = {joint: fit_gravity(model, joint, base, recording, stream, link_H_sensor=pose) for joint in joints}
     evidence = {joint: fit for joint, fit in fits.items() if fit is not None and fit.is_significant}
     return replace(sensor, evidence=evidence)
 
@@ -272,6 +289,12 @@ def _best(sensor: DraftedSensor) -> GravityFit | None:
 
 
 def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel | None) -> Iterator[str]:
+    for table in (stream.table for stream in log.streams if stream.table is not None):
+        if table.is_table and not (table.has_headings or table.names_specified):
+            yield (
+                f"{table.path}: no line of headings, so no sensor is looked for: name its columns, as `forcetorque "
+                f"init {table.path} --column-names {','.join(example_names(table))}` if they are that"
+            )
     for sensor in sensors:
         what = "raw channels" if sensor.is_raw else "a wrench"
         yield f"{sensor.stream}: looks like {what}; sensor {'to be named' if sensor.tags else sensor.name}"
@@ -332,10 +355,17 @@ def _wrist_lines(log: DraftedLog, sensors: Sequence[DraftedSensor]) -> list[str]
     """The `[load]` table of a wrist sensor whose pose is logged."""
     if not sensors:
         return []
+    if all(stream.is_sensor_alone for stream in log.streams):
+        words = "no column says how the sensor is held: inspect it, or `forcetorque bench` thermal or response"
+        warm = any("temperature" in stream.quantities for stream in log.streams)
+        variable = ["", "[[sensor.variable]]", line("name", "temperature")] if warm else []
+        return [*variable, "", "[load]", line("frame", sensors[0].name), line("motion", NO_MOTION, words)]
     posed = [s.name for s in log.streams if {"orientation", "gravity"} & set(s.quantities)]
     poses = posed or [s.name for s in log.streams if "proper_acceleration" in s.quantities]
     # of tables the frame is asked, and has to be that of the sensor; other logs have their own
-    words = "streams with gravity, orientation or acceleration along the axes of the sensor"
+    words = (
+        "streams with gravity, orientation or acceleration along the axes of the sensor, none for a sensor by itself"
+    )
     shown = f", as {toml_value(poses)} if that is turned as the sensor is" if poses else ""
     motion = line("motion", poses) if poses and log.format == "tabular" else question("motion", f"{words}{shown}")
     words = "child_to_parent if a hanging load reads down, parent_to_child if the opposite"

@@ -19,7 +19,7 @@ from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.recording.alignment import interpolate, usable_samples
 from forcetorque.recording.recording import Recording
-from forcetorque.recording.smoothing import SavitzkyGolay
+from forcetorque.recording.smoothing import DERIVATIVE_WINDOW
 from forcetorque.recording.stream import Stream
 from forcetorque.recording.stream_faults import true_runs
 from forcetorque.robot.dynamics import expected_wrenches
@@ -51,7 +51,6 @@ _DEVIATIONS = 5.0
 _MEDIAN_OF_NORM = 1.538
 """Median of the norm of three normal errors of deviation 1."""
 _SURE = 5.0
-_FILTER = SavitzkyGolay(window_s=0.3, order=3)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -103,7 +102,15 @@ class GravityFit:
         return "child_to_parent" if self.inertia < 0.0 else "parent_to_child"
 
 
-def fit_gravity(model: RobotModel, joint: str, support: str, recording: Recording, stream: Stream) -> GravityFit | None:
+def fit_gravity(
+    model: RobotModel,
+    joint: str,
+    support: str,
+    recording: Recording,
+    stream: Stream,
+    *,
+    link_H_sensor: FloatArray | None = None,
+) -> GravityFit | None:
     """Fit the forces of a stream to the orientation of a sensor in a joint.
 
     Args:
@@ -112,17 +119,20 @@ def fit_gravity(model: RobotModel, joint: str, support: str, recording: Recordin
         support: Link that is assumed to be at rest.
         recording: Streams with the joints from the support to the distal links.
         stream: Stream with the wrench.
+        link_H_sensor: Pose of a sensor without a tag in the child link; shape (4, 4); m; None where both are one frame.
 
     Returns:
         The fit; None where too few windows have all joints.
     """
     probe = _probe(model, joint)
+    if link_H_sensor is not None:
+        probe = replace(probe, sensors={_PROBE: replace(probe.sensors[_PROBE], child_H_sensor=link_H_sensor)})
     tree = build_tree(probe, support)
     at_ns, wrench = _windows(stream)
     joints = required_joints(tree, _PROBE)
     if len(at_ns) < _FEWEST or not set(joints) <= set(recording.joint_signals("position")):
         return None
-    motion = joint_motion_at(recording, joints, at_ns, window=_FILTER)
+    motion = joint_motion_at(recording, joints, at_ns, window=DERIVATIVE_WINDOW)
     whole = np.isfinite(motion.position).all(axis=1) & np.isfinite(motion.acceleration).all(axis=1)
     whole &= np.isfinite(wrench).all(axis=1)
     if int(whole.sum()) < _FEWEST:

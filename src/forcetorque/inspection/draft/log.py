@@ -12,10 +12,17 @@ from forcetorque.base.toml_file import OPEN
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.log_format import LogDescription, LogFormat, LogSketch, SketchingFormat
 from forcetorque.formats.registry import format_name, format_named, not_a_log_reason, not_recognised, recognised_format
+from forcetorque.formats.tabular.log_format import sketch_table
 from forcetorque.inspection.draft.joints import joints_question
-from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream, column_matches, relative, time_column
-from forcetorque.inspection.draft.tables_and_arrays import (
+from forcetorque.inspection.draft.streams import (
+    DraftedLog,
+    DraftedStream,
     array_groups,
+    column_matches,
+    relative,
+    time_column,
+)
+from forcetorque.inspection.draft.tables_and_arrays import (
     array_lines,
     array_streams,
     array_time,
@@ -25,17 +32,25 @@ from forcetorque.inspection.draft.tables_and_arrays import (
 from forcetorque.inspection.draft.toml_lines import line, question, toml_value
 from forcetorque.robot.model import RobotModel
 
+_TABLES = "tabular"
+"""Name of the format of tables."""
 _MADE_UP = "joint_"
 """What joints are called that a log only counts."""
 
 
-def draft_log(paths: Sequence[Path], model: RobotModel | None, log_format: str | None = None) -> DraftedLog:
+def draft_log(
+    paths: Sequence[Path],
+    model: RobotModel | None,
+    log_format: str | None = None,
+    column_names: Sequence[str] = (),
+) -> DraftedLog:
     """Look at a log.
 
     Args:
         paths: One log of any format, or several tables of one recording.
         model: The robot, whose joints are looked for by name; None for a wrist sensor without one.
         log_format: Name of the format; it is recognised by what is there if None.
+        column_names: Names of all columns, of tables whose first lines do not name them; none for those of the files.
 
     Returns:
         What can be told of it.
@@ -50,13 +65,17 @@ def draft_log(paths: Sequence[Path], model: RobotModel | None, log_format: str |
         other = not_a_log_reason(path) if log_format is None else None
         if other is not None:
             raise FormatError(other)
+    if column_names and log_format not in (None, _TABLES):
+        raise FormatError(f"{paths[0]}: expected names of columns for tables alone, got a log of format {log_format}")
+    log_format = _TABLES if column_names else log_format
     formats = [recognised_format(path) if log_format is None else format_named(log_format) for path in paths]
     known = _require_one_recording(paths, formats)
     joints = [] if model is None else [name for name, joint in model.joints.items() if joint.type.moves]
     if isinstance(known, SketchingFormat):
+        if format_name(known) == _TABLES:
+            tables = [sketch_table(path, column_names) for path in paths]
+            return DraftedLog(paths=tuple(paths), format=_TABLES, streams=table_streams(tables, joints))
         sketches = [known.sketch(path) for path in paths]
-        if format_name(known) == "tabular":
-            return DraftedLog(paths=tuple(paths), format="tabular", streams=table_streams(sketches, joints))
         return DraftedLog(
             paths=tuple(paths),
             format=format_name(known),
@@ -91,7 +110,7 @@ def recording_lines(log: DraftedLog, folder: Path, model: RobotModel | None, fra
     """
     if log.description is not None:
         return _described_lines(log.description, folder, model)
-    if log.format == "tabular":
+    if log.format == _TABLES:
         return table_lines(log, folder, model, frames)
     return array_lines(log, folder, model, frames)
 
@@ -106,7 +125,7 @@ def _require_one_recording(paths: Sequence[Path], formats: Sequence[LogFormat[An
     for path, form in zip(paths, formats, strict=True):
         if form is None:
             raise not_recognised(path)
-        if len(paths) > 1 and format_name(form) != "tabular":
+        if len(paths) > 1 and format_name(form) != _TABLES:
             raise FormatError(
                 f"{path}: expected tables (CSV, TSV, Parquet) where several files are one recording, got "
                 f"{format_name(form)}; draft a file of each log"

@@ -7,10 +7,15 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.pose import make_pose
 from forcetorque.inspection.draft.gravity import LIGHT_KG, GravityFit, mass_beyond
 from forcetorque.inspection.draft.streams import DraftedStream
 from forcetorque.inspection.draft.toml_lines import line, listed, question
 from forcetorque.robot.model import Joint, RobotModel
+from forcetorque.robot.mounting import rotation_by
 
 _OF_SENSORS = {
     "ft",
@@ -29,6 +34,34 @@ _OF_SENSORS = {
 }
 """Words that tell no sensor from another."""
 _MOST_CANDIDATES = 12
+_DIGITS = 4
+"""Decimals of a mount; deg, mm."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class DraftedMount:
+    """Pose of a sensor in the child link of its joint."""
+
+    rotation_deg: FloatArray
+    """Rotation vector that turns the axes of the link into those of the sensor; shape (3,); deg."""
+    shift_mm: FloatArray
+    """Origin of the sensor in the link; shape (3,); mm."""
+    source: str
+    """What says so."""
+
+    @property
+    def pose(self) -> FloatArray:
+        """`link_H_sensor`; shape (4, 4); m."""
+        return make_pose(rotation_by(np.deg2rad(self.rotation_deg)), 1e-3 * self.shift_mm)
+
+    def line(self) -> str:
+        """Write the key.
+
+        Returns:
+            The line, with its source.
+        """
+        rotation, shift = (values.round(_DIGITS) + 0.0 for values in (self.rotation_deg, self.shift_mm))
+        return line("mount", {"rotation_deg": rotation.tolist(), "shift_mm": shift.tolist()}, self.source)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,6 +80,8 @@ class DraftedSensor:
     """Fixed joints that it may sit in, the likeliest first; none where the robot's file has a tag."""
     joint: str | None = None
     """The joint, where a name tells it."""
+    mount: DraftedMount | None = None
+    """Its pose in the child link of that joint, where the log has it."""
     evidence: Mapping[str, GravityFit] = field(default_factory=dict)
     """What the reading says of each joint."""
 
@@ -135,7 +170,7 @@ def weight_text(fit: GravityFit) -> str:
 
 def _place_lines(sensor: DraftedSensor) -> list[str]:
     if sensor.joint is not None:
-        joint = line("joint", sensor.joint, "by its name")
+        joint = line("joint", sensor.joint, "by its name" if sensor.mount is None else "by its frame")
     else:
         candidates = sorted(sensor.evidence, key=lambda name: sensor.evidence[name].median_residual)
         left = [f"{name} ({_left(sensor.evidence[name])})" for name in candidates]
@@ -149,6 +184,8 @@ def _place_lines(sensor: DraftedSensor) -> list[str]:
     if len(directions) == 1:
         words += f"; the accelerations in the log say {directions.pop()}"
     mount = '# mount = "unknown"  # if it may be turned against that link: calibrate then estimates the mount first'
+    if sensor.mount is not None:
+        mount = sensor.mount.line()
     return [joint, question("measure_direction", words), mount]
 
 

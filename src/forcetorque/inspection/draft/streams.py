@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -31,6 +31,7 @@ _ANGLES = re.compile(
 """Alone or of a frame: those of a neck or a hip are joints."""
 _MATRIX = re.compile(r"^(?P<before>.*?)r" + _APART + r"(?P<axis>[123]_?[123])$")
 _NUMBERED = re.compile(r"^(?P<before>.*?)(?P<number>\d+)(?P<behind>\D*)$")
+_ELEMENT = re.compile(r"^(?P<before>.+)\[(?P<number>\d+)\]$")
 _CHANNELS = re.compile(r"(?:ch|channel|raw|gauge|gage|strain|sg|adc|ai|v)$")
 _MOTIONS = {
     "": "position",
@@ -59,6 +60,8 @@ _MOTIONS = {
 _STATES = re.compile(r"^(?:.*_)?joint_states?_|^field_(?=position|velocity|effort)")
 """Prefixes of tables of joint messages that programs of ROS write."""
 _FIXED_ROWS = 9
+_MOST_OF_SENSOR = 10
+"""Columns of a table of one sensor: times, six components or channels, a temperature, a status."""
 _OF_JOINTS = {"j", "joint", "joints"}
 """Words of columns that are of joints, however many they are."""
 
@@ -105,7 +108,17 @@ def column_matches(headings: Sequence[Heading], joints: Sequence[str]) -> tuple[
     """
     used: set[int] = set()
     groups: list[ColumnMatch] = []
-    for search in (_of_joints, _wrenches, _rotations, _quaternions, _angles, _vectors, _temperatures, _numbered):
+    for search in (
+        _of_joints,
+        _wrenches,
+        _rotations,
+        _quaternions,
+        _angles,
+        _vectors,
+        _temperatures,
+        _lists,
+        _numbered,
+    ):
         free = {k: heading.name.strip().lower() for k, heading in enumerate(headings) if k not in used}
         for group in search(free, joints):
             if used.isdisjoint(group.columns):
@@ -210,7 +223,7 @@ def _vectors(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch
 
 
 def _temperatures(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
-    warm = [k for k, name in free.items() if name.startswith("temp")]
+    warm = [k for k, name in free.items() if re.split("[./]", name)[-1].startswith("temp")]
     return [ColumnMatch(quantity="temperature", columns=(k,)) for k in warm[:1]]
 
 
@@ -235,6 +248,70 @@ def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatc
     return list(likeness.values())
 
 
+def _lists(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
+    """Elements of lists, `wrench[0]` and so on, by what an array of that name and width looks like."""
+    members: dict[str, list[int]] = {}
+    for k, name in free.items():
+        match = _ELEMENT.match(name)
+        if match and int(match["number"]) == len(members.get(match["before"], ())):
+            members.setdefault(match["before"], []).append(k)
+    arrays = [SketchedColumns(name=name, rows=0, columns=len(columns)) for name, columns in members.items()]
+    places = list(members.values())
+    return [
+        ColumnMatch(quantity=group.quantity, columns=tuple(places[group.columns[0]]), form=group.form)
+        for group in array_groups(arrays, joints)
+    ]
+
+
+_ARRAY_WORDS = {
+    "wrench": ("wrench", "ft", "force_torque", "forcetorque"),
+    "position": ("pos", "position", "positions", "q"),
+    "velocity": ("vel", "velocity", "velocities", "dq", "qd"),
+    "acceleration": ("accelerations", "ddq", "qdd"),
+    "torque": ("torque", "torques", "tau", "effort"),
+    "proper_acceleration": ("acc", "accel", "accelerometer", "acceleration"),
+    "angular_velocity": ("gyro", "omega", "gyroscope", "angular"),
+    "temperature": ("temp", "temperature"),
+}
+_WIDTHS = {"wrench": 6, "proper_acceleration": 3, "angular_velocity": 3, "temperature": 1}
+
+
+def array_groups(members: Sequence[SketchedColumns], joints: Sequence[str]) -> Iterable[ColumnMatch]:
+    """Say what arrays look like by the words in their names, as far as their width fits; each quantity once.
+
+    Args:
+        members: Arrays with the same number of rows.
+        joints: Joints of the robot that move; none if it is not known.
+
+    Yields:
+        What they look like.
+    """
+    quantities: set[str] = set()
+    for k, array in enumerate(members):
+        words = set(array_words(array.name))
+        for quantity, likely in _ARRAY_WORDS.items():
+            width = _WIDTHS.get(quantity)
+            fits = array.columns == width if width else 1 < array.columns <= max(len(joints), 64)
+            joint_like = width or "joint" in words or "joints" in words or array.columns == len(joints)
+            if quantity not in quantities and fits and joint_like and words & set(likely):
+                quantities.add(quantity)
+                yield ColumnMatch(quantity=quantity, columns=(k,))
+                break
+
+
+def array_words(name: str) -> list[str]:
+    """Take the name of an array apart.
+
+    Args:
+        name: The name.
+
+    Returns:
+        Its words, in small letters.
+    """
+    apart = "".join(f" {c.lower()}" if c.isupper() else c if c.isalnum() else " " for c in name)
+    return apart.split()
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DraftedStream:
     """A stream of the log, before it is specified."""
@@ -251,6 +328,13 @@ class DraftedStream:
     """The table that it is read from; None where the log describes itself."""
     groups: tuple[ColumnMatch, ...] = ()
     """Columns of the table by quantity."""
+
+    @property
+    def is_sensor_alone(self) -> bool:
+        """Whether it is a table of one sensor and hardly anything else, so that nothing says how that is held."""
+        if self.table is None or not self.table.is_table or len(self.table.columns) > _MOST_OF_SENSOR:
+            return False
+        return self.reads_load and set(self.quantities) <= {"wrench", "raw", "temperature"}
 
     @property
     def reads_load(self) -> bool:

@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from forcetorque.base.toml_file import OPEN
+from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.formats.headings import Heading, read_heading
 from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_message
 from forcetorque.formats.tabular.numbers import ISO8601
@@ -16,6 +17,8 @@ from forcetorque.inspection.draft.streams import (
     ColumnMatch,
     DraftedLog,
     DraftedStream,
+    array_groups,
+    array_words,
     column_matches,
     relative,
     time_column,
@@ -43,6 +46,7 @@ _SHOWN = 60
 """Characters that are shown of a line in front of a table."""
 _FEW = 9
 """Units that are written out in a question."""
+_BEGIN_AGAIN = "`forcetorque init` --column-names begins the file again with them, and finds the sensor by them"
 _SENSE = "sensor_to_world where it turns vectors along the frame's axes to the world's, else world_to_sensor"
 _EULER_LINES = (
     "",
@@ -93,7 +97,7 @@ def _headings(sketch: LogSketch) -> list[Heading]:
 
 def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[ColumnMatch, ...]:
     """Groups of columns, each quantity once; an orientation rules over what may be gravity, which follows from it."""
-    if not sketch.has_headings:
+    if not (sketch.has_headings or sketch.names_specified):
         return ()
     groups: dict[str, ColumnMatch] = {}
     for group in column_matches(_headings(sketch), joints):
@@ -141,12 +145,36 @@ def _form_lines(sketch: LogSketch) -> list[str]:
         lines.append(
             line("column_names", [column.name for column in sketch.columns], "of a line of names and one of units")
         )
-    if not sketch.has_headings:
-        words = f"the file has no line of headings: a name for each of its {len(sketch.columns)} columns"
+    names = [column.name for column in sketch.columns]
+    if sketch.names_specified:
+        lines.append(line("column_names", names, "as specified by who began this file"))
+    elif not sketch.has_headings:
+        words = f"the file has no line of headings: a name for each of its {len(names)} columns"
         for first in sketch.quaternion:
             words += f", of which {first + 1} to {first + 4} have norm 1 as quaternions do"
-        lines.append(question("column_names", f'{words}, as ["t", "fx", ...]'))
+        lines.append(question("column_names", f"{words}, as {toml_value(example_names(sketch))}; {_BEGIN_AGAIN}"))
     return lines
+
+
+def example_names(sketch: LogSketch) -> list[str]:
+    """Name the columns of a table without headings as those of a usual log of its width are.
+
+    Args:
+        sketch: The table.
+
+    Returns:
+        A name for each column; by them nothing is read.
+    """
+    names = ["t"] if sketch.columns and sketch.columns[0].step is not None else []
+    left = [f"c{k}" for k in range(len(names) + 1, len(sketch.columns) + 1)]
+    for first in sketch.quaternion:
+        place = first - len(names)
+        left[place : place + 4] = ["qx", "qy", "qz", "qw"]
+    free = [k for k, name in enumerate(left) if name.startswith("c")]
+    if len(free) >= len(WRENCH_COMPONENTS):
+        for k, name in zip(free, WRENCH_COMPONENTS, strict=False):
+            left[k] = name
+    return names + left
 
 
 def _stamp_lines(sketch: LogSketch) -> list[str]:
@@ -178,7 +206,7 @@ def _signal_lines(
     rest = [column.name for k, column in enumerate(sketch.columns) if k not in used]
     if not stream.groups:
         lines += ["", "[[recording.stream.signal]]"]
-        names = "" if not sketch.has_headings else f", by the headings {listed(rest)}"
+        names = "" if not (sketch.has_headings or sketch.names_specified) else f", by the headings {listed(rest)}"
         lines += [
             question("quantity", f"one of {listed(QUANTITIES, 99)}"),
             question("columns", f"names of its columns in the order of the quantity{names}"),
@@ -254,19 +282,6 @@ def _extent(sketch: LogSketch, places: Sequence[int]) -> str:
     return f"from {min(low):.4g} to {max(high):.4g}" if low and high else ""
 
 
-_ARRAY_WORDS = {
-    "wrench": ("wrench", "ft", "force_torque", "forcetorque"),
-    "position": ("pos", "position", "positions", "q"),
-    "velocity": ("vel", "velocity", "velocities", "dq", "qd"),
-    "acceleration": ("accelerations", "ddq", "qdd"),
-    "torque": ("torque", "torques", "tau", "effort"),
-    "proper_acceleration": ("acc", "accel", "accelerometer", "acceleration"),
-    "angular_velocity": ("gyro", "omega", "gyroscope", "angular"),
-    "temperature": ("temp", "temperature"),
-}
-_WIDTHS = {"wrench": 6, "proper_acceleration": 3, "angular_velocity": 3, "temperature": 1}
-
-
 def array_streams(sketch: LogSketch, joints: Sequence[str]) -> tuple[DraftedStream, ...]:
     """Arrays with the same number of rows are one stream, as far as they look like something."""
     streams: list[DraftedStream] = []
@@ -283,34 +298,6 @@ def array_streams(sketch: LogSketch, joints: Sequence[str]) -> tuple[DraftedStre
                 )
             )
     return tuple(streams)
-
-
-def array_groups(members: Sequence[SketchedColumns], joints: Sequence[str]) -> Iterable[ColumnMatch]:
-    """Say what arrays look like by the words in their names, as far as their width fits; each quantity once.
-
-    Args:
-        members: Arrays with the same number of rows.
-        joints: Joints of the robot that move; none if it is not known.
-
-    Yields:
-        What they look like.
-    """
-    quantities: set[str] = set()
-    for k, array in enumerate(members):
-        words = set(_words(array.name))
-        for quantity, likely in _ARRAY_WORDS.items():
-            width = _WIDTHS.get(quantity)
-            fits = array.columns == width if width else 1 < array.columns <= max(len(joints), 64)
-            joint_like = width or "joint" in words or "joints" in words or array.columns == len(joints)
-            if quantity not in quantities and fits and joint_like and words & set(likely):
-                quantities.add(quantity)
-                yield ColumnMatch(quantity=quantity, columns=(k,))
-                break
-
-
-def _words(name: str) -> list[str]:
-    apart = "".join(f" {c.lower()}" if c.isupper() else c if c.isalnum() else " " for c in name)
-    return apart.split()
 
 
 def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames: Mapping[str, str]) -> list[str]:
@@ -364,7 +351,7 @@ def array_time(columns: Sequence[SketchedColumns]) -> SketchedColumns | None:
     """
     rising = [column for column in columns if column.step is not None]
     named = [
-        column for column in rising if {"time", "stamp", "timestamps", "timestamp", "t"} & set(_words(column.name))
+        column for column in rising if {"time", "stamp", "timestamps", "timestamp", "t"} & set(array_words(column.name))
     ]
     return next(iter([*named, *rising]), None)
 

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import RecordingError, RobotError, known_names
 from forcetorque.recording.alignment import interpolate
-from forcetorque.recording.recording import MovingSupport, Recording, Support
+from forcetorque.recording.recording import NO_MOTION, MovingSupport, Recording, Support
 from forcetorque.recording.smoothing import SavitzkyGolay, smooth
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.dynamics import joints_between, motion_of_link
@@ -138,6 +138,11 @@ def imu_frame(model: RobotModel, recording: Recording, support: MovingSupport) -
 
 def _imu_signals(model: RobotModel, recording: Recording, support: MovingSupport) -> dict[str, tuple[Stream, Signal]]:
     signals: dict[str, tuple[Stream, Signal]] = {}
+    if support.is_unknown:
+        raise RecordingError(
+            f"frame {support.frame!r}: expected streams that tell how it moves, got none, so that nothing says what "
+            f'the sensor must read; name them as motion of [load] in place of "{NO_MOTION}"'
+        )
     for name in support.motion_streams:
         stream = recording.stream(name)
         for quantity in IMU_QUANTITIES:

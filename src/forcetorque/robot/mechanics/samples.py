@@ -15,7 +15,7 @@ from forcetorque.recording.alignment import interpolate, require_overlap, usable
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.frozen_and_saturated_samples import SampleQuality, UnusableCounts, repeated_samples
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
-from forcetorque.recording.smoothing import EvenGrid, SavitzkyGolay, smooth
+from forcetorque.recording.smoothing import DERIVATIVE_WINDOW, EvenGrid, SavitzkyGolay, smooth
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.question import Question, required_joints_of
@@ -160,7 +160,7 @@ def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tu
 class Processing:
     """How logged samples become reading and reference."""
 
-    derivative_window: SavitzkyGolay = SavitzkyGolay(window_s=0.3, order=3)
+    derivative_window: SavitzkyGolay = DERIVATIVE_WINDOW
     """Filter that differentiates joint positions."""
     logged_derivatives: bool = False
     """Whether joint velocities and accelerations are taken from the log instead."""
@@ -257,8 +257,7 @@ def sensor_samples(
         reference, joints = _expected(*robot, processing, evaluator)
         flattening = np.zeros_like(reference)
         if not processing.logged_derivatives:
-            window = processing.derivative_window
-            longer = replace(processing, derivative_window=replace(window, window_s=2.0 * window.window_s))
+            longer = replace(processing, derivative_window=processing.derivative_window.doubled())
             # near the end of a log there may be no room for the longer window
             flattening = np.nan_to_num(reference - _expected(*robot, longer, evaluator)[0])
     else:

@@ -10,13 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, require_shape
 from forcetorque.base.errors import ExperimentError, RecordingError, known_names
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.raw_counts import chosen_intervals
 from forcetorque.experiment.sensor_reading import Correction, readings_at
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import require_overlap, seconds_since
+from forcetorque.recording.frozen_and_saturated_samples import FLAT, flat_tops
 from forcetorque.recording.recording import Interval
 from forcetorque.recording.stream import Stream
 
@@ -29,10 +30,6 @@ DRIFT = 0.01
 """Share of the mean rate by which the rate of a tenth of the record may differ: frequencies are off by as much."""
 _PIECES, _LEAST_PIECE = 10, 50
 """Pieces that have a rate of their own, and samples of a piece at least: jitter of `JITTER` moves its rate by 0.3 %."""
-FLAT = 3
-"""Equal samples in a row at an end of the range that are a limit, where the signal jumps there."""
-_JUMP = 5.0
-"""Resolutions by which a signal jumps to a limit; the top of a smooth wave is reached by one or two."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -138,29 +135,6 @@ def refuse_clipped(record: EvenRecord, names: tuple[str, ...], *, where: str, li
                 f"{values[first]:.6g}, and {int(at.sum())} samples are at a limit; strike less hard, or choose a wider "
                 "range"
             )
-
-
-def flat_tops(values: FloatArray) -> BoolArray:
-    """Find where a signal stays at an end of its range after it jumped there.
-
-    Args:
-        values: The signal; shape (n,).
-
-    Returns:
-        Whether each sample is of such a top; shape (n,).
-    """
-    steps = np.abs(np.diff(values))
-    flat = np.zeros(len(values), dtype=bool)
-    if not steps.any():
-        return flat
-    jump = _JUMP * max(float(np.min(steps[steps > 0.0])), float(np.median(steps)))
-    for end in (values.max(), values.min()):
-        edges = np.flatnonzero(np.diff(np.concatenate([[0], (values == end).astype(np.int64), [0]])))
-        for first, after in edges.reshape(-1, 2):
-            # a weight that hangs still is an end of the range too, but it was hung on slowly, and jumps only away
-            if after - first >= FLAT and first > 0 and steps[first - 1] > jump:
-                flat[first:after] = True
-    return flat
 
 
 SAME_RATE = 1e-3

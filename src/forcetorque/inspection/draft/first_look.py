@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A first reading of a log by its drafted `[recording]`, also with likely values in place of questions."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.toml_file import unanswered_keys
+from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.formats.registry import format_named
+from forcetorque.inspection.draft.log import draft_log, recording_lines
+from forcetorque.inspection.draft.sensors_and_supports import DraftedSensor, draft_sensors
+from forcetorque.inspection.draft.toml_lines import Question, likeliest_text
+from forcetorque.recording.recording import Recording
+from forcetorque.robot.model import RobotModel
+
+
+def read_drafted(
+    text: str, folder: Path, sensors: Sequence[DraftedSensor], model: RobotModel | None
+) -> tuple[Recording | None, str]:
+    """Read a log by its drafted table.
+
+    Args:
+        text: The `[recording]` table.
+        folder: Folder of the experiment file, from which paths count.
+        sensors: Sensors of the log.
+        model: The robot; None for a wrist sensor without one.
+
+    Returns:
+        The recording, where the table has no question; else None, and the reason why it cannot be read.
+    """
+    if unanswered_keys(text):
+        return None, "the log is read once the questions of [recording] are answered"
+    try:
+        content = tomllib.loads(text)["recording"]
+        known = format_named(content["format"])
+        context = ExperimentContext(
+            experiment=folder / "experiment.toml",
+            inputs=Inputs(folder),
+            sensors={sensor.stream: sensor.name for sensor in sensors},
+            joint_units={} if model is None else {name: joint.type.unit for name, joint in model.joints.items()},
+        )
+        reading = known.read(known.table.model_validate(content), context)
+    except ValidationError as error:
+        return None, f"the log cannot be read yet: {error.errors()[0]['msg']}"
+    except ForceTorqueError as error:
+        return None, f"the log cannot be read yet: {error}"
+    return Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings), ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SensorLog:
+    """A table of a sensor by itself, as it was first read."""
+
+    recording: Recording
+    """Its stream."""
+    assumed: tuple[str, ...]
+    """Likely values that the file does not state, as lines of an experiment file."""
+
+
+def first_look_at_sensor(path: Path, log_format: str | None) -> SensorLog | None:
+    """Read a table of one sensor and hardly anything else.
+
+    Args:
+        path: The file.
+        log_format: Name of the format; it is recognised by what is there if None.
+
+    Returns:
+        The recording, and what was assumed; None for any other table, or where no value is likely.
+    """
+    log = draft_log([path], None, log_format)
+    if not all(stream.is_sensor_alone for stream in log.streams):
+        return None
+    sensors = draft_sensors(log.streams, None)
+    lines = recording_lines(log, Path(), None, {sensor.stream: sensor.name for sensor in sensors})
+    recording, _ = read_drafted(likeliest_text(lines), Path(), sensors, None)
+    assumed = tuple(text.likeliest for text in lines if isinstance(text, Question) and text.likeliest is not None)
+    return None if recording is None else SensorLog(recording=recording, assumed=assumed)
