@@ -18,6 +18,7 @@ from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.signals import OrientationTable
 from forcetorque.inspection.draft.draft import draft_experiment
@@ -292,6 +293,31 @@ def test_a_wrist_sensor_without_a_robot_has_a_load(tmp_path: Path) -> None:
     assert _keys(draft.content) == ["frame", "sense", "serial", "full_scale", "measure_direction"]
     with pytest.raises(OutputError, match="x.toml: expected a new file"):
         draft_experiment([tmp_path / "wrench.csv"], tmp_path / "x.toml")
+
+
+@pytest.mark.parametrize("kept", ["orientation", "proper_acceleration"])
+def test_an_acceleration_beside_an_orientation_is_no_second_motion(tmp_path: Path, kept: str) -> None:
+    """The answered file loads as drafted, and with the alternative that stands in its comments."""
+    head = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,ax [m/s2],ay [m/s2],az [m/s2],qx,qy,qz,qw"
+    rows = "\n".join(f"{k},1,2,3,4,5,{k},0,0,9.80665,0,0,0,1" for k in range(9))
+    (tmp_path / "log.csv").write_text(f"{head}\n{rows}\n", encoding="utf-8")
+    text = draft_experiment([tmp_path / "log.csv"], tmp_path / "x.toml").content
+    if kept != "orientation":
+        first, other = text.index('quantity = "orientation"'), text.index("# the motion is that of orientation")
+        commented, sensor = text.index("# [[recording", other), text.index("[[sensor]]")
+        text = (
+            text[:first].removesuffix("[[recording.stream.signal]]\n")
+            + text[commented:sensor].replace("\n# ", "\n").removeprefix("# ")
+            + text[sensor:]
+        )
+    text = answered(text, {**ANSWERS, "frame": '"ft_sensor"'}).replace('sense = "?"', 'sense = "sensor_to_world"')
+    (tmp_path / "x.toml").write_text(text, encoding="utf-8")
+    experiment = load_experiment(tmp_path / "x.toml")
+    (stream,) = experiment.recording.streams.values()
+    assert kept in text
+    assert ("proper_acceleration" in stream.signals) is (kept != "orientation")
+    _, root = SensorRun(experiment, "ft_sensor").motion(experiment.recording.intervals[0], ())
+    np.testing.assert_allclose(root.proper_acceleration[0], [0.0, 0.0, 9.80665], atol=1e-9)
 
 
 def test_boards_that_count_their_joints_are_asked_for_names(tmp_path: Path) -> None:

@@ -40,6 +40,7 @@ from forcetorque.inspection.draft.sensors_and_supports import (
     support_lines,
 )
 from forcetorque.inspection.draft.streams import DraftedLog, relative
+from forcetorque.inspection.draft.tables_and_arrays import INERTIAL
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
 from forcetorque.recording.recording import Recording
@@ -49,7 +50,6 @@ from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.robot.model import JointType, RobotModel
 from forcetorque.robot.urdf import read_urdf
 
-_INERTIAL = ("proper_acceleration", "angular_velocity")
 _MOST_JOINTS = 12
 """Largest number of fixed joints whose orientation a force is fitted to."""
 
@@ -325,7 +325,7 @@ def _why_no_interval(
 
 
 def _imus(log: DraftedLog) -> list[str]:
-    return [stream.name for stream in log.streams if set(_INERTIAL) <= set(stream.quantities)]
+    return [stream.name for stream in log.streams if set(INERTIAL) <= set(stream.quantities)]
 
 
 def _wrist_lines(log: DraftedLog, sensors: Sequence[DraftedSensor]) -> list[str]:

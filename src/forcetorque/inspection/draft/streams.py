@@ -251,6 +251,8 @@ class DraftedStream:
     """The table that it is read from; None where the log describes itself."""
     groups: tuple[ColumnMatch, ...] = ()
     """Columns of the table by quantity."""
+    alternatives: tuple[ColumnMatch, ...] = ()
+    """Columns that determine the motion a second time, beside those of `groups`; a file may have one of both."""
 
     @property
     def reads_load(self) -> bool:
