@@ -21,25 +21,14 @@ from forcetorque.inspection.comparison import Comparison, compared
 from forcetorque.inspection.diagnosis import diagnosed, fault_finding, stability_of
 from forcetorque.inspection.plausibility.checks import FEWEST, examine
 from forcetorque.inspection.plausibility.hypotheses import Explanation
-from forcetorque.inspection.residual_findings import model_findings
+from forcetorque.inspection.residual_findings import UNEXPLAINED, model_findings
 from forcetorque.recording.recording import Finding, Interval, Recording, Use
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.recording import PatchRecording, patch_recordings
 
-_UNRELIABLE = {
-    "contact",
-    "light_contact",
-    "off_level",
-    "drift",
-    "step",
-    "saturation",
-    "frozen",
-    "stuck",
-    "gap",
-    "backward_stamp",
-}
+_UNRELIABLE = UNEXPLAINED | {"drift", "saturation", "frozen", "stuck", "gap", "backward_stamp"}
 """Kinds of findings that make the samples of their interval unreliable."""
 
 

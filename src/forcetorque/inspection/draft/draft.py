@@ -18,7 +18,7 @@ from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.formats.log_format import not_read_message
 from forcetorque.formats.registry import format_named
-from forcetorque.inspection.draft.gravity import GravityFit, fit_gravity
+from forcetorque.inspection.draft.gravity import GravityFit, contact_spans, fit_gravity
 from forcetorque.inspection.draft.intervals import (
     DraftedInterval,
     clock_lines,
@@ -201,7 +201,9 @@ def _written(
         reason += "; meanwhile it was looked at with the likeliest units, and the force turns as a weight does"
     notes = [*_notes(log, sensors, model), *([reason] if reason else [])]
     evidence = [best for sensor in sensors if (best := _best(sensor)) is not None]
-    intervals = draft_intervals(first_look, evidence) if first_look is not None and evidence else ()
+    intervals: tuple[DraftedInterval, ...] = ()
+    if first_look is not None and evidence:
+        intervals = draft_intervals(first_look, evidence, _contacts(sensors, first_look, model, base))
     notes.append(_about_intervals(intervals, evidence) or _why_no_interval(first_look, sensors, model, evidence))
     lines = ['# What is "?" is a question: put the answer there. Every command says which is next.']
     lines += [line("schema", "forcetorque/experiment/1"), line("name", log.paths[0].stem)]
@@ -271,6 +273,19 @@ def _best(sensor: DraftedSensor) -> GravityFit | None:
     return min(sensor.evidence.values(), key=lambda fit: fit.median_residual, default=None)
 
 
+def _contacts(
+    sensors: Sequence[DraftedSensor], recording: Recording, model: RobotModel | None, base: str | None
+) -> list[tuple[int, int]]:
+    """Contacts and steps of all sensors, each in the joint that its reading fits best."""
+    spans: list[tuple[int, int]] = []
+    for sensor in sensors:
+        fit = _best(sensor)
+        if fit is not None and model is not None and base is not None:
+            joint = next(name for name, one in sensor.evidence.items() if one is fit)
+            spans += contact_spans(model, joint, base, recording, recording.stream(sensor.stream), fit)
+    return spans
+
+
 def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel | None) -> Iterator[str]:
     for sensor in sensors:
         what = "raw channels" if sensor.is_raw else "a wrench"
@@ -302,7 +317,7 @@ def _about_intervals(intervals: Sequence[DraftedInterval], evidence: Sequence[Gr
     tolerance = max(fit.tolerance for fit in evidence)
     return (
         f"intervals: {len(intervals)} of {seconds:.0f} s together, in which the force goes with the orientation within "
-        f"{tolerance:.2g} N; a steady push in a fixed direction of the sensor would not show, so look at them"
+        f"{tolerance:.2g} N, without what `inspect` finds beside the robot model; look at them all the same"
     )
 
 
