@@ -27,6 +27,13 @@ def init(
         str | None,
         typer.Option(help="Format of the log, such as ros or hdf5, as in [recording]. Default: by what is there."),
     ] = None,
+    sensor: Annotated[
+        list[str] | None,
+        typer.Option("--sensor", help="Sensor to draft, by its name or stream; repeat for more. Default: all."),
+    ] = None,
+    matrices: Annotated[
+        Path | None, typer.Option("--matrices", help="Folder of the matrix files that the sensors came with.")
+    ] = None,
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
@@ -42,7 +49,9 @@ def init(
     start_logging().info("reading %s", ", ".join(map(str, log)))
     refuse_two_on_standard_output(output, output_format)
     declare_outputs(output, force=force)
-    draft = draft_experiment(log, output, urdf=urdf, log_format=log_format, force=force)
+    draft = draft_experiment(
+        log, output, urdf=urdf, log_format=log_format, sensors=sensor or (), matrices=matrices, force=force
+    )
     if output != STANDARD_OUTPUT:  # else the file itself went there
         show(draft, output_format, details=details)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import forcetorque
-from forcetorque.app.run.questions import answer_questions, open_questions
+from forcetorque.inspection.draft.questions import answer_questions, open_questions
 from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.recording.storage import read_recording, write_recording

@@ -20,9 +20,11 @@ from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.headings import read_heading
+from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.formats.signals import OrientationTable
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.draft.joints import joint_rows
+from forcetorque.inspection.draft.questions import answer_questions
 from forcetorque.inspection.draft.streams import column_matches
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Recording
@@ -364,6 +366,60 @@ def test_boards_that_count_their_joints_are_asked_for_names(tmp_path: Path) -> N
     assert sensor["name"] == "l_leg_ft"
     assert asked["frame"].startswith("link that stands still")
     assert re.search(r": l_sole, r_sole.* or one of \d+ other ends of it$", asked["frame"])
+
+
+@pytest.fixture
+def two_legs(tmp_path: Path) -> Path:
+    """A log with the sensors of two legs."""
+    for side in ("left", "right"):
+        rows = "".join(f"{k} {k}.5 1 2 3 4 5 {k}\n" for k in range(1, 5))
+        write_port(tmp_path / "log" / f"{side}_leg" / "analog:o", rows)
+    return tmp_path / "log"
+
+
+def test_a_sensor_is_drafted_alone(two_legs: Path) -> None:
+    """Neither the stream nor the questions of the others are in the file; an unknown one is refused with the known."""
+    draft = draft_experiment([two_legs], urdf=BIPED_URDF, sensors=["r_leg_ft"])
+    content = tomllib.loads(draft.content)
+    assert [one["name"] for one in content["sensor"]] == ["r_leg_ft"]
+    assert [one["name"] for one in content["recording"]["stream"]] == ["right_leg/analog:o"]
+    with pytest.raises(ExperimentError, match=r"--sensor: the log has no sensor 'leg'; .*known: l_leg_ft"):
+        draft_experiment([two_legs], urdf=BIPED_URDF, sensors=["leg"])
+
+
+def test_the_size_of_several_sensors_is_asked_once(two_legs: Path) -> None:
+    """As the accuracy of what they are fitted to; the file that is answered so is calibrated without full scales."""
+    draft = draft_experiment([two_legs], two_legs.parent / "x.toml", urdf=BIPED_URDF)
+    keys = _keys(draft.content)
+    assert (keys.count("serial"), keys.count("full_scale"), keys.count("accuracy")) == (2, 0, 1)
+    answers = {**ANSWERS, "accuracy": "{ force_N = 0.3, moment_Nm = 0.03 }", "frame": '"l_sole"', "support": '"l_sole"'}
+    (two_legs.parent / "x.toml").write_text(answered(draft.content, answers), encoding="utf-8")
+    accuracy = load_experiment(two_legs.parent / "x.toml").fit_options.accuracy
+    assert accuracy is not None
+    np.testing.assert_allclose(accuracy, [0.3, 0.3, 0.3, 0.03, 0.03, 0.03])
+
+
+def test_matrix_files_give_priors_and_serial_numbers(two_legs: Path) -> None:
+    """By the name of the sensor in that of the file, or the only one; else the file is asked, and has the number."""
+    folder = two_legs.parent / "matrices"
+    folder.mkdir()
+    with pytest.raises(FormatError, match=r"--matrices .*expected a folder with matrix files, got one without any"):
+        draft_experiment([two_legs], urdf=BIPED_URDF, matrices=folder)
+    for serial in ("SN001", "SN002"):
+        write_matrix_file(folder / f"matrix_{serial}.txt", encode_matrix(0.01 * np.eye(6)))
+    file = two_legs.parent / "x.toml"
+    asked = draft_experiment([two_legs], file, urdf=BIPED_URDF, matrices=folder).content
+    assert _keys(asked)[:4] == ["prior", "serial", "prior", "serial"]
+    assert "full_scale" not in asked
+    replies = iter(["matrices/matrix_SN002.txt", "matrices/matrix_SN001.txt"])
+    assert not answer_questions(file, lambda _: next(replies, ""))
+    sensors = tomllib.loads(file.read_text(encoding="utf-8"))["sensor"]
+    assert [one["serial"] for one in sensors] == ["SN002", "SN001"]
+    (folder / "matrix_SN002.txt").unlink()
+    (only,) = tomllib.loads(
+        draft_experiment([two_legs], urdf=BIPED_URDF, sensors=["l_leg_ft"], matrices=folder).content
+    )["sensor"]
+    assert (only["serial"], only["prior"].split("/")[-1]) == ("SN001", "matrix_SN001.txt")
 
 
 def test_what_is_left_out_is_said(tmp_path: Path) -> None:

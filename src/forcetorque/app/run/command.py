@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -29,6 +29,10 @@ def run(
     sensor: SensorOption = None,
     urdf: Annotated[
         Path | None, typer.Option("--urdf", help="The robot, for a log without an experiment file.")
+    ] = None,
+    matrices: Annotated[
+        Path | None,
+        typer.Option("--matrices", help="Folder of matrix files of the sensors, for a log without an experiment file."),
     ] = None,
     override: Annotated[
         str | None,
@@ -57,7 +61,7 @@ def run(
     log = start_logging()
     refuse_standard_output("--output", output)
     if not _state_experiments(files):
-        files = [_begun(files, output, urdf, force=force)]
+        files = [_begun(files, output, urdf, sensor or (), matrices, force=force)]
         if (unanswered := _unanswered(files[0], no_input=no_input)) is not None:
             _end(unanswered, output_format, details=details, files=files)
     result = go(
@@ -87,10 +91,12 @@ def _state_experiments(files: list[Path]) -> bool:
     return all(stated)
 
 
-def _begun(logs: list[Path], output: Path, urdf: Path | None, *, force: bool) -> Path:
+def _begun(
+    logs: list[Path], output: Path, urdf: Path | None, sensors: Sequence[str], matrices: Path | None, *, force: bool
+) -> Path:
     """The experiment file of logs, in the folder of results; one that is there already is taken up again."""
-    from forcetorque.app.run.questions import logs_of
     from forcetorque.inspection.draft.draft import draft_experiment
+    from forcetorque.inspection.draft.questions import logs_of
 
     file = output / "experiment.toml"
     if file.exists():
@@ -101,7 +107,7 @@ def _begun(logs: list[Path], output: Path, urdf: Path | None, *, force: bool) ->
         start_logging().info("going on with %s", file)
         return file
     output.mkdir(parents=True, exist_ok=True)
-    draft = draft_experiment(logs, file, urdf=urdf, force=force)
+    draft = draft_experiment(logs, file, urdf=urdf, sensors=sensors, matrices=matrices, force=force)
     for sentence in draft.notes:
         start_logging().info("%s", sentence)
     return file
@@ -109,8 +115,8 @@ def _begun(logs: list[Path], output: Path, urdf: Path | None, *, force: bool) ->
 
 def _unanswered(file: Path, *, no_input: bool) -> WholeRun | None:
     """Ask what only a person can answer; what comes out if questions stay open, else None."""
-    from forcetorque.app.run.questions import answer_questions, open_questions
     from forcetorque.app.run.result import Stage, WholeRun
+    from forcetorque.inspection.draft.questions import answer_questions, open_questions
 
     if not no_input and sys.stdin.isatty() and answer_questions(file, _ask()):
         return None

@@ -27,10 +27,12 @@ from forcetorque.inspection.draft.intervals import (
     whole_log,
 )
 from forcetorque.inspection.draft.joints import standing_lines
-from forcetorque.inspection.draft.log import draft_log, recording_lines
+from forcetorque.inspection.draft.log import draft_log, recording_lines, without_streams
+from forcetorque.inspection.draft.priors import MatrixFile, accuracy_lines, matrix_files, prior_lines
 from forcetorque.inspection.draft.sensors_and_supports import (
     DraftedSensor,
     base_of_arm,
+    chosen_sensors,
     draft_sensors,
     has_no_tool,
     interval_support,
@@ -138,6 +140,8 @@ def draft_experiment(
     *,
     urdf: Path | str | None = None,
     log_format: str | None = None,
+    sensors: Sequence[str] = (),
+    matrices: Path | str | None = None,
     force: bool = False,
 ) -> Draft:
     """Draft the experiment file of a log.
@@ -151,6 +155,8 @@ def draft_experiment(
         output: File to write; None to write none.
         urdf: The robot; None for a wrist sensor whose pose is logged.
         log_format: Name of the format; recognised from the files if None.
+        sensors: Names or streams of the sensors to draft; all if empty.
+        matrices: Folder of the calibrations that the sensors came with; None for none.
         force: Whether an existing file may be replaced.
 
     Returns:
@@ -171,7 +177,11 @@ def draft_experiment(
     model = None if urdf is None else read_urdf(Path(urdf))
     log = draft_log([Path(path) for path in files], model, log_format)
     robot = None if urdf is None else relative(Path(urdf), folder)
-    text, notes, recording = _written(log, folder, model, robot)
+    found = draft_sensors(log.streams, model)
+    chosen = chosen_sensors(found, sensors)
+    others = {sensor.stream for sensor in found} - {sensor.stream for sensor in chosen}
+    priors = () if matrices is None else matrix_files(Path(matrices))
+    text, notes, recording = _written(without_streams(log, others), chosen, priors, folder, model, robot)
     if output is not None:
         write_bytes_atomically(file, text.encode())
     questions = tuple(QuestionRow(line=q.line, key=q.key, question=q.words) for q in unanswered_keys(text))
@@ -186,9 +196,13 @@ def draft_experiment(
 
 
 def _written(
-    log: DraftedLog, folder: Path, model: RobotModel | None, robot: str | None
+    log: DraftedLog,
+    sensors: tuple[DraftedSensor, ...],
+    priors: Sequence[MatrixFile],
+    folder: Path,
+    model: RobotModel | None,
+    robot: str | None,
 ) -> tuple[str, tuple[str, ...], Recording | None]:
-    sensors = draft_sensors(log.streams, model)
     frames = {sensor.stream: sensor.name for sensor in sensors if not sensor.tags}
     recorded = recording_lines(log, folder, model, frames)
     recording, reason = _read("\n".join(recorded), folder, sensors, model)
@@ -213,7 +227,7 @@ def _written(
         lines += standing_lines(log, sensors, model, base)
     lines += ["", *recorded, *clock_lines(log, first_look)]
     for sensor in sensors:
-        lines += sensor_lines(sensor, on_robot=model is not None)
+        lines += sensor_lines(sensor, prior_lines(sensor, sensors, priors, folder), on_robot=model is not None)
     extra: list[str] = []
     if model is None:
         lines += _wrist_lines(log, sensors)
@@ -230,6 +244,7 @@ def _written(
     )
     for interval in intervals or whole_log(words, use="calibration" if sensors else "ignore"):
         lines += interval_lines(interval, extra)
+    lines += accuracy_lines(sensors, priors)
     return "\n".join(lines) + "\n", tuple(notes), recording
 
 

@@ -274,6 +274,8 @@ class DraftedLog:
     """All arrays of a file of arrays, with or without a match."""
     skipped_arrays: Mapping[str, str] = field(default_factory=dict)
     """Arrays that cannot be read, by name."""
+    left_out: frozenset[str] = frozenset()
+    """Streams of sensors that are not drafted."""
     description: LogDescription | None = None
     """Its own description; None for tables and arrays."""
 
