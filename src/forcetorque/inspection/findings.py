@@ -144,7 +144,7 @@ def _model_findings(run: SensorRun, calibration: Calibration | None, *, with_cau
     unknown = [label for label, names in touched.items() if names]
     fault = None
     if with_causes and len(unknown) < len(supported):
-        over = [] if unknown else _over_the_whole_log(run.experiment, supported)
+        over = [] if unknown else over_the_whole_log(run.experiment, supported)
         fault = yield from _causes(run, correction, over[0] if len(over) == 1 else None)
     if unknown:
         names = dict.fromkeys(name for label in unknown for name in touched[label])
@@ -155,7 +155,7 @@ def _model_findings(run: SensorRun, calibration: Calibration | None, *, with_cau
         yield Finding(stream=stream, kind="not_compared", message=text, count=0)
         supported = [interval for interval in supported if interval.label not in unknown]
     else:
-        supported = _over_the_whole_log(run.experiment, supported)
+        supported = over_the_whole_log(run.experiment, supported)
     if fault is not None and not fault.changes_every_instant_alike:
         return
     turn = None if fault is None else fault.turn
@@ -216,7 +216,7 @@ def _implausible(run: SensorRun, comparison: Comparison) -> Iterator[Finding]:
         yield Finding(stream=stream, kind=f"implausible_{doubt.kind}", message=doubt.message, count=0)
 
 
-def _over_the_whole_log(experiment: Experiment, supported: Sequence[Interval]) -> list[Interval]:
+def over_the_whole_log(experiment: Experiment, supported: Sequence[Interval]) -> list[Interval]:
     """One interval of the whole log if there is one support, else the intervals."""
     if len({id(interval.support) for interval in supported}) != 1:
         return list(supported)

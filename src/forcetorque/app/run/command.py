@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -114,29 +113,22 @@ def _begun(
 
 
 def _unanswered(file: Path, *, no_input: bool) -> WholeRun | None:
-    """Ask what only a person can answer; what comes out if questions stay open, else None."""
+    """Ask what only a person can answer, then for proposals; what comes out if something stays open, else None."""
     from forcetorque.app.run.result import Stage, WholeRun
-    from forcetorque.inspection.draft.questions import answer_questions, open_questions
+    from forcetorque.inspection.draft.resume import resume_experiment
+    from forcetorque.results.terminal.prompts import accepts, ask, is_terminal
 
-    if not no_input and sys.stdin.isatty() and answer_questions(file, _ask()):
+    asks = is_terminal() and not no_input
+    draft = resume_experiment(file, ask=ask if asks else None, accepts=accepts if asks else None)
+    listed = tuple(f"line {one.line}, {one.key}: {one.question}" for one in draft.questions)
+    if listed:
+        text = f"{len(listed)} question(s) are open, the first: {listed[0]}"
+        remedy = f'put the answers in place of "?" in {file}, and run it: forcetorque run {file}'
+    elif draft.proposals and not asks:
+        listed = tuple(one.proposal for one in draft.proposals)
+        text = f"{len(listed)} proposal(s) are open, the first: {listed[0]}"
+        remedy = f"accept them by forcetorque init --resume {file}, or decline them all: forcetorque run {file}"
+    else:
         return None
-    keys = open_questions(file)
-    if not keys:
-        return None
-    listed = tuple(f"line {key.line}, {key.key}: {key.words}" for key in keys)
-    stage = Stage(
-        name="init",
-        outcome="stopped",
-        seconds=0.0,
-        text=f"{len(keys)} question(s) are open, the first: {listed[0]}",
-        remedy=f'put the answers in place of "?" in {file}, and run it: forcetorque run {file}',
-    )
+    stage = Stage(name="init", outcome="stopped", seconds=0.0, text=text, remedy=remedy)
     return WholeRun(experiment=str(file), stages=(stage,), questions=listed, files=(str(file),))
-
-
-def _ask() -> Callable[[str], str]:
-    def ask(question: str) -> str:
-        sys.stderr.write(f"{question}\n")
-        return str(typer.prompt("answer (empty to leave it open)", default="", show_default=False, err=True))
-
-    return ask

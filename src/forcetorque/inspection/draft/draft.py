@@ -20,6 +20,7 @@ from forcetorque.formats.log_format import not_read_message
 from forcetorque.formats.registry import format_named
 from forcetorque.inspection.draft.gravity import GravityFit, contact_spans, fit_gravity
 from forcetorque.inspection.draft.intervals import (
+    WHOLE_LOG,
     DraftedInterval,
     clock_lines,
     draft_intervals,
@@ -67,6 +68,21 @@ class QuestionRow(Row):
     """The question, with evidence from the log."""
 
 
+class ProposalRow(Row):
+    """A change that the recording speaks for."""
+
+    line: Annotated[int | None, Shown("line")]
+    """First line of the file that it changes; None where another file is to be changed."""
+    kind: Annotated[str, Shown("kind")]
+    """`interval`, or the kind of the fault that it corrects, as `inspect` names it."""
+    proposal: Annotated[str, Shown("proposal")]
+    """What it changes, with the residual before and after."""
+    residual_before_N: float | None
+    """Root mean square of the force that the expected wrench leaves; N; None where it was not tried."""
+    residual_after_N: float | None
+    """The same with the change; N."""
+
+
 class Draft(Result):
     """A draft of an experiment file."""
 
@@ -80,6 +96,8 @@ class Draft(Result):
     """Streams of the log, where it can be read already."""
     questions: tuple[QuestionRow, ...]
     """Questions to answer."""
+    proposals: tuple[ProposalRow, ...] = ()
+    """Changes of a file that was taken up again."""
     notes: tuple[str, ...]
     """Findings about the log, and reasons for what is unknown."""
     content: str = Field(exclude=True, repr=False)
@@ -91,6 +109,9 @@ class Draft(Result):
         Yields:
             One answer.
         """
+        if self.proposals:
+            yield self._proposed
+            return
         count, first = len(self.questions), next(iter(self.questions), None)
         step = "fill in what is asked, then check the file" if count else "read the file, then go on"
         yield Answer(
@@ -111,6 +132,8 @@ class Draft(Result):
         if self.streams:
             yield stream_table(self.streams, f"{self.file}: streams")
         yield from self.notes
+        if self.proposals:
+            yield table_of(self.proposals, f"{self.file}: proposals")
         if not self.questions:
             yield f"{self.file}: nothing is left to ask; read it, then `forcetorque {self._next} {self.file}`"
             return
@@ -119,6 +142,19 @@ class Draft(Result):
         yield (
             f"{count} line{'' if count == 1 else 's'} to fill in; `forcetorque inspect {self.file}` says which is "
             "next, and then what is wrong with the log"
+        )
+
+    @property
+    def _proposed(self) -> Answer:
+        count, first = len(self.proposals), self.proposals[0]
+        can_be_written = any(row.line is not None for row in self.proposals)
+        return Answer(
+            subject=self.file,
+            verdict=f"{count} PROPOSAL{'S' * (count != 1)}",
+            why=(first.proposal, *((f"{count - 1} more: --details",) if count > 1 else ())),
+            step="accept or decline each in a terminal" if can_be_written else "correct it, and check again",
+            command=typed("init", "--resume", self.file),
+            concern=Concern.UNCERTAIN,
         )
 
     @property
@@ -237,11 +273,7 @@ def _written(
         bare = [sensor for sensor in sensors if has_no_tool(sensor, model)]
         if bare:
             lines += load_lines(bare[0], model)
-    words = (
-        "all of the log: put it where nothing touches, and cut out what does"
-        if sensors
-        else "all of the log, to look at"
-    )
+    words = WHOLE_LOG if sensors else "all of the log, to look at"
     for interval in intervals or whole_log(words, use="calibration" if sensors else "ignore"):
         lines += interval_lines(interval, extra)
     lines += accuracy_lines(sensors, priors)

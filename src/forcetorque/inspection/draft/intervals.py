@@ -15,7 +15,10 @@ from forcetorque.inspection.draft.toml_lines import line, question, remark
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Stream
 
-_MOST_SPANS = 12
+WHOLE_LOG = "all of the log: put it where nothing touches, and cut out what does"
+"""Comment on the interval of a log in which contacts were not looked for."""
+MOST_SPANS = 12
+"""Largest number of intervals that are proposed."""
 _HALF_WINDOW_NS = round(5e8 * WINDOW_S)
 _CALIBRATION_SHARE = 2.0 / 3.0
 _MOVING_SPEED = 0.02
@@ -66,9 +69,9 @@ def draft_intervals(
         validation; none where no interval is long enough.
     """
     spans = _common([free_intervals(fit.stamp_ns, fit.is_free & ~_within(fit.stamp_ns, contacts)) for fit in fits])
-    longest = sorted(sorted(spans, key=lambda span: span[0] - span[1])[:_MOST_SPANS])
+    longest = sorted(sorted(spans, key=lambda span: span[0] - span[1])[:MOST_SPANS])
     start = recording.start_ns
-    pieces = _divided(longest)
+    pieces = divided(longest)
     intervals = []
     for k, (first, last, use) in enumerate(pieces, start=1):
         low, high = _outward(first - start), _inward(last - start)
@@ -123,7 +126,7 @@ def _common(several: Sequence[list[tuple[int, int]]]) -> list[tuple[int, int]]:
     return common
 
 
-def _divided(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int, str]]:
+def divided(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int, str]]:
     """Intervals with their use: first calibration, then validation; an interval across the border is cut."""
     total = sum(last - first for first, last in spans)
     border = int(_CALIBRATION_SHARE * total)

@@ -8,9 +8,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from forcetorque.base.output_file import write_bytes_atomically
+from forcetorque.base.run_files import files_of_one_run
 from forcetorque.base.toml_file import OPEN, UnansweredKey, toml_content, unanswered_keys, with_answer
 from forcetorque.inspection.draft.priors import serial_of
 from forcetorque.inspection.draft.toml_lines import toml_value
+
+OPEN_QUESTIONS = 4
+"""Exit code of commands that end with questions, or proposals, that only a person can answer."""
 
 
 def open_questions(file: Path) -> tuple[UnansweredKey, ...]:
@@ -34,7 +38,8 @@ def logs_of(file: Path) -> set[Path]:
     Returns:
         Folder or file of the recording, and the files of its streams; absolute.
     """
-    recording = toml_content(file)[1].get("recording", {})
+    with files_of_one_run():  # the answers are written to the file
+        recording = toml_content(file)[1].get("recording", {})
     folder = file.parent / recording.get("path", "")
     return {(folder / stream.get("file", "")).resolve() for stream in ({}, *recording.get("stream", ()))}
 
