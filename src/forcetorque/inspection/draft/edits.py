@@ -144,7 +144,7 @@ def table_extents(lines: Sequence[str], table: str) -> list[tuple[int, int]]:
     """
     headers = [(k, match["name"]) for k, text in enumerate(lines) if (match := _HEADER.match(text)) is not None]
     headers = [(k, name) for k, name in headers if _is_header(lines, k)]
-    ends = [k for k, _ in headers[1:]] + [len(lines)]
+    ends = [*(k for k, _ in headers[1:]), len(lines)][: len(headers)]
     return [(k, end) for (k, name), end in zip(headers, ends, strict=True) if name == table]
 
 

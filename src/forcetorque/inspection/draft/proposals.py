@@ -58,6 +58,25 @@ class Residual:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Improvement:
+    """Residuals of a file as it is, and with a change."""
+
+    before: FloatArray
+    """Residual force and moment of the file as it is; shape (2,); N, N m."""
+    after: FloatArray
+    """The same with the change; shape (2,); N, N m."""
+    beside_matrix: bool
+    """Whether likely errors of the prior matrix are taken out of both."""
+
+    @property
+    def text(self) -> str:
+        """Both residuals."""
+        beside = " beside errors of the matrix" if self.beside_matrix else ""
+        (force, moment), (new_force, new_moment) = self.before, self.after
+        return f"residual{beside} {force:.2g} -> {new_force:.2g} N, {moment:.2g} -> {new_moment:.2g} N m"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Proposal:
     """A change of an experiment file."""
 
@@ -69,10 +88,8 @@ class Proposal:
     """What is wrong, or what is proposed."""
     edit: Edit | None
     """The change; None where a person has to change another file, as `text` says."""
-    before: FloatArray | None = None
-    """Residual force and moment of the file as it is; shape (2,); N, N m; None where it was not tried."""
-    after: FloatArray | None = None
-    """The same with the change; shape (2,); N, N m."""
+    residuals: Improvement | None = None
+    """What the change does to the residual; None where it was not tried."""
 
     @property
     def key(self) -> tuple[str, str]:
@@ -83,12 +100,7 @@ class Proposal:
     def sentence(self) -> str:
         """The proposal with its line and its residuals."""
         words = self.text if self.edit is None else f"{self.text}: {self.edit.text}"
-        if self.before is None or self.after is None:
-            return words
-        return (
-            f"{words}; residual {self.before[0]:.2g} -> {self.after[0]:.2g} N, {self.before[1]:.2g} -> "
-            f"{self.after[1]:.2g} N m"
-        )
+        return words if self.residuals is None else f"{words}; {self.residuals.text}"
 
 
 def proposals(file: Path, settled: Collection[tuple[str, str]] = ()) -> tuple[Proposal, ...]:
@@ -177,14 +189,17 @@ def _residual(experiment: Experiment | None, sensors: Sequence[str]) -> Residual
     return Residual(plain=plain, beside_matrix=beside)
 
 
-def _improvement(before: Residual | None, after: Residual | None) -> tuple[FloatArray, FloatArray] | None:
+def _improvement(before: Residual | None, after: Residual | None) -> Improvement | None:
     """Residuals before and after a change that leaves clearly less of force or moment, and of neither more."""
     if before is None or after is None:
         return None
-    for old, new in ((before.plain, after.plain), (before.beside_matrix, after.beside_matrix)):
-        if (new < _EXPLAINS * old).any() and (new < _WORSENS * old).all():
-            return old, new
-    return None
+    pairs = [(before.plain, after.plain, False), (before.beside_matrix, after.beside_matrix, True)]
+    helps = [
+        Improvement(before=old, after=new, beside_matrix=beside)
+        for old, new, beside in pairs
+        if (new < _EXPLAINS * old).any() and (new < _WORSENS * old).all()
+    ]
+    return min(helps, key=lambda one: float(np.prod(one.after / one.before)), default=None)
 
 
 def _interval_proposal(file: Path, text: str, experiment: Experiment, runs: Sequence[SensorRun]) -> Proposal | None:
@@ -209,22 +224,15 @@ def _interval_proposal(file: Path, text: str, experiment: Experiment, runs: Sequ
     improved = _improvement(before, after)
     if after is None or (improved is None and has_both):
         return None
-    old, new = improved or (None if before is None else before.plain, after.plain)
     start = experiment.recording.start_ns
     shown = ", ".join(
         f"{(first - start) * 1e-9:.1f}-{(last - start) * 1e-9:.1f} s {use}"
         for spans in pieces.values()
         for first, last, use in spans
     )
-    left_out = f" (by {', '.join(free.sensors)})" if free.left_out else ""
-    return Proposal(
-        kind="interval",
-        about="",
-        text=f"intervals free of contact{left_out}: {shown}",
-        edit=edit,
-        before=old,
-        after=new,
-    )
+    by = f" for {', '.join(free.sensors)}" if free.left_out else ""
+    what = "intervals free of contact" if improved else "intervals to fit and to validate"
+    return Proposal(kind="interval", about="", text=f"{what}{by}: {shown}", edit=edit, residuals=improved)
 
 
 def _shared_ns(interval: Interval, free: FreeTime) -> int:
@@ -298,7 +306,7 @@ def _tried(file: Path, text: str, comparison: Comparison, fault: Explanation, be
     improved = _improvement(before, after)
     if edit is None or improved is None:
         return Proposal(kind=fault.kind, about=about, text=f"{words}; {remedy(comparison, fault)}", edit=None)
-    return Proposal(kind=fault.kind, about=about, text=words, edit=edit, before=improved[0], after=improved[1])
+    return Proposal(kind=fault.kind, about=about, text=words, edit=edit, residuals=improved)
 
 
 def _about(comparison: Comparison, fault: Explanation) -> str:

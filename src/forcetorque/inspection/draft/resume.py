@@ -41,11 +41,11 @@ def resume_experiment(
 
 
 def _row(proposal: Proposal) -> ProposalRow:
-    before, after = proposal.before, proposal.after
+    residuals = proposal.residuals
     return ProposalRow(
         line=None if proposal.edit is None else proposal.edit.line,
         kind=proposal.kind,
         proposal=proposal.sentence,
-        residual_before_N=None if before is None else float(before[0]),
-        residual_after_N=None if after is None else float(after[0]),
+        residual_before_N=None if residuals is None else float(residuals.before[0]),
+        residual_after_N=None if residuals is None else float(residuals.after[0]),
     )
