@@ -19,6 +19,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.draft.gravity import MARGIN_S, SHORTEST_S
 from forcetorque.inspection.draft.intervals import MOST_SPANS
 from forcetorque.inspection.findings import over_the_whole_log
+from forcetorque.inspection.model_errors import ModelErrors
 from forcetorque.inspection.residual_findings import LOAD_SHARE, UNEXPLAINED, model_findings
 
 _BLOCK_S = 0.5
@@ -27,6 +28,8 @@ _MOST_LEVELS = 400
 """Number of levels that are tried, evenly over the log."""
 _NOISE_FACTOR = 3.0
 """Distance to a level, in usual changes from block to block, within which a block is at it."""
+_ROUNDS, _FEWEST_BLOCKS = 3, 20
+"""How often errors that follow the load are taken out of the levels, and blocks below which they are not."""
 _LEAST_SHARE = 0.1
 """Share of the log below which the free time of a sensor does not limit that of others."""
 
@@ -105,20 +108,26 @@ def _at_one_level(block: IntArray, residual: FloatArray, expected: FloatArray) -
     """Samples of the blocks whose residual force is at the level at which the expected force moves most; shape (n,)."""
     starts = np.flatnonzero(np.diff(block, prepend=-1))
     parts = np.split(np.arange(len(block)), starts[1:])
-    levels = np.array([np.median(residual[part, :3], axis=0) for part in parts])
-    loads = np.array([np.median(expected[part, :3], axis=0) for part in parts])
+    levels = np.array([np.median(residual[part], axis=0) for part in parts])
+    loads = np.array([np.median(expected[part], axis=0) for part in parts])
     load = float(np.percentile(np.linalg.norm(expected[:, :3], axis=1), 95))
-    usual = float(np.median(np.linalg.norm(np.diff(levels, axis=0), axis=1))) if len(levels) > 1 else 0.0
+    usual = float(np.median(np.linalg.norm(np.diff(levels[:, :3], axis=0), axis=1))) if len(levels) > 1 else 0.0
     tolerance = max(LOAD_SHARE * load, _NOISE_FACTOR * usual)
+
+    def near(values: FloatArray, centre: FloatArray) -> BoolArray:
+        return np.asarray(np.linalg.norm((values - centre)[:, :3], axis=1) <= tolerance)
+
     best, most = np.ones(len(levels), dtype=np.bool_), -1.0
     for candidate in np.unique(np.linspace(0, len(levels) - 1, min(len(levels), _MOST_LEVELS)).round().astype(int)):
-        near = np.linalg.norm(levels - levels[candidate], axis=1) <= tolerance
-        moved = float(((loads[near] - loads[near].mean(axis=0)) ** 2).sum())
+        chosen = near(levels, levels[candidate])
+        moved = float(((loads[chosen, :3] - loads[chosen, :3].mean(axis=0)) ** 2).sum())
         if moved > most:
-            best, most = near, moved
-    centre = np.median(levels[best], axis=0)
-    near = np.linalg.norm(levels - centre, axis=1) <= tolerance
-    return np.repeat(near, [len(part) for part in parts])
+            best, most = chosen, moved
+    for _ in range(_ROUNDS):  # errors of the matrix and of the robot follow the load, a contact does not
+        if np.count_nonzero(best) >= _FEWEST_BLOCKS:
+            beside = ModelErrors(residual=levels, expected=loads, usable=best).beside_load()
+            best = near(beside, np.median(beside[best], axis=0))
+    return np.repeat(best, [len(part) for part in parts])
 
 
 def _runs(stamps: IntArray, marked: BoolArray) -> list[tuple[int, int]]:
