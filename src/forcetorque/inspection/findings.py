@@ -216,8 +216,31 @@ def _implausible(run: SensorRun, comparison: Comparison) -> Iterator[Finding]:
         yield Finding(stream=stream, kind=f"implausible_{doubt.kind}", message=doubt.message, count=0)
 
 
+def whole_log_samples(run: SensorRun, correction: Correction) -> IntervalSamples | None:
+    """Pair reading and expected wrench over the whole log.
+
+    Args:
+        run: The sensor.
+        correction: How it is read.
+
+    Returns:
+        The samples, not smoothed; None where intervals have several supports.
+    """
+    supported = [interval for interval in run.experiment.recording.intervals if interval.support is not None]
+    over = over_the_whole_log(run.experiment, supported)
+    return _samples(run, over[0], correction) if len({id(one.support) for one in supported}) == 1 else None
+
+
 def over_the_whole_log(experiment: Experiment, supported: Sequence[Interval]) -> list[Interval]:
-    """One interval of the whole log if there is one support, else the intervals."""
+    """Give the intervals in which a sensor can be compared with the model.
+
+    Args:
+        experiment: The experiment.
+        supported: Its intervals with a support.
+
+    Returns:
+        One of the whole log if there is one support, else the intervals.
+    """
     if len({id(interval.support) for interval in supported}) != 1:
         return list(supported)
     start, end = experiment.recording.span_ns

@@ -123,10 +123,14 @@ def _at_one_level(block: IntArray, residual: FloatArray, expected: FloatArray) -
         moved = float(((loads[chosen, :3] - loads[chosen, :3].mean(axis=0)) ** 2).sum())
         if moved > most:
             best, most = chosen, moved
-    for _ in range(_ROUNDS):  # errors of the matrix and of the robot follow the load, a contact does not
+    at = block[starts] - float(block[starts].mean())
+    for _ in range(
+        _ROUNDS
+    ):  # errors of the matrix and of the robot follow the load, and a drift the time; a contact none
         if np.count_nonzero(best) >= _FEWEST_BLOCKS:
             beside = ModelErrors(residual=levels, expected=loads, usable=best).beside_load()
-            best = near(beside, np.median(beside[best], axis=0))
+            slope, level = np.polyfit(at[best], beside[best], 1)
+            best = near(beside, np.outer(at, slope) + level)
     return np.repeat(best, [len(part) for part in parts])
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import tomllib
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -32,6 +32,7 @@ from forcetorque.inspection.draft.edits import Edit, interval_edit, key_edit, ta
 from forcetorque.inspection.draft.gravity import SHORTEST_S
 from forcetorque.inspection.draft.intervals import divided
 from forcetorque.inspection.fault_messages import fault_text, remedy
+from forcetorque.inspection.findings import whole_log_samples
 from forcetorque.inspection.plausibility.evidence import Evidence
 from forcetorque.inspection.plausibility.hypotheses import Explanation
 from forcetorque.recording.recording import Interval, Support, Use
@@ -39,6 +40,8 @@ from forcetorque.robot.mounting import rotation_by, rotation_vector
 
 _EXPLAINS: Final = 0.8
 """Part of the residual of force or moment that is left at most by a change that is proposed."""
+_FREES: Final = 0.5
+"""The same of intervals: shorter ones have smaller errors of the robot model too."""
 _WORSENS: Final = 1.2
 """Part of the residual of force or moment that is left at most by any change."""
 _TOUCHED_S: Final = 0.5
@@ -163,18 +166,20 @@ def _loaded(file: Path, text: str) -> Experiment | None:
             return None
 
 
-def _comparison(run: SensorRun) -> Comparison | None:
+def _comparison(run: SensorRun, samples_of: SensorRun | None = None) -> Comparison | None:
+    """Compare a sensor with the model, with the samples of the whole log that another run has of the same recording."""
+    correction = run.read_by(None, None).bare
     try:
-        return compared(run, run.read_by(None, None).bare)
+        part = whole_log_samples(samples_of or run, correction)
+        return compared(run, correction, whole=part)
     except ForceTorqueError:
         return None
 
 
-def _residual(experiment: Experiment | None, sensors: Sequence[str]) -> Residual | None:
+def _residual(comparisons: Iterable[Comparison | None]) -> Residual | None:
     """The residual of sensors together; None where one cannot be compared."""
     squares = []
-    for name in sensors if experiment is not None else ():
-        comparison = None if experiment is None else _comparison(SensorRun(experiment, name))
+    for comparison in comparisons:
         if comparison is None:
             return None
         sensor = comparison.run.sensor
@@ -189,15 +194,15 @@ def _residual(experiment: Experiment | None, sensors: Sequence[str]) -> Residual
     return Residual(plain=plain, beside_matrix=beside)
 
 
-def _improvement(before: Residual | None, after: Residual | None) -> Improvement | None:
-    """Residuals before and after a change that leaves clearly less of force or moment, and of neither more."""
+def _improvement(before: Residual | None, after: Residual | None, most: float = _EXPLAINS) -> Improvement | None:
+    """Residuals before and after a change that leaves at most a part of force or moment, and of neither more."""
     if before is None or after is None:
         return None
     pairs = [(before.plain, after.plain, False), (before.beside_matrix, after.beside_matrix, True)]
     helps = [
         Improvement(before=old, after=new, beside_matrix=beside)
         for old, new, beside in pairs
-        if (new < _EXPLAINS * old).any() and (new < _WORSENS * old).all()
+        if (new < most * old).any() and (new < _WORSENS * old).all()
     ]
     return min(helps, key=lambda one: float(np.prod(one.after / one.before)), default=None)
 
@@ -211,18 +216,21 @@ def _interval_proposal(file: Path, text: str, experiment: Experiment, runs: Sequ
     if not free.spans or not any(pieces.values()):
         return None
     touched_ns = sum((one.end_ns - one.start_ns) - _shared_ns(one, free) for one in used)
-    has_both = {Use.CALIBRATION, Use.VALIDATION} <= {one.use for one in used}
-    if touched_ns < _TOUCHED_S * 1e9 and has_both:
+    if touched_ns < _TOUCHED_S * 1e9 and not _lacks_validation(used):
         return None
     tables = tomllib.loads(text)["interval"]
     by_label = {one["label"]: _changes(one, pieces.get(one["label"], ()), experiment) for one in tables}
     edit = interval_edit(text, [by_label[one["label"]] for one in tables])
     if edit is None:
         return None
-    after = _residual(_loaded(file, edit.applied(text)), free.sensors)
-    before = _residual(experiment, free.sensors)
-    improved = _improvement(before, after)
-    if after is None or (improved is None and has_both):
+    changed = _loaded(file, edit.applied(text))
+    if changed is None:
+        return None
+    own = [run for run in runs if run.sensor.name in free.sensors]
+    after = _residual(_comparison(SensorRun(changed, run.sensor.name), run) for run in own)
+    before = _residual(map(_comparison, own))
+    improved = _improvement(before, after, _FREES)
+    if after is None or (improved is None and not _lacks_validation(used)):
         return None
     start = experiment.recording.start_ns
     shown = ", ".join(
@@ -231,8 +239,13 @@ def _interval_proposal(file: Path, text: str, experiment: Experiment, runs: Sequ
         for first, last, use in spans
     )
     by = f" for {', '.join(free.sensors)}" if free.left_out else ""
-    what = "intervals free of contact" if improved else "intervals to fit and to validate"
+    what = "intervals free of contact" if improved else "no interval validates the fit; one of both uses"
     return Proposal(kind="interval", about="", text=f"{what}{by}: {shown}", edit=edit, residuals=improved)
+
+
+def _lacks_validation(used: Sequence[Interval]) -> bool:
+    """Whether one interval is all that is used, to fit: other recordings are seldom cut by it."""
+    return [one.use for one in used] == [Use.CALIBRATION]
 
 
 def _shared_ns(interval: Interval, free: FreeTime) -> int:
@@ -250,7 +263,7 @@ def _pieces(experiment: Experiment, free: FreeTime) -> dict[str, list[tuple[int,
         ]
         for one in used
     }
-    if len({one.use for one in used}) == 2:
+    if not _lacks_validation(used):
         return {one.label: [(a, b, str(one.use)) for a, b in spans[one.label]] for one in used}
     owners = {span: label for label, own in spans.items() for span in own}
     pieces: dict[str, list[tuple[int, int, str]]] = {one.label: [] for one in used}
@@ -289,7 +302,7 @@ def _faults(file: Path, text: str, runs: Sequence[SensorRun]) -> Iterator[Propos
         diagnosis = None if comparison is None else diagnosed(comparison)
         if comparison is None or diagnosis is None:
             continue
-        before = _residual(run.experiment, [run.sensor.name])
+        before = _residual([comparison])
         tried = [_tried(file, text, comparison, one, before) for one in diagnosis.faults]
         for proposal in [one for one in tried if one.edit is not None] or tried[:1]:
             if proposal.key not in keys:
@@ -302,7 +315,8 @@ def _tried(file: Path, text: str, comparison: Comparison, fault: Explanation, be
     name = comparison.run.sensor.name
     about, words = _about(comparison, fault), f"{name}: {fault_text(comparison, fault)}"
     edit = _edit_of(text, comparison, fault)
-    after = None if edit is None else _residual(_loaded(file, edit.applied(text)), [name])
+    changed = None if edit is None else _loaded(file, edit.applied(text))
+    after = None if changed is None else _residual([_comparison(SensorRun(changed, name))])
     improved = _improvement(before, after)
     if edit is None or improved is None:
         return Proposal(kind=fault.kind, about=about, text=f"{words}; {remedy(comparison, fault)}", edit=None)
