@@ -21,15 +21,17 @@ from tests.scenes.experiments import PARQUET, TWO, YARP, edit, snapshot
 INPUT_OPTIONS = {
     "--browser",
     "--calibration",
+    "--matrices",
     "--mesh-dir",
     "--plan",
     "--population",
+    "--resume",
     "--spec",
     "--stream",
     "--urdf",
     "--warm-up",
 }
-"""Options with a path that is read, in every command that has them."""
+"""Options with a path that is read, in every command that has them; lines of what is resumed are rewritten in it."""
 TABLE_THAT_IS_READ = ("skin wrench", "--table")
 NEW_FOLDERS = {
     ("bench device", "--figures"),

@@ -31,7 +31,7 @@ TABLES_AND_CALIBRATIONS = 7 + 4
         (("--lambda", "nan"), "--lambda: expected numbers of at least 0 counts2, got [nan]"),
         (("--lambda", "inf", "--lambda", "1"), "--lambda: expected numbers of at least 0 counts2, got [1.0, inf]"),
         (("--sensor", "arm_tf"), "grid_cold.toml: experiment 'arm grid_cold' has no sensor 'arm_tf'; did you mean"),
-        (("--sphere", "grid_hot"), "sphere: no calibration interval is called 'grid_hot'; did you mean"),
+        (("--sphere", "grid_cod"), "sphere: no calibration interval is called 'grid_cod'; did you mean"),
         (
             ("--type", "SnTdTO"),
             "error: sensor 'arm_ft': nothing can be fitted; grid SnTdTO: sphere offset: name the data sets that draw",

@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
-from difflib import get_close_matches
+from difflib import SequenceMatcher, get_close_matches
 
 _LONGEST_QUOTE = 40
+_COMPARED, _ALIKE = 5, 0.5
+"""Names that are looked at as the one that was meant, and the share of letters that two spellings of a word share."""
 
 
 class ForceTorqueError(Exception):
@@ -98,9 +101,25 @@ def known_names(wanted: object, known: Iterable[str]) -> str:
     # names come from files: one with a line break in it must not break the message in two
     names = sorted(name if name.isprintable() else repr(name) for name in known)
     spelled = {name.lower(): name for name in names}
-    close = get_close_matches(str(wanted).lower(), spelled, n=1)
-    hint = f'did you mean "{spelled[close[0]]}"? ' if close else ""
+    text = str(wanted).lower()
+    # r_hip_pitch shares half of its letters with torso_pitch, and is another joint
+    likely = (close for close in get_close_matches(text, spelled, n=_COMPARED) if _are_same_words(text, close))
+    hint = next((f'did you mean "{spelled[close]}"? ' for close in likely), "")
     return f"{hint}known: {', '.join(names) if names else 'none'}"
+
+
+def _are_same_words(text: str, other: str) -> bool:
+    """Whether one name has all words of the other, up to typing errors, word by word or as one word."""
+    words, others = (re.findall("[a-z0-9]+", one) for one in (text, other))
+    missing, more = [one for one in words if one not in others], [one for one in others if one not in words]
+    if not missing or not more:
+        return True
+    pairs = (missing, more) if len(missing) <= len(more) else (more, missing)
+    return "".join(words) == "".join(others) or all(any(_is_misspelt(one, two) for two in pairs[1]) for one in pairs[0])
+
+
+def _is_misspelt(word: str, other: str) -> bool:
+    return sorted(word) == sorted(other) or SequenceMatcher(None, word, other).ratio() >= _ALIKE
 
 
 def quoted(text: str) -> str:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.results.command import Option, command
 from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption
@@ -16,7 +17,9 @@ if TYPE_CHECKING:
 
 
 def init(
-    log: Annotated[list[Path], typer.Argument(help="A log of any format, or several tables of one recording.")],
+    log: Annotated[
+        list[Path] | None, typer.Argument(help="A log of any format, or several tables of one recording.")
+    ] = None,
     urdf: Annotated[
         Path | None,
         typer.Option("--urdf", help="The robot. Default: the log's own description; without, a wrist sensor."),
@@ -32,25 +35,72 @@ def init(
         str | None,
         typer.Option(help="Names of all columns of a table without headings, between commas, as t,fx,fy,fz,tx,ty,tz."),
     ] = None,
+    sensor: Annotated[
+        list[str] | None,
+        typer.Option("--sensor", help="Sensor to draft, by its name or stream; repeat for more. Default: all."),
+    ] = None,
+    matrices: Annotated[
+        Path | None, typer.Option("--matrices", help="Folder of the matrix files that the sensors came with.")
+    ] = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option("--resume", help="Experiment file whose questions are asked, and of which changes are proposed."),
+    ] = None,
+    no_input: Annotated[
+        bool, typer.Option("--no-input", help="With --resume: ask nothing, list questions or proposals.")
+    ] = False,
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Begin an experiment file of a log: what it does not say is a question.
+    """Begin an experiment file of a log, or propose changes of one.
 
     Example: forcetorque init log.csv --urdf robot.urdf -o experiment.toml
 
+    Exit codes with --resume: 0 nothing is left, 2 error, 4 questions or proposals are open.
+
     Python: `inspection.draft_experiment("log.csv", urdf="robot.urdf")`
+
+    Raises:
+        ExperimentError: If there is neither a log nor a file, or both.
     """
+    if resume is not None:
+        _resume(resume, log or [], output_format, no_input=no_input, details=details)
+        return
     from forcetorque.inspection.draft.draft import draft_experiment
 
+    if not log:
+        raise ExperimentError("init: expected a log, or an experiment file by --resume, got neither")
     start_logging().info("reading %s", ", ".join(map(str, log)))
     refuse_two_on_standard_output(output, output_format)
     declare_outputs(output, force=force)
-    names = [] if column_names is None else [name.strip() for name in column_names.split(",")]
-    draft = draft_experiment(log, output, urdf=urdf, log_format=log_format, column_names=names, force=force)
+    draft = draft_experiment(
+        log,
+        output,
+        urdf=urdf,
+        log_format=log_format,
+        column_names=[] if column_names is None else [name.strip() for name in column_names.split(",")],
+        sensors=sensor or (),
+        matrices=matrices,
+        force=force,
+    )
     if output != STANDARD_OUTPUT:  # else the file itself went there
         show(draft, output_format, details=details)
+
+
+def _resume(file: Path, logs: list[Path], output_format: Format, *, no_input: bool, details: bool) -> None:
+    from forcetorque.inspection.draft.questions import OPEN_QUESTIONS
+    from forcetorque.inspection.draft.resume import resume_experiment
+    from forcetorque.results.terminal.prompts import accepts, ask, is_terminal
+
+    if logs:
+        raise ExperimentError(f"--resume {file}: expected no log beside it, got {', '.join(map(str, logs))}")
+    start_logging().info("reading %s", file)
+    asks = is_terminal() and not no_input
+    draft = resume_experiment(file, ask=ask if asks else None, accepts=accepts if asks else None)
+    show(draft, output_format, details=details)
+    if draft.questions or draft.proposals:
+        raise typer.Exit(OPEN_QUESTIONS)
 
 
 @command()

@@ -21,25 +21,14 @@ from forcetorque.inspection.comparison import Comparison, compared
 from forcetorque.inspection.diagnosis import diagnosed, fault_finding, stability_of
 from forcetorque.inspection.plausibility.checks import FEWEST, examine
 from forcetorque.inspection.plausibility.hypotheses import Explanation
-from forcetorque.inspection.residual_findings import model_findings
+from forcetorque.inspection.residual_findings import UNEXPLAINED, model_findings
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.recording import PatchRecording, patch_recordings
 
-_UNRELIABLE = {
-    "contact",
-    "light_contact",
-    "off_level",
-    "drift",
-    "step",
-    "saturation",
-    "frozen",
-    "stuck",
-    "gap",
-    "backward_stamp",
-}
+_UNRELIABLE = UNEXPLAINED | {"drift", "saturation", "frozen", "stuck", "gap", "backward_stamp"}
 """Kinds of findings that make the samples of their interval unreliable."""
 
 
@@ -155,7 +144,7 @@ def _model_findings(run: SensorRun, calibration: Calibration | None, *, with_cau
     unknown = [label for label, names in touched.items() if names]
     fault = None
     if with_causes and len(unknown) < len(supported):
-        over = [] if unknown else _over_the_whole_log(run.experiment, supported)
+        over = [] if unknown else over_the_whole_log(run.experiment, supported)
         fault = yield from _causes(run, correction, over[0] if len(over) == 1 else None)
     if unknown:
         names = dict.fromkeys(name for label in unknown for name in touched[label])
@@ -166,7 +155,7 @@ def _model_findings(run: SensorRun, calibration: Calibration | None, *, with_cau
         yield Finding(stream=stream, kind="not_compared", message=text, count=0)
         supported = [interval for interval in supported if interval.label not in unknown]
     else:
-        supported = _over_the_whole_log(run.experiment, supported)
+        supported = over_the_whole_log(run.experiment, supported)
     if fault is not None and not fault.changes_every_instant_alike:
         return
     turn = None if fault is None else fault.turn
@@ -232,8 +221,31 @@ def _implausible(run: SensorRun, comparison: Comparison) -> Iterator[Finding]:
         yield Finding(stream=stream, kind=f"implausible_{doubt.kind}", message=doubt.message, count=0)
 
 
-def _over_the_whole_log(experiment: Experiment, supported: Sequence[Interval]) -> list[Interval]:
-    """One interval of the whole log if there is one support, else the intervals."""
+def whole_log_samples(run: SensorRun, correction: Correction) -> IntervalSamples | None:
+    """Pair reading and expected wrench over the whole log.
+
+    Args:
+        run: The sensor.
+        correction: How it is read.
+
+    Returns:
+        The samples, not smoothed; None where intervals have several supports.
+    """
+    supported = [interval for interval in run.experiment.recording.intervals if interval.support is not None]
+    over = over_the_whole_log(run.experiment, supported)
+    return _samples(run, over[0], correction) if len({id(one.support) for one in supported}) == 1 else None
+
+
+def over_the_whole_log(experiment: Experiment, supported: Sequence[Interval]) -> list[Interval]:
+    """Give the intervals in which a sensor can be compared with the model.
+
+    Args:
+        experiment: The experiment.
+        supported: Its intervals with a support.
+
+    Returns:
+        One of the whole log if there is one support, else the intervals.
+    """
     if len({id(interval.support) for interval in supported}) != 1:
         return list(supported)
     start, end = experiment.recording.span_ns

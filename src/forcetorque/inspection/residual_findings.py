@@ -34,6 +34,9 @@ CONTACT_SCATTERS = 3.0
 OUTLIER_SCATTERS = 12.0
 """Least deviation of an outlier from the smoothed residual, in robust standard deviations."""
 
+UNEXPLAINED = frozenset({"contact", "light_contact", "off_level", "step"})
+"""Kinds of findings in whose time something is measured that the model does not explain."""
+
 _SMOOTH_S, _LEVEL_S, _EDGE_S, _MERGE_S, _SHORTEST_S = 0.5, 1.0, 0.25, 1.0, 0.5
 _LONGEST_OUTLIER = 3
 

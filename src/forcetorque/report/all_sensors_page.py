@@ -28,7 +28,8 @@ def all_sensors_page(uses: Sequence[UseVerdict], undecided: Sequence[Undecided],
     Returns:
         A section with a page of its own: how many may be used, and a line per verdict.
     """
-    names = short_names([row.candidate for row in (*uses, *undecided) if row.candidate is not None])
+    unjudged = [row.candidate for row in undecided if row.candidate is not None]
+    names = short_names([*(use.candidate for use in uses), *unjudged])
     first = {(row.sensor, row.serial): next(iter(row.steps), "") for row in steps}
     rows = [_row(use, names, first) for use in sorted(uses, key=lambda use: _ORDER.index(use.decision))]
     for row in undecided:

@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 import forcetorque
-from forcetorque.app.run.questions import answer_questions, open_questions
 from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.inspection.draft.questions import answer_questions, open_questions
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.workbench.simulated_benches import BenchFaults
 from tests.app.json_schema import faults

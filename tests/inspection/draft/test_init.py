@@ -18,10 +18,13 @@ from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.headings import read_heading
+from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.formats.signals import OrientationTable
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.draft.joints import joint_rows
+from forcetorque.inspection.draft.questions import answer_questions
 from forcetorque.inspection.draft.streams import column_matches
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Recording
@@ -205,6 +208,33 @@ def test_a_push_is_in_no_interval(drafted: str) -> None:
     assert sum(end - start for start, end in spans) > 50.0
 
 
+@pytest.mark.parametrize(("force", "lever"), [((0, 12, 0), (0.3, 0.1, 0.3)), ((7, 7, 7), (0, 0, 0.6))])
+def test_a_push_that_is_steady_in_the_axes_of_the_sensor_is_in_no_interval(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, force: tuple[float, ...], lever: tuple[float, ...]
+) -> None:
+    """12 N for 5 s, which the moments seem to explain; without the comparison of `inspect` it is in an interval."""
+    start, end = 5.0, 10.0
+    push = [*force, *np.cross(lever, force)]
+    heading, *rows = log_text().splitlines()
+    cells = [row.split(",") for row in rows]
+    for row in cells:
+        if start <= float(row[0]) < end:
+            row[6:] = [f"{float(value) + more:.4f}" for value, more in zip(row[6:], push, strict=True)]
+    log = _written(tmp_path, "\n".join([heading, *map(",".join, cells)]) + "\n")
+
+    def shared_s() -> tuple[float, float]:
+        """Time of all intervals, and of what they have of the push."""
+        text = draft_experiment([log], urdf=tmp_path / "robot.urdf").content
+        spans = [(one["start_s"], one["end_s"]) for one in tomllib.loads(text)["interval"]]
+        return sum(b - a for a, b in spans), sum(max(0.0, min(b, end) - max(a, start)) for a, b in spans)
+
+    total, of_push = shared_s()
+    assert total > 40.0
+    assert of_push == 0.0
+    monkeypatch.setattr("forcetorque.inspection.draft.draft.contact_spans", lambda *_: [])
+    assert shared_s()[1] > 4.0
+
+
 @pytest.mark.parametrize("direction", list(MeasureDirection))
 def test_accelerations_tell_who_acts_on_whom(tmp_path: Path, direction: MeasureDirection) -> None:
     """The other sign of the same log gives the other direction, and gravity the other way."""
@@ -365,6 +395,31 @@ def test_a_wrist_sensor_without_a_robot_has_a_load(tmp_path: Path) -> None:
         draft_experiment([tmp_path / "wrench.csv"], tmp_path / "x.toml")
 
 
+@pytest.mark.parametrize("kept", ["orientation", "proper_acceleration"])
+def test_an_acceleration_beside_an_orientation_is_no_second_motion(tmp_path: Path, kept: str) -> None:
+    """The answered file loads as drafted, and with the alternative that stands in its comments."""
+    head = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,ax [m/s2],ay [m/s2],az [m/s2],qx,qy,qz,qw"
+    rows = "\n".join(f"{k},1,2,3,4,5,{k},0,0,9.80665,0,0,0,1" for k in range(9))
+    (tmp_path / "log.csv").write_text(f"{head}\n{rows}\n", encoding="utf-8")
+    text = draft_experiment([tmp_path / "log.csv"], tmp_path / "x.toml").content
+    if kept != "orientation":
+        first, other = text.index('quantity = "orientation"'), text.index("# the motion is that of orientation")
+        commented, sensor = text.index("# [[recording", other), text.index("[[sensor]]")
+        text = (
+            text[:first].removesuffix("[[recording.stream.signal]]\n")
+            + text[commented:sensor].replace("\n# ", "\n").removeprefix("# ")
+            + text[sensor:]
+        )
+    text = answered(text, {**ANSWERS, "frame": '"ft_sensor"'}).replace('sense = "?"', 'sense = "sensor_to_world"')
+    (tmp_path / "x.toml").write_text(text, encoding="utf-8")
+    experiment = load_experiment(tmp_path / "x.toml")
+    (stream,) = experiment.recording.streams.values()
+    assert kept in text
+    assert ("proper_acceleration" in stream.signals) is (kept != "orientation")
+    _, root = SensorRun(experiment, "ft_sensor").motion(experiment.recording.intervals[0], ())
+    np.testing.assert_allclose(root.proper_acceleration[0], [0.0, 0.0, 9.80665], atol=1e-9)
+
+
 def test_boards_that_count_their_joints_are_asked_for_names(tmp_path: Path) -> None:
     """Rows of joints of the robot that have that number are proposed, those of the side first."""
     write_port(tmp_path / "log" / "left_leg" / "stateExt:o", "1 10.5 " + "(1 2 3 4 5 6) [ok] " * 10 + "(3) [ok]\n")
@@ -382,6 +437,60 @@ def test_boards_that_count_their_joints_are_asked_for_names(tmp_path: Path) -> N
     assert sensor["name"] == "l_leg_ft"
     assert asked["frame"].startswith("link that stands still")
     assert re.search(r": l_sole, r_sole.* or one of \d+ other ends of it$", asked["frame"])
+
+
+@pytest.fixture
+def two_legs(tmp_path: Path) -> Path:
+    """A log with the sensors of two legs."""
+    for side in ("left", "right"):
+        rows = "".join(f"{k} {k}.5 1 2 3 4 5 {k}\n" for k in range(1, 5))
+        write_port(tmp_path / "log" / f"{side}_leg" / "analog:o", rows)
+    return tmp_path / "log"
+
+
+def test_a_sensor_is_drafted_alone(two_legs: Path) -> None:
+    """Neither the stream nor the questions of the others are in the file; an unknown one is refused with the known."""
+    draft = draft_experiment([two_legs], urdf=BIPED_URDF, sensors=["r_leg_ft"])
+    content = tomllib.loads(draft.content)
+    assert [one["name"] for one in content["sensor"]] == ["r_leg_ft"]
+    assert [one["name"] for one in content["recording"]["stream"]] == ["right_leg/analog:o"]
+    with pytest.raises(ExperimentError, match=r"--sensor: the log has no sensor 'leg'; .*known: l_leg_ft"):
+        draft_experiment([two_legs], urdf=BIPED_URDF, sensors=["leg"])
+
+
+def test_the_size_of_several_sensors_is_asked_once(two_legs: Path) -> None:
+    """As the accuracy of what they are fitted to; the file that is answered so is calibrated without full scales."""
+    draft = draft_experiment([two_legs], two_legs.parent / "x.toml", urdf=BIPED_URDF)
+    keys = _keys(draft.content)
+    assert (keys.count("serial"), keys.count("full_scale"), keys.count("accuracy")) == (2, 0, 1)
+    answers = {**ANSWERS, "accuracy": "{ force_N = 0.3, moment_Nm = 0.03 }", "frame": '"l_sole"', "support": '"l_sole"'}
+    (two_legs.parent / "x.toml").write_text(answered(draft.content, answers), encoding="utf-8")
+    accuracy = load_experiment(two_legs.parent / "x.toml").fit_options.accuracy
+    assert accuracy is not None
+    np.testing.assert_allclose(accuracy, [0.3, 0.3, 0.3, 0.03, 0.03, 0.03])
+
+
+def test_matrix_files_give_priors_and_serial_numbers(two_legs: Path) -> None:
+    """By the name of the sensor in that of the file, or the only one; else the file is asked, and has the number."""
+    folder = two_legs.parent / "matrices"
+    folder.mkdir()
+    with pytest.raises(FormatError, match=r"--matrices .*expected a folder with matrix files, got one without any"):
+        draft_experiment([two_legs], urdf=BIPED_URDF, matrices=folder)
+    for serial in ("SN001", "SN002"):
+        write_matrix_file(folder / f"matrix_{serial}.txt", encode_matrix(0.01 * np.eye(6)))
+    file = two_legs.parent / "x.toml"
+    asked = draft_experiment([two_legs], file, urdf=BIPED_URDF, matrices=folder).content
+    assert _keys(asked)[:4] == ["prior", "serial", "prior", "serial"]
+    assert "full_scale" not in asked
+    replies = iter(["matrices/matrix_SN002.txt", "matrices/matrix_SN001.txt"])
+    assert not answer_questions(file, lambda _: next(replies, ""))
+    sensors = tomllib.loads(file.read_text(encoding="utf-8"))["sensor"]
+    assert [one["serial"] for one in sensors] == ["SN002", "SN001"]
+    (folder / "matrix_SN002.txt").unlink()
+    (only,) = tomllib.loads(
+        draft_experiment([two_legs], urdf=BIPED_URDF, sensors=["l_leg_ft"], matrices=folder).content
+    )["sensor"]
+    assert (only["serial"], only["prior"].split("/")[-1]) == ("SN001", "matrix_SN001.txt")
 
 
 def test_what_is_left_out_is_said(tmp_path: Path) -> None:

@@ -55,7 +55,7 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     for file in ("log.csv", "robot.urdf"):
         shutil.copy(FOLDER / file, tmp_path)
     monkeypatch.chdir(tmp_path)
-    (look, init, early, inspect, calibrate, evaluate) = COMMANDS
+    (look, init, early, resume, inspect, calibrate, evaluate) = COMMANDS
     assert "looks like" in run(*look).out
     drafted = run(*init)
     assert drafted.code == 0, drafted.err
@@ -75,6 +75,9 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert shown is not None
     assert shown[1] in error
     experiment.write_text(_answered(text), encoding="utf-8")
+    resumed = run(*resume)
+    assert resumed.code == 0, resumed.out
+    assert "COMPLETE" in resumed.out.splitlines()[0]
     assert re.search(r"25\.3-29\.7 s, log: light contact up to 11 N", run(*inspect).out)
     fitted = run(*calibrate)
     assert fitted.code == 0, fitted.err

@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -29,6 +28,10 @@ def run(
     sensor: SensorOption = None,
     urdf: Annotated[
         Path | None, typer.Option("--urdf", help="The robot, for a log without an experiment file.")
+    ] = None,
+    matrices: Annotated[
+        Path | None,
+        typer.Option("--matrices", help="Folder of matrix files of the sensors, for a log without an experiment file."),
     ] = None,
     override: Annotated[
         str | None,
@@ -57,7 +60,7 @@ def run(
     log = start_logging()
     refuse_standard_output("--output", output)
     if not _state_experiments(files):
-        files = [_begun(files, output, urdf, force=force)]
+        files = [_begun(files, output, urdf, sensor or (), matrices, force=force)]
         if (unanswered := _unanswered(files[0], no_input=no_input)) is not None:
             _end(unanswered, output_format, details=details, files=files)
     result = go(
@@ -87,10 +90,12 @@ def _state_experiments(files: list[Path]) -> bool:
     return all(stated)
 
 
-def _begun(logs: list[Path], output: Path, urdf: Path | None, *, force: bool) -> Path:
+def _begun(
+    logs: list[Path], output: Path, urdf: Path | None, sensors: Sequence[str], matrices: Path | None, *, force: bool
+) -> Path:
     """The experiment file of logs, in the folder of results; one that is there already is taken up again."""
-    from forcetorque.app.run.questions import logs_of
     from forcetorque.inspection.draft.draft import draft_experiment
+    from forcetorque.inspection.draft.questions import logs_of
 
     file = output / "experiment.toml"
     if file.exists():
@@ -101,36 +106,29 @@ def _begun(logs: list[Path], output: Path, urdf: Path | None, *, force: bool) ->
         start_logging().info("going on with %s", file)
         return file
     output.mkdir(parents=True, exist_ok=True)
-    draft = draft_experiment(logs, file, urdf=urdf, force=force)
+    draft = draft_experiment(logs, file, urdf=urdf, sensors=sensors, matrices=matrices, force=force)
     for sentence in draft.notes:
         start_logging().info("%s", sentence)
     return file
 
 
 def _unanswered(file: Path, *, no_input: bool) -> WholeRun | None:
-    """Ask what only a person can answer; what comes out if questions stay open, else None."""
-    from forcetorque.app.run.questions import answer_questions, open_questions
+    """Ask what only a person can answer, then for proposals; what comes out if something stays open, else None."""
     from forcetorque.app.run.result import Stage, WholeRun
+    from forcetorque.inspection.draft.resume import resume_experiment
+    from forcetorque.results.terminal.prompts import accepts, ask, is_terminal
 
-    if not no_input and sys.stdin.isatty() and answer_questions(file, _ask()):
+    asks = is_terminal() and not no_input
+    draft = resume_experiment(file, ask=ask if asks else None, accepts=accepts if asks else None)
+    listed = tuple(f"line {one.line}, {one.key}: {one.question}" for one in draft.questions)
+    if listed:
+        text = f"{len(listed)} question(s) are open, the first: {listed[0]}"
+        remedy = f'put the answers in place of "?" in {file}, and run it: forcetorque run {file}'
+    elif draft.proposals and not asks:
+        listed = tuple(one.proposal for one in draft.proposals)
+        text = f"{len(listed)} proposal(s) are open, the first: {listed[0]}"
+        remedy = f"accept them by forcetorque init --resume {file}, or decline them all: forcetorque run {file}"
+    else:
         return None
-    keys = open_questions(file)
-    if not keys:
-        return None
-    listed = tuple(f"line {key.line}, {key.key}: {key.words}" for key in keys)
-    stage = Stage(
-        name="init",
-        outcome="stopped",
-        seconds=0.0,
-        text=f"{len(keys)} question(s) are open, the first: {listed[0]}",
-        remedy=f'put the answers in place of "?" in {file}, and run it: forcetorque run {file}',
-    )
+    stage = Stage(name="init", outcome="stopped", seconds=0.0, text=text, remedy=remedy)
     return WholeRun(experiment=str(file), stages=(stage,), questions=listed, files=(str(file),))
-
-
-def _ask() -> Callable[[str], str]:
-    def ask(question: str) -> str:
-        sys.stderr.write(f"{question}\n")
-        return str(typer.prompt("answer (empty to leave it open)", default="", show_default=False, err=True))
-
-    return ask

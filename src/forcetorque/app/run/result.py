@@ -12,6 +12,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from forcetorque.evaluation.load_cases.verdict import UseVerdict
+from forcetorque.inspection.draft.questions import OPEN_QUESTIONS
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -29,8 +30,8 @@ class ExitCode(IntEnum):
     """It went to the end, and something may not be used, or not yet."""
     STOPPED = 3
     """A stage stopped it: what follows would mislead."""
-    QUESTIONS = 4
-    """The experiment file has questions that only a person can answer."""
+    QUESTIONS = OPEN_QUESTIONS
+    """The experiment file of a log has questions, or proposals, that only a person can answer."""
 
 
 class Stage(Row):

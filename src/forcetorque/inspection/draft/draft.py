@@ -16,8 +16,9 @@ from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.formats.log_format import LoggedRobot, not_read_message
 from forcetorque.inspection.draft.first_look import read_drafted
-from forcetorque.inspection.draft.gravity import GravityFit, fit_gravity
+from forcetorque.inspection.draft.gravity import GravityFit, contact_spans, fit_gravity
 from forcetorque.inspection.draft.intervals import (
+    WHOLE_LOG,
     DraftedInterval,
     clock_lines,
     draft_intervals,
@@ -25,11 +26,13 @@ from forcetorque.inspection.draft.intervals import (
     whole_log,
 )
 from forcetorque.inspection.draft.joints import standing_lines
-from forcetorque.inspection.draft.log import draft_log, recording_lines
+from forcetorque.inspection.draft.log import draft_log, recording_lines, without_streams
 from forcetorque.inspection.draft.logged_robot import difference, logged_robot, model_of, with_fixed_frame
+from forcetorque.inspection.draft.priors import MatrixFile, accuracy_lines, matrix_files, prior_lines
 from forcetorque.inspection.draft.sensors_and_supports import (
     DraftedSensor,
     base_of_arm,
+    chosen_sensors,
     draft_sensors,
     has_no_tool,
     interval_support,
@@ -39,7 +42,7 @@ from forcetorque.inspection.draft.sensors_and_supports import (
     support_lines,
 )
 from forcetorque.inspection.draft.streams import DraftedLog, relative
-from forcetorque.inspection.draft.tables_and_arrays import example_names
+from forcetorque.inspection.draft.tables_and_arrays import INERTIAL, example_names
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
 from forcetorque.recording.recording import NO_MOTION, Recording
@@ -49,7 +52,6 @@ from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.robot.model import JointType, RobotModel
 from forcetorque.robot.urdf import read_urdf
 
-_INERTIAL = ("proper_acceleration", "angular_velocity")
 _MOST_JOINTS = 12
 """Largest number of fixed joints whose orientation a force is fitted to."""
 
@@ -63,6 +65,21 @@ class QuestionRow(Row):
     """The key."""
     question: Annotated[str, Shown("question")]
     """The question, with evidence from the log."""
+
+
+class ProposalRow(Row):
+    """A change that the recording speaks for."""
+
+    line: Annotated[int | None, Shown("line")]
+    """First line of the file that it changes; None where another file is to be changed."""
+    kind: Annotated[str, Shown("kind")]
+    """`interval`, or the kind of the fault that it corrects, as `inspect` names it."""
+    proposal: Annotated[str, Shown("proposal")]
+    """What it changes, with the residual before and after."""
+    residual_before_N: float | None
+    """Root mean square of the force that the expected wrench leaves; N; None where it was not tried."""
+    residual_after_N: float | None
+    """The same with the change; N."""
 
 
 class Draft(Result):
@@ -80,6 +97,8 @@ class Draft(Result):
     """Streams of the log, where it can be read already."""
     questions: tuple[QuestionRow, ...]
     """Questions to answer."""
+    proposals: tuple[ProposalRow, ...] = ()
+    """Changes of a file that was taken up again."""
     notes: tuple[str, ...]
     """Findings about the log, and reasons for what is unknown."""
     robot_file: str | None = None
@@ -93,6 +112,9 @@ class Draft(Result):
         Yields:
             One answer.
         """
+        if self.proposals:
+            yield self._proposed
+            return
         count, first = len(self.questions), next(iter(self.questions), None)
         step = "fill in what is asked, then check the file" if count else "read the file, then go on"
         yield Answer(
@@ -114,6 +136,8 @@ class Draft(Result):
         if self.streams:
             yield stream_table(self.streams, f"{self.file}: streams")
         yield from self.notes
+        if self.proposals:
+            yield table_of(self.proposals, f"{self.file}: proposals")
         if not self.questions:
             yield f"{self.file}: nothing is left to ask; read it, then `forcetorque {self._next} {self.file}`"
             return
@@ -122,6 +146,19 @@ class Draft(Result):
         yield (
             f"{count} line{'' if count == 1 else 's'} to fill in; `forcetorque inspect {self.file}` says which is "
             "next, and then what is wrong with the log"
+        )
+
+    @property
+    def _proposed(self) -> Answer:
+        count, first = len(self.proposals), self.proposals[0]
+        can_be_written = any(row.line is not None for row in self.proposals)
+        return Answer(
+            subject=self.file,
+            verdict=f"{count} PROPOSAL{'S' * (count != 1)}",
+            why=(first.proposal, *((f"{count - 1} more: --details",) if count > 1 else ())),
+            step="accept or decline each in a terminal" if can_be_written else "correct it, and check again",
+            command=typed("init", "--resume", self.file),
+            concern=Concern.UNCERTAIN,
         )
 
     @property
@@ -145,6 +182,8 @@ def draft_experiment(
     urdf: Path | str | None = None,
     log_format: str | None = None,
     column_names: Sequence[str] = (),
+    sensors: Sequence[str] = (),
+    matrices: Path | str | None = None,
     force: bool = False,
 ) -> Draft:
     """Draft the experiment file of a log.
@@ -160,6 +199,8 @@ def draft_experiment(
             sensor whose pose is logged.
         log_format: Name of the format; recognised from the files if None.
         column_names: Names of all columns, of tables whose first lines do not name them; none for those of the files.
+        sensors: Names or streams of the sensors to draft; all if empty.
+        matrices: Folder of the calibrations that the sensors came with; None for none.
         force: Whether an existing file may be replaced.
 
     Returns:
@@ -185,7 +226,13 @@ def draft_experiment(
     robot_file = file.with_suffix(".urdf") if is_written and urdf is None and logged.urdf is not None else None
     if robot_file is not None:
         refuse_output(robot_file, force=force)
-    text, notes, recording = _written(log, folder, model, _robot_line(urdf, robot_file, logged, folder), logged)
+    found = draft_sensors(log.streams, model)
+    chosen = chosen_sensors(found, sensors)
+    others = {sensor.stream for sensor in found} - {sensor.stream for sensor in chosen}
+    framed = tuple(with_fixed_frame(sensor, log.streams, logged, model) for sensor in chosen)
+    priors = () if matrices is None else matrix_files(Path(matrices))
+    robot = _robot_line(urdf, robot_file, logged, folder)
+    text, notes, recording = _written(without_streams(log, others), framed, priors, folder, model, robot)
     notes = (*_about_robot(logged, None if urdf is None else Path(urdf), robot_file, model), *notes)
     if robot_file is not None and logged.urdf is not None:
         write_bytes_atomically(robot_file, logged.urdf.encode())
@@ -224,10 +271,13 @@ def _about_robot(
 
 
 def _written(
-    log: DraftedLog, folder: Path, model: RobotModel | None, robot: str | None, logged: LoggedRobot
+    log: DraftedLog,
+    sensors: tuple[DraftedSensor, ...],
+    priors: Sequence[MatrixFile],
+    folder: Path,
+    model: RobotModel | None,
+    robot: str | None,
 ) -> tuple[str, tuple[str, ...], Recording | None]:
-    sensors = draft_sensors(log.streams, model)
-    sensors = tuple(with_fixed_frame(sensor, log.streams, logged, model) for sensor in sensors)
     frames = {sensor.stream: sensor.name for sensor in sensors if not sensor.tags}
     recorded = recording_lines(log, folder, model, frames)
     recording, reason = read_drafted("\n".join(recorded), folder, sensors, model)
@@ -240,7 +290,9 @@ def _written(
         reason += "; meanwhile it was looked at with the likeliest units, and the force turns as a weight does"
     notes = [*_notes(log, sensors, model), *([reason] if reason else [])]
     evidence = [best for sensor in sensors if (best := _best(sensor)) is not None]
-    intervals = draft_intervals(first_look, evidence) if first_look is not None and evidence else ()
+    intervals: tuple[DraftedInterval, ...] = ()
+    if first_look is not None and evidence:
+        intervals = draft_intervals(first_look, evidence, _contacts(sensors, first_look, model, base))
     notes.append(_about_intervals(intervals, evidence) or _why_no_interval(first_look, sensors, model, evidence))
     lines = ['# What is "?" is a question: put the answer there. Every command says which is next.']
     lines += [line("schema", "forcetorque/experiment/1"), line("name", log.paths[0].stem)]
@@ -250,7 +302,7 @@ def _written(
         lines += standing_lines(log, sensors, model, base)
     lines += ["", *recorded, *clock_lines(log, first_look)]
     for sensor in sensors:
-        lines += sensor_lines(sensor, on_robot=model is not None)
+        lines += sensor_lines(sensor, prior_lines(sensor, sensors, priors, folder), on_robot=model is not None)
     extra: list[str] = []
     if model is None:
         lines += _wrist_lines(log, sensors)
@@ -260,13 +312,10 @@ def _written(
         bare = [sensor for sensor in sensors if has_no_tool(sensor, model)]
         if bare:
             lines += load_lines(bare[0], model)
-    words = (
-        "all of the log: put it where nothing touches, and cut out what does"
-        if sensors
-        else "all of the log, to look at"
-    )
+    words = WHOLE_LOG if sensors else "all of the log, to look at"
     for interval in intervals or whole_log(words, use="calibration" if sensors else "ignore"):
         lines += interval_lines(interval, extra)
+    lines += accuracy_lines(sensors, priors)
     return "\n".join(lines) + "\n", tuple(notes), recording
 
 
@@ -286,6 +335,21 @@ def _with_evidence(
 
 def _best(sensor: DraftedSensor) -> GravityFit | None:
     return min(sensor.evidence.values(), key=lambda fit: fit.median_residual, default=None)
+
+
+def _contacts(
+    sensors: Sequence[DraftedSensor], recording: Recording, model: RobotModel | None, base: str | None
+) -> list[tuple[int, int]]:
+    """Contacts and steps of all sensors, each in the joint that its reading fits best."""
+    spans: list[tuple[int, int]] = []
+    for sensor in sensors:
+        fit = _best(sensor)
+        if fit is not None and model is not None and base is not None:
+            joint = next(name for name, one in sensor.evidence.items() if one is fit)
+            pose = None if sensor.mount is None else sensor.mount.pose
+            stream = recording.stream(sensor.stream)
+            spans += contact_spans(model, joint, base, recording, stream, fit, link_H_sensor=pose)
+    return spans
 
 
 def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel | None) -> Iterator[str]:
@@ -325,7 +389,7 @@ def _about_intervals(intervals: Sequence[DraftedInterval], evidence: Sequence[Gr
     tolerance = max(fit.tolerance for fit in evidence)
     return (
         f"intervals: {len(intervals)} of {seconds:.0f} s together, in which the force goes with the orientation within "
-        f"{tolerance:.2g} N; a steady push in a fixed direction of the sensor would not show, so look at them"
+        f"{tolerance:.2g} N, without what `inspect` finds beside the robot model; look at them all the same"
     )
 
 
@@ -348,7 +412,7 @@ def _why_no_interval(
 
 
 def _imus(log: DraftedLog) -> list[str]:
-    return [stream.name for stream in log.streams if set(_INERTIAL) <= set(stream.quantities)]
+    return [stream.name for stream in log.streams if set(INERTIAL) <= set(stream.quantities)]
 
 
 def _wrist_lines(log: DraftedLog, sensors: Sequence[DraftedSensor]) -> list[str]:

@@ -15,8 +15,9 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.inertia import Inertia
-from forcetorque.base.units import MAD_TO_DEVIATION
+from forcetorque.base.units import MAD_TO_DEVIATION, STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
+from forcetorque.inspection.residual_findings import UNEXPLAINED, model_findings
 from forcetorque.recording.alignment import interpolate, usable_samples
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.smoothing import DERIVATIVE_WINDOW
@@ -25,7 +26,7 @@ from forcetorque.recording.stream_faults import true_runs
 from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion, joint_motion_at
-from forcetorque.robot.tree import build_tree, required_joints
+from forcetorque.robot.tree import BodyTree, build_tree, required_joints
 
 WINDOW_S = 0.2
 """Window of the means, against noise and vibration; s."""
@@ -44,6 +45,8 @@ LIGHT_KG = 1e-3
 """Mass beyond a joint below which there is no load."""
 
 _PROBE = "probe"
+_FINE_WINDOW_S = 0.05
+"""Window of the means in which contacts are looked for; s."""
 _FEWEST = 20
 _ROUNDS = 20
 _MOST_WINDOWS = 20_000
@@ -124,11 +127,96 @@ def fit_gravity(
     Returns:
         The fit; None where too few windows have all joints.
     """
+    probed = _probed(model, joint, support, recording, stream, WINDOW_S, link_H_sensor)
+    if probed is None:
+        return None
+    mass = mass_beyond(_probe(model, joint), joint)
+    static = JointMotion.at_rest(probed.motion.names, probed.motion.position)
+    link_R_support = np.stack([probed.expected(static, axis)[:, :3] / mass for axis in np.eye(3)], axis=-1)
+    moved = -probed.expected(probed.motion, np.zeros(3))[:, :3] / mass
+    return _fitted(probed.at_ns, probed.wrench, link_R_support, moved)
+
+
+def contact_spans(
+    model: RobotModel,
+    joint: str,
+    support: str,
+    recording: Recording,
+    stream: Stream,
+    fit: GravityFit,
+    *,
+    link_H_sensor: FloatArray | None = None,
+) -> list[tuple[int, int]]:
+    """Find contacts and steps as `inspect` does, beside the wrench that the robot model expects.
+
+    A steady push along an axis of the sensor is in them, which the fit of forces to moments takes for cross-talk.
+
+    Args:
+        model: The robot; without a mass beyond the joint only forces are compared.
+        joint: Fixed joint, with a sensor or without.
+        support: Link that is assumed to be at rest.
+        recording: Streams with the joints from the support to the distal links.
+        stream: Stream with the wrench.
+        fit: Its fit to gravity, which gives direction and size of the weight.
+        link_H_sensor: As of `fit_gravity`.
+
+    Returns:
+        First and last instant of each, in the order of time; ns.
+    """
+    probed = _probed(model, joint, support, recording, stream, _FINE_WINDOW_S, link_H_sensor)
+    if probed is None:
+        return []
+    size = float(np.linalg.norm(fit.weight))
+    static = JointMotion.at_rest(probed.motion.names, probed.motion.position)
+    expected = probed.expected(static, fit.weight / size)
+    if fit.direction is not None:
+        moved = probed.expected(probed.motion, np.zeros(3)) / STANDARD_GRAVITY
+        expected += moved if fit.direction == MeasureDirection.CHILD_TO_PARENT else -moved
+    expected *= size / mass_beyond(_probe(model, joint), joint)
+    measured = np.array(probed.wrench)
+    if mass_beyond(model, joint) < LIGHT_KG:
+        measured[:, 3:] = expected[:, 3:] = 0.0
+    nearest = np.clip(np.searchsorted(fit.stamp_ns, probed.at_ns), 0, len(fit.stamp_ns) - 1)
+    in_use = fit.is_free[nearest]
+    findings = model_findings(stream.name, probed.at_ns, measured, expected, in_use=in_use) if in_use.any() else ()
+    spans = [
+        (one.start_ns, one.end_ns)
+        for one in findings
+        if one.kind in UNEXPLAINED and one.start_ns is not None and one.end_ns is not None
+    ]
+    return sorted(spans)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Probed:
+    """Measured wrenches of windows, and the motion by which a probe in the place of the sensor is evaluated."""
+
+    tree: BodyTree
+    at_ns: IntArray
+    wrench: FloatArray
+    motion: JointMotion
+
+    def expected(self, motion: JointMotion, pull: FloatArray) -> FloatArray:
+        """Expected wrenches of the probe by the acceleration of free fall, as child_to_parent; shape (n, 6)."""
+        root = RootMotion(proper_acceleration=-pull, angular_velocity=np.zeros(3), angular_acceleration=np.zeros(3))
+        return np.array(expected_wrenches(self.tree, motion, root, [_PROBE])[_PROBE])
+
+
+def _probed(
+    model: RobotModel,
+    joint: str,
+    support: str,
+    recording: Recording,
+    stream: Stream,
+    window_s: float,
+    link_H_sensor: FloatArray | None,
+) -> _Probed | None:
+    """Windows that have all joints; None for too few."""
     probe = _probe(model, joint)
     if link_H_sensor is not None:
         probe = replace(probe, sensors={_PROBE: replace(probe.sensors[_PROBE], child_H_sensor=link_H_sensor)})
     tree = build_tree(probe, support)
-    at_ns, wrench = _windows(stream)
+    at_ns, wrench = _windows(stream, window_s)
     joints = required_joints(tree, _PROBE)
     if len(at_ns) < _FEWEST or not set(joints) <= set(recording.joint_signals("position")):
         return None
@@ -137,17 +225,7 @@ def fit_gravity(
     whole &= np.isfinite(wrench).all(axis=1)
     if int(whole.sum()) < _FEWEST:
         return None
-    moving = motion.samples(np.flatnonzero(whole))
-    mass = mass_beyond(probe, joint)
-
-    def force_of(motion: JointMotion, pull: FloatArray) -> FloatArray:
-        """Force of a probe by the acceleration of free fall, as child_to_parent; per kg."""
-        root = RootMotion(proper_acceleration=-pull, angular_velocity=np.zeros(3), angular_acceleration=np.zeros(3))
-        return expected_wrenches(tree, motion, root, [_PROBE])[_PROBE][:, :3] / mass
-
-    static = JointMotion.at_rest(moving.names, moving.position)
-    link_R_support = np.stack([force_of(static, axis) for axis in np.eye(3)], axis=-1)
-    return _fitted(at_ns[whole], wrench[whole], link_R_support, -force_of(moving, np.zeros(3)))
+    return _Probed(tree=tree, at_ns=at_ns[whole], wrench=wrench[whole], motion=motion.samples(np.flatnonzero(whole)))
 
 
 def required_joints_of_sensor(model: RobotModel, joint: str, support: str) -> tuple[str, ...]:
@@ -201,13 +279,13 @@ def mass_beyond(model: RobotModel, joint: str) -> float:
     return total
 
 
-def _windows(stream: Stream) -> tuple[IntArray, FloatArray]:
+def _windows(stream: Stream, window_s: float) -> tuple[IntArray, FloatArray]:
     """Middles of windows, and the mean wrench in each."""
     usable = usable_samples(stream.stamp_ns)
     stamps, wrench = stream.stamp_ns[usable], stream.signal("wrench").values[usable]
     if len(stamps) < 2:
         return np.empty(0, dtype=np.int64), np.empty((0, 6))
-    length = max(int(WINDOW_S * 1e9), int(stamps[-1] - stamps[0]) // _MOST_WINDOWS + 1)
+    length = max(int(window_s * 1e9), int(stamps[-1] - stamps[0]) // _MOST_WINDOWS + 1)
     number = (stamps - stamps[0]) // length
     starts = np.flatnonzero(np.diff(number, prepend=-1))
     count = np.diff(np.append(starts, len(stamps)))

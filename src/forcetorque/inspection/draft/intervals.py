@@ -8,13 +8,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.inspection.draft.gravity import SHORTEST_S, GravityFit, free_intervals, joint_speed
+from forcetorque.base.arrays import BoolArray, IntArray
+from forcetorque.inspection.draft.gravity import SHORTEST_S, WINDOW_S, GravityFit, free_intervals, joint_speed
 from forcetorque.inspection.draft.streams import DraftedLog
 from forcetorque.inspection.draft.toml_lines import line, question, remark
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Stream
 
-_MOST_SPANS = 12
+WHOLE_LOG = "all of the log: put it where nothing touches, and cut out what does"
+"""Comment on the interval of a log in which contacts were not looked for."""
+MOST_SPANS = 12
+"""Largest number of intervals that are proposed."""
+_HALF_WINDOW_NS = round(5e8 * WINDOW_S)
 _CALIBRATION_SHARE = 2.0 / 3.0
 _MOVING_SPEED = 0.02
 """Speed of the fastest joint above which the robot moves; rad/s or m/s."""
@@ -49,21 +54,24 @@ def whole_log(words: str, *, use: str) -> tuple[DraftedInterval, ...]:
     return (DraftedInterval(label="all", start_s=0.0, end_s=None, use=use, words=words),)
 
 
-def draft_intervals(recording: Recording, fits: Sequence[GravityFit]) -> tuple[DraftedInterval, ...]:
+def draft_intervals(
+    recording: Recording, fits: Sequence[GravityFit], contacts: Sequence[tuple[int, int]]
+) -> tuple[DraftedInterval, ...]:
     """Propose intervals without an apparent contact.
 
     Args:
         recording: The log.
         fits: Significant fits of sensors to gravity.
+        contacts: First and last instant of contacts and steps; ns.
 
     Returns:
         The longest intervals in the order of time, the first two thirds of them for calibration and the rest for
         validation; none where no interval is long enough.
     """
-    spans = _common([free_intervals(fit.stamp_ns, fit.is_free) for fit in fits])
-    longest = sorted(sorted(spans, key=lambda span: span[0] - span[1])[:_MOST_SPANS])
+    spans = _common([free_intervals(fit.stamp_ns, fit.is_free & ~_within(fit.stamp_ns, contacts)) for fit in fits])
+    longest = sorted(sorted(spans, key=lambda span: span[0] - span[1])[:MOST_SPANS])
     start = recording.start_ns
-    pieces = _divided(longest)
+    pieces = divided(longest)
     intervals = []
     for k, (first, last, use) in enumerate(pieces, start=1):
         low, high = _outward(first - start), _inward(last - start)
@@ -79,6 +87,14 @@ def draft_intervals(recording: Recording, fits: Sequence[GravityFit]) -> tuple[D
             )
         )
     return tuple(intervals)
+
+
+def _within(stamp_ns: IntArray, spans: Sequence[tuple[int, int]]) -> BoolArray:
+    inside = np.zeros(len(stamp_ns), dtype=np.bool_)
+    for first, last in spans:
+        # a span shorter than a window has no middle of one in it
+        inside |= (stamp_ns >= first - _HALF_WINDOW_NS) & (stamp_ns <= last + _HALF_WINDOW_NS)
+    return inside
 
 
 def interval_lines(interval: DraftedInterval, extra: Sequence[str]) -> list[str]:
@@ -110,7 +126,7 @@ def _common(several: Sequence[list[tuple[int, int]]]) -> list[tuple[int, int]]:
     return common
 
 
-def _divided(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int, str]]:
+def divided(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int, str]]:
     """Intervals with their use: first calibration, then validation; an interval across the border is cut."""
     total = sum(last - first for first, last in spans)
     border = int(_CALIBRATION_SHARE * total)

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,8 @@ from forcetorque.robot.model import RobotModel
 
 _TABLES = "tabular"
 """Name of the format of tables."""
+_OF_MOTION = ("position", "velocity", "proper_acceleration", "angular_velocity", "orientation", "gravity")
+"""Quantities for which a stream of a sensor that is left out is kept."""
 _MADE_UP = "joint_"
 """What joints are called that a log only counts."""
 
@@ -96,6 +99,31 @@ def draft_log(
     return DraftedLog(paths=tuple(paths), format=format_name(known), streams=streams, description=description)
 
 
+def without_streams(log: DraftedLog, names: Collection[str]) -> DraftedLog:
+    """Leave streams of a log out that hold nothing but the reading of a sensor.
+
+    Args:
+        log: The log.
+        names: Streams of sensors.
+
+    Returns:
+        The log without those of them whose other quantities nothing needs; tables are kept whole.
+    """
+    description = log.description
+    if description is None or not names:
+        return log
+    left_out = {
+        stream.name for stream in log.streams if stream.name in names and not set(_OF_MOTION) & set(stream.quantities)
+    }
+    streams = tuple(stream for stream in description.reading.streams if stream.name not in left_out)
+    return replace(
+        log,
+        streams=tuple(stream for stream in log.streams if stream.name not in left_out),
+        left_out=frozenset(left_out),
+        description=replace(description, reading=replace(description.reading, streams=streams)),
+    )
+
+
 def recording_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames: Mapping[str, str]) -> list[str]:
     """Write the `[recording]` table.
 
@@ -109,7 +137,7 @@ def recording_lines(log: DraftedLog, folder: Path, model: RobotModel | None, fra
         Its lines.
     """
     if log.description is not None:
-        return _described_lines(log.description, folder, model)
+        return _described_lines(log.description, folder, model, log.left_out)
     if log.format == _TABLES:
         return table_lines(log, folder, model, frames)
     return array_lines(log, folder, model, frames)
@@ -134,12 +162,14 @@ def _require_one_recording(paths: Sequence[Path], formats: Sequence[LogFormat[An
     return known[0]
 
 
-def _described_lines(description: LogDescription, folder: Path, model: RobotModel | None) -> list[str]:
+def _described_lines(
+    description: LogDescription, folder: Path, model: RobotModel | None, left_out: Collection[str]
+) -> list[str]:
     content = description.table.model_dump(mode="json", exclude_none=True, warnings=False)
     streams = content.pop("stream", ())
     content["path"] = relative(description.table.path, folder)
     lines = ["[recording]", *(line(key, value) for key, value in content.items() if value not in ({}, []))]
-    for entry in streams:
+    for entry in (one for one in streams if one.get("name") not in left_out):
         lines += ["", "[[recording.stream]]", *_stream_lines(entry, model)]
     return lines
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.pose import make_pose
 from forcetorque.inspection.draft.gravity import LIGHT_KG, GravityFit, mass_beyond
 from forcetorque.inspection.draft.streams import DraftedStream
@@ -105,6 +106,26 @@ def draft_sensors(streams: Sequence[DraftedStream], model: RobotModel | None) ->
     return tuple(_matched(stream, reading, model) for stream in reading)
 
 
+def chosen_sensors(sensors: Sequence[DraftedSensor], wanted: Sequence[str]) -> tuple[DraftedSensor, ...]:
+    """Select sensors by name or stream.
+
+    Args:
+        sensors: All sensors of the log.
+        wanted: Names of sensors, or of their streams; all sensors if empty.
+
+    Returns:
+        The sensors, in the order of the log.
+
+    Raises:
+        ExperimentError: If one is not in the log.
+    """
+    known = [name for one in sensors for name in dict.fromkeys((one.name, one.stream))]
+    for name in wanted:
+        if name not in known:
+            raise ExperimentError(f"--sensor: the log has no sensor {name!r}; {known_names(name, known)}")
+    return tuple(one for one in sensors if not wanted or {one.name, one.stream} & set(wanted))
+
+
 def sensor_joints(sensor: DraftedSensor, model: RobotModel) -> tuple[str, ...]:
     """Name the fixed joints that a sensor may sit in.
 
@@ -120,11 +141,12 @@ def sensor_joints(sensor: DraftedSensor, model: RobotModel) -> tuple[str, ...]:
     return (sensor.joint,) if sensor.joint else sensor.joints
 
 
-def sensor_lines(sensor: DraftedSensor, *, on_robot: bool) -> list[str]:
+def sensor_lines(sensor: DraftedSensor, priors: Sequence[str], *, on_robot: bool) -> list[str]:
     """Write a `[[sensor]]` table.
 
     Args:
         sensor: The sensor.
+        priors: Lines with its serial number and prior.
         on_robot: Whether there is a robot, in one of whose joints it sits.
 
     Returns:
@@ -136,16 +158,7 @@ def sensor_lines(sensor: DraftedSensor, *, on_robot: bool) -> list[str]:
     else:
         lines.append(line("name", sensor.name))
     lines.append(line("stream", sensor.stream))
-    lines.append(question("serial", "its serial number, or another mark that tells it from others"))
-    if sensor.is_raw:
-        lines.append(
-            question("prior", "file of the maker's calibration: a matrix file of iCub, .dat, .cal, or a table")
-        )
-    else:
-        words = "the reading itself takes the place of counts; the file of the matrix that made it is better"
-        lines.append(line("prior", "identity", words))
-        words = "of fx fy fz in N and tx ty tz in N m, of its data sheet, as [300, 300, 300, 30, 30, 30]"
-        lines.append(question("full_scale", words))
+    lines += priors
     if on_robot and not sensor.tags and (sensor.joint or sensor.joints):
         lines += _place_lines(sensor)
     return lines
@@ -222,13 +235,25 @@ def _matched(stream: DraftedStream, reading: Sequence[DraftedStream], model: Rob
 
 
 def _tags_of(stream: DraftedStream, model: RobotModel) -> list[str]:
-    """Tags whose words stand in the name of the stream, a first letter for a whole word: `r_leg` is `right_leg`."""
-    words = _words(stream.name)
+    """Tags that the stream is called like."""
     return [
         name
         for name, sensor in model.sensors.items()
-        if any(_words_match(_words(alias), words) for alias in (name, *sensor.aliases))
+        if any(is_called(stream.name, alias) for alias in (name, *sensor.aliases))
     ]
+
+
+def is_called(text: str, name: str) -> bool:
+    """Tell whether the words of a name stand in a text, a first letter for a whole word: `r_leg` is `right_leg`.
+
+    Args:
+        text: Name of a stream or a file.
+        name: Name of a sensor.
+
+    Returns:
+        Whether they do, in their order.
+    """
+    return _words_match(_words(name), _words(text))
 
 
 def _words(name: str) -> list[str]:

@@ -328,6 +328,8 @@ class DraftedStream:
     """The table that it is read from; None where the log describes itself."""
     groups: tuple[ColumnMatch, ...] = ()
     """Columns of the table by quantity."""
+    alternatives: tuple[ColumnMatch, ...] = ()
+    """Columns that determine the motion a second time, beside those of `groups`; a file may have one of both."""
 
     @property
     def is_sensor_alone(self) -> bool:
@@ -356,6 +358,8 @@ class DraftedLog:
     """All arrays of a file of arrays, with or without a match."""
     skipped_arrays: Mapping[str, str] = field(default_factory=dict)
     """Arrays that cannot be read, by name."""
+    left_out: frozenset[str] = frozenset()
+    """Streams of sensors that are not drafted."""
     description: LogDescription | None = None
     """Its own description; None for tables and arrays."""
 

@@ -42,6 +42,8 @@ from forcetorque.recording.frames import OrientationForm
 from forcetorque.recording.stream import QUANTITIES, Labels
 from forcetorque.robot.model import RobotModel
 
+INERTIAL = ("proper_acceleration", "angular_velocity")
+"""Quantities of an inertial sensor, of which both determine how it moves."""
 _SHOWN = 60
 """Characters that are shown of a line in front of a table."""
 _FEW = 9
@@ -73,7 +75,7 @@ def table_streams(sketches: Sequence[LogSketch], joints: Sequence[str]) -> tuple
     """
     streams = []
     for sketch in sketches:
-        groups = _groups(sketch, joints)
+        groups, alternatives = _one_motion(_groups(sketch, joints), on_robot=bool(joints))
         streams.append(
             DraftedStream(
                 name=_stream_name(sketch.path, sketches),
@@ -81,9 +83,25 @@ def table_streams(sketches: Sequence[LogSketch], joints: Sequence[str]) -> tuple
                 joints=tuple(joint for group in groups if group.quantity == "position" for joint in group.names or ()),
                 table=sketch,
                 groups=groups,
+                alternatives=alternatives,
             )
         )
     return tuple(streams)
+
+
+def _one_motion(
+    groups: Sequence[ColumnMatch], *, on_robot: bool
+) -> tuple[tuple[ColumnMatch, ...], tuple[ColumnMatch, ...]]:
+    """Groups, and those that determine the motion a second time: a motion has an orientation or inertial signals."""
+    # a support that moves needs inertial signals; a wrist sensor has the orientation, whose origin is no matter
+    inertial = {group.quantity for group in groups} & set(INERTIAL)
+    if "orientation" not in {group.quantity for group in groups} or not inertial:
+        return tuple(groups), ()
+    second = {"orientation"} if on_robot and inertial == set(INERTIAL) else inertial
+    return (
+        tuple(group for group in groups if group.quantity not in second),
+        tuple(group for group in groups if group.quantity in second),
+    )
 
 
 def _stream_name(path: Path, sketches: Sequence[LogSketch]) -> str:
@@ -201,7 +219,12 @@ def _signal_lines(
     lines: list[str] = []
     for group in stream.groups:
         lines += ["", "[[recording.stream.signal]]", *_group_lines(group, sketch, model, stream.name, frames)]
-    used = {k for group in stream.groups for k in group.columns}
+    for group in stream.alternatives:
+        other = " and ".join(INERTIAL) if group.quantity == "orientation" else "orientation"
+        lines += ["", remark(f"the motion is that of {other}; a file has only one of both, so in its place may stand:")]
+        signal = ["[[recording.stream.signal]]", *_group_lines(group, sketch, model, stream.name, frames)]
+        lines += [f"# {text}" for text in "\n".join(signal).splitlines() if text]
+    used = {k for group in (*stream.groups, *stream.alternatives) for k in group.columns}
     used.add(-1 if (time := time_column(_headings(sketch), [c.step for c in sketch.columns])) is None else time)
     rest = [column.name for k, column in enumerate(sketch.columns) if k not in used]
     if not stream.groups:

@@ -3,11 +3,18 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
 from forcetorque.base.output_file import write_bytes_atomically
-from forcetorque.base.toml_file import UnansweredKey, toml_content, unanswered_keys, with_answer
+from forcetorque.base.run_files import files_of_one_run
+from forcetorque.base.toml_file import OPEN, UnansweredKey, toml_content, unanswered_keys, with_answer
+from forcetorque.inspection.draft.priors import serial_of
+from forcetorque.inspection.draft.toml_lines import toml_value
+
+OPEN_QUESTIONS = 4
+"""Exit code of commands that end with questions, or proposals, that only a person can answer."""
 
 
 def open_questions(file: Path) -> tuple[UnansweredKey, ...]:
@@ -31,7 +38,8 @@ def logs_of(file: Path) -> set[Path]:
     Returns:
         Folder or file of the recording, and the files of its streams; absolute.
     """
-    recording = toml_content(file)[1].get("recording", {})
+    with files_of_one_run():  # the answers are written to the file
+        recording = toml_content(file)[1].get("recording", {})
     folder = file.parent / recording.get("path", "")
     return {(folder / stream.get("file", "")).resolve() for stream in ({}, *recording.get("stream", ()))}
 
@@ -55,6 +63,30 @@ def answer_questions(file: Path, ask: Callable[[str], str]) -> bool:
         key = keys[0]
         answer = ask(f"line {key.line}, {key.key}: {key.words}").strip()
         if answer:
-            write_bytes_atomically(file, with_answer(text, key, answer).encode())
+            write_bytes_atomically(file, with_serials(with_answer(text, key, answer), file.parent).encode())
         else:
             skipped.add((key.line, key.key))
+
+
+def with_serials(text: str, folder: Path) -> str:
+    """Fill in serial numbers that follow from the matrix files that the sensors are given.
+
+    Args:
+        text: Content of an experiment file.
+        folder: Its folder, from which paths count.
+
+    Returns:
+        The content with them.
+    """
+    content = tomllib.loads(text)
+    tables = [key for key in unanswered_keys(text) if key.key == "serial"]
+    open_sensors = [one for one in content.get("sensor", ()) if one.get("serial") == OPEN]
+    if len(tables) != len(open_sensors):
+        return text
+    for key, sensor in zip(tables, open_sensors, strict=True):
+        prior = sensor.get("prior")
+        path = folder / str(prior.get("path") if isinstance(prior, dict) else prior)
+        serial = serial_of(path) if path.is_file() else None
+        if serial is not None:
+            text = with_answer(text, key, toml_value(serial))
+    return text

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Serial numbers and prior matrices of drafted sensors: by the names of matrix files, else questions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from forcetorque.base.errors import FormatError, MissingFileError
+from forcetorque.formats.prior.registry import holds_prior, read_prior_file
+from forcetorque.inspection.draft.sensors_and_supports import DraftedSensor, is_called
+from forcetorque.inspection.draft.streams import relative
+from forcetorque.inspection.draft.toml_lines import line, listed, question, remark
+
+_SCALES = "of fx fy fz in N and tx ty tz in N m, of its data sheet, as [300, 300, 300, 30, 30, 30]"
+_MOST_FILES = 12
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MatrixFile:
+    """The calibration that a sensor came with."""
+
+    path: Path
+    """The file."""
+    serial: str | None
+    """Serial number of the sensor; None where the file has none."""
+
+
+def matrix_files(folder: Path) -> tuple[MatrixFile, ...]:
+    """Find the calibrations of a folder.
+
+    Args:
+        folder: The folder; folders in it are not looked at.
+
+    Returns:
+        The files, by name.
+
+    Raises:
+        MissingFileError: If there is no such folder.
+        FormatError: If no file in it is a calibration.
+    """
+    if not folder.is_dir():
+        raise MissingFileError(f"--matrices {folder}: expected a folder with matrix files, there is none")
+    files = [path for path in sorted(folder.iterdir()) if path.is_file() and holds_prior(path)]
+    if not files:
+        raise FormatError(
+            f"--matrices {folder}: expected a folder with matrix files, got one without any; `forcetorque inspect "
+            "FILE` says what a file is"
+        )
+    return tuple(MatrixFile(path=path, serial=serial_of(path)) for path in files)
+
+
+def serial_of(path: Path) -> str | None:
+    """Read the serial number of the sensor that a calibration is of.
+
+    Args:
+        path: The file.
+
+    Returns:
+        Its serial number; None where the file has none, or needs to be told more to be read.
+    """
+    try:
+        return read_prior_file(path).serial
+    except FormatError:
+        return None
+
+
+def matrix_of(
+    sensor: DraftedSensor, sensors: Sequence[DraftedSensor], files: Sequence[MatrixFile]
+) -> MatrixFile | None:
+    """Find the calibration of a sensor.
+
+    Args:
+        sensor: The sensor.
+        sensors: All sensors.
+        files: Calibrations.
+
+    Returns:
+        The only one that is called like the sensor, or the only one for the only sensor; None else.
+    """
+    named = [file for file in files if is_called(file.path.stem, sensor.name)]
+    if len(sensors) == len(files) == 1:
+        return files[0]
+    return named[0] if len(named) == 1 and not sensor.tags else None
+
+
+def prior_lines(
+    sensor: DraftedSensor, sensors: Sequence[DraftedSensor], files: Sequence[MatrixFile], folder: Path
+) -> list[str]:
+    """Write serial number, prior and full scale of a `[[sensor]]`.
+
+    Args:
+        sensor: The sensor.
+        sensors: All sensors.
+        files: Calibrations that the user named; none if empty.
+        folder: Folder of the experiment file, from which paths count.
+
+    Returns:
+        Its lines; full scale is a question where a calibration of a single sensor needs it.
+    """
+    serial = question("serial", "its serial number, or another mark that tells it from others")
+    if (matrix := matrix_of(sensor, sensors, files)) is not None:
+        if matrix.serial is not None:
+            serial = line("serial", matrix.serial, "of its matrix file")
+        return [serial, line("prior", relative(matrix.path, folder))]
+    if files:
+        words = "; its serial number follows from it" if all(file.serial for file in files) else ""
+        names = listed([file.path.name for file in files], _MOST_FILES)
+        example = relative(files[0].path, folder)
+        return [question("prior", f'file of its matrix{words}, as "{example}"; the folder has {names}'), serial]
+    if sensor.is_raw:
+        words = "file of the maker's calibration: a matrix file of iCub, .dat, .cal, or a table"
+        return [serial, question("prior", words)]
+    words = "the reading itself takes the place of counts; the file of the matrix that made it is better"
+    lines = [serial, line("prior", "identity", words)]
+    if len(sensors) == 1:
+        return [*lines, question("full_scale", _SCALES)]
+    return [
+        *lines,
+        f"# full_scale = [300, 300, 300, 30, 30, 30]  {remark(f'{_SCALES}; left out: no load is too large')}",
+    ]
+
+
+def accuracy_lines(sensors: Sequence[DraftedSensor], files: Sequence[MatrixFile]) -> list[str]:
+    """Write the accuracy of what several sensors are fitted to, in place of a full scale of each.
+
+    Args:
+        sensors: Sensors.
+        files: Calibrations that the user named.
+
+    Returns:
+        The lines; none where a sensor is alone, or matrices give the sizes of readings.
+    """
+    if len(sensors) == 1 or files or all(sensor.is_raw for sensor in sensors):
+        return []
+    words = (
+        "of the expected wrench of every sensor without full_scale: a thousandth of full scale, as { force_N = 0.3, "
+        "moment_Nm = 0.03 } for 300 N and 30 N m"
+    )
+    return ["", "[calibration]", question("accuracy", words)]

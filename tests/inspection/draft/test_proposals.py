@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What an answered experiment file gets proposed: the planted error with its line, and nothing without one."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.inspection.draft.edits import Edit
+from forcetorque.inspection.draft.proposals import Proposal, proposals, settle
+from forcetorque.inspection.draft.resume import resume_experiment
+from forcetorque.recording.storage import read_recording, write_recording
+from tests.app.outcome import Run
+from tests.scenes.experiments import MOUNTED, PARQUET, TEXTS, TWO, write_experiments
+
+DOWN = "gravity_direction = [0.0, 0.0, -1.0]"
+ONE_INTERVAL = '[[interval]]\nlabel = "all"  # not cut yet\nstart_s = 0.0\nuse = "calibration"\nsupport = "base"\n'
+PUSH_S = (6.0, 9.0)
+
+
+@pytest.fixture(scope="module")
+def arm(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder with the experiment of the small arm."""
+    folder = tmp_path_factory.mktemp("arm")
+    write_experiments(folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def pushed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An experiment of one interval, in which a push is steady in the axes of the sensor."""
+    folder = tmp_path_factory.mktemp("pushed")
+    write_experiments(folder)
+    recording = read_recording(folder / "recording")
+    stream = recording.stream("arm_ft")
+    signal, seconds = stream.signal("raw"), (stream.stamp_ns - recording.start_ns) * 1e-9
+    values = signal.values.copy()
+    own = (seconds > PUSH_S[0]) & (seconds < PUSH_S[1])
+    values[own] += np.linalg.inv(MOUNTED) @ np.array([0.0, 12.0, 0.0, 3.0, 0.0, 1.0])
+    moved = replace(stream, signals={**stream.signals, "raw": replace(signal, values=values)})
+    write_recording(folder / "recording", replace(recording, streams={**recording.streams, "arm_ft": moved}))
+    text = TEXTS[PARQUET]
+    (folder / "all.toml").write_text(text[: text.index("[[interval]]")] + ONE_INTERVAL, encoding="utf-8")
+    return folder
+
+
+def _proposed(folder: Path, text: str) -> tuple[Path, tuple[Proposal, ...]]:
+    file = folder / "planted.toml"
+    file.write_text(text, encoding="utf-8")
+    return file, proposals(file)
+
+
+def test_a_right_file_gets_no_proposal(arm: Path) -> None:
+    """Negative control of all that follow."""
+    assert _proposed(arm, TEXTS[PARQUET])[1] == ()
+
+
+@pytest.mark.parametrize(
+    ("planted", "kind", "key"),
+    [
+        (TEXTS[PARQUET].replace(DOWN, "gravity_direction = [1.0, 0.0, 0.0]  # ?"), "gravity", "gravity_direction"),
+        pytest.param(
+            TEXTS[PARQUET].replace(
+                "\n\n[[support]]",
+                "\nmount = { rotation_deg = [30, 10, 20], shift_mm = [0, 0, 0] }  # of the drawing\n\n[[support]]",
+            ),
+            "mount",
+            "mount",
+            marks=pytest.mark.long,
+        ),
+        pytest.param(
+            TEXTS[PARQUET].replace(
+                "[[sensor]]", '[[clock]]\nstream = "arm_ft"\nto = "joints"\ndelay_s = 0.15\n\n[[sensor]]'
+            ),
+            "delay",
+            "delay_s",
+            marks=pytest.mark.long,
+        ),
+        pytest.param(
+            TEXTS[TWO].replace("parent_to_child", "child_to_parent"),
+            "reversed",
+            "measure_direction",
+            marks=pytest.mark.long,
+        ),
+    ],
+)
+def test_a_wrong_statement_is_corrected_in_its_line(arm: Path, planted: str, kind: str, key: str) -> None:
+    """The right value is proposed, with less of the force or moment left; all other lines stay."""
+    _, (proposal,) = _proposed(arm, planted)
+    assert proposal.kind == kind
+    assert proposal.edit is not None
+    assert proposal.residuals is not None
+    assert (proposal.residuals.after < 0.8 * proposal.residuals.before).any()
+    changed = proposal.edit.applied(planted)
+    (old,), (new,) = proposal.edit.old, proposal.edit.new
+    assert changed.replace(new, old) == planted
+    assert f"line {proposal.edit.line}: {key} = " in proposal.sentence
+    value = tomllib.loads(new)[key]
+    if kind == "reversed":
+        assert value == "parent_to_child"
+    elif kind == "mount":
+        np.testing.assert_allclose(value["rotation_deg"], np.zeros(3), atol=0.5)
+    else:
+        np.testing.assert_allclose(value, 0.0 if kind == "delay" else [0.0, 0.0, -1.0], atol=0.01)
+
+
+@pytest.mark.long
+def test_a_delay_of_the_log_gets_a_clock(arm: Path, tmp_path: Path) -> None:
+    """Where the file has none; the table stands in front of the sensors."""
+    text = TEXTS[PARQUET].replace('path = "recording"', f'path = "{tmp_path.as_posix()}/recording"')
+    recording = read_recording(arm / "recording")
+    stream = recording.stream("arm_ft")
+    late = replace(stream, stamp_ns=stream.stamp_ns + 120_000_000)
+    write_recording(tmp_path / "recording", replace(recording, streams={**recording.streams, "arm_ft": late}))
+    _, (proposal,) = _proposed(arm, text)
+    assert proposal.edit is not None
+    (clock,) = tomllib.loads(proposal.edit.applied(text))["clock"]
+    assert (clock["stream"], clock["to"]) == ("arm_ft", "joints")
+    assert clock["delay_s"] == pytest.approx(0.12, abs=0.01)
+
+
+@pytest.mark.long
+def test_what_the_file_does_not_state_is_changed_elsewhere(arm: Path) -> None:
+    """A joint that turns the other way: the URDF is named, and no line of the file."""
+    urdf = (arm / "arm.urdf").read_text(encoding="utf-8")
+    start = urdf.index('<joint name="elbow"')
+    axis = urdf.index('<axis xyz="', start) + len('<axis xyz="')
+    end = urdf.index('"', axis)
+    turned = " ".join(str(-float(value)) for value in urdf[axis:end].split())
+    (arm / "turned.urdf").write_text(urdf[:axis] + turned + urdf[end:], encoding="utf-8")
+    _, (proposal,) = _proposed(arm, TEXTS[PARQUET].replace("arm.urdf", "turned.urdf"))
+    assert (proposal.kind, proposal.about, proposal.edit) == ("joint_sign", "elbow", None)
+    assert "<axis> of joint 'elbow' in the URDF" in proposal.sentence
+
+
+def _require_cut(text: str, before: str) -> None:
+    """Intervals without the push, of both uses; what stands before them stays."""
+    assert text.startswith(before[: before.index("[[interval]]")])
+    spans = [(one["start_s"], one["end_s"], one["use"]) for one in tomllib.loads(text)["interval"]]
+    assert {use for *_, use in spans} == {"calibration", "validation"}
+    assert sum(end - start for start, end, _ in spans) > 18.0
+    assert all(end <= PUSH_S[0] or start >= PUSH_S[1] for start, end, _ in spans)
+
+
+def test_a_push_is_cut_out_of_the_interval(pushed: Path) -> None:
+    """The pieces are to fit and to validate, and leave less of force and moment than the interval."""
+    file = pushed / "all.toml"
+    (proposal,) = proposals(file)
+    assert proposal.edit is not None
+    assert proposal.residuals is not None
+    assert (proposal.residuals.after < 0.1 * proposal.residuals.before).all()
+    before = file.read_text(encoding="utf-8")
+    _require_cut(proposal.edit.applied(before), before)
+
+
+@pytest.mark.long
+def test_a_file_is_complete_once_its_proposal_is_accepted(pushed: Path, run: Run) -> None:
+    """Listed with exit code 4; then nothing is left."""
+    file = pushed / "again.toml"
+    before = (pushed / "all.toml").read_text(encoding="utf-8")
+    file.write_text(before, encoding="utf-8")
+    listed = run("init", "--resume", file, "--no-input")
+    assert listed.code == 4
+    assert "1 PROPOSAL" in listed.out.splitlines()[0]
+    assert file.read_text(encoding="utf-8") == before
+    assert resume_experiment(file, accepts=lambda _: True).proposals == ()
+    _require_cut(file.read_text(encoding="utf-8"), before)
+    assert run("init", "--resume", file, "--no-input").code == 0
+
+
+def test_proposals_are_settled_one_by_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An accepted one is written before the next is made; a declined one, and one for a person, is left."""
+    file = tmp_path / "x.toml"
+    file.write_text("a = 1  # one\nb = 1\n", encoding="utf-8")
+
+    def stub(path: Path, settled: set[tuple[str, str]]) -> tuple[Proposal, ...]:
+        text = path.read_text(encoding="utf-8")
+        edit = Edit(line=1, old=("a = 1  # one",), new=("a = 2  # one",))
+        made = (
+            Proposal(kind="mass", about="", text="weigh it", edit=None),
+            *((Proposal(kind="a", about="", text="a is 2", edit=edit),) if "a = 1" in text else ()),
+            Proposal(kind="b", about="", text="b is 2", edit=Edit(line=2, old=("b = 1",), new=("b = 2",))),
+        )
+        return tuple(one for one in made if one.key not in settled)
+
+    monkeypatch.setattr("forcetorque.inspection.draft.proposals.proposals", stub)
+    asked: list[str] = []
+
+    def accepts(proposal: str) -> bool:
+        asked.append(proposal)
+        return proposal.startswith("a is 2")
+
+    assert [one.kind for one in settle(file, accepts)] == ["mass", "b"]
+    assert asked == ["a is 2: line 1: a = 1 -> a = 2", "b is 2: line 2: b = 1 -> b = 2"]
+    assert file.read_text(encoding="utf-8") == "a = 2  # one\nb = 1\n"
+
+
+def test_a_file_with_open_questions_lists_these(arm: Path, run: Run) -> None:
+    """And no proposal, since nothing can be read; a log beside the file is refused."""
+    file = arm / "open.toml"
+    file.write_text(TEXTS[PARQUET].replace('serial = "SIM001"', 'serial = "?"  # which'), encoding="utf-8")
+    listed = run("init", "--resume", file, "--no-input")
+    assert listed.code == 4
+    assert "1 LINE TO FILL IN" in listed.out
+    assert "expected no log beside it" in run("init", "log.csv", "--resume", file).error()
+    assert "expected a log, or an experiment file by --resume" in run("init").error()
