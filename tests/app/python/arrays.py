@@ -32,5 +32,6 @@ def arrays_of(experiment: Experiment, **changes: Any) -> dict[str, Any]:
         "judge": spans[Use.VALIDATION],
         "serial": sensor.serial,
         "prior": sensor.prior,
+        "tolerance": "exact",
     }
     return arguments | changes

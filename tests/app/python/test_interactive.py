@@ -25,6 +25,7 @@ from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
+from forcetorque.experiment.calibration.model_error import EXACT
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.planning import plan as analysis_plan
 from forcetorque.planning.proposal import Effort
@@ -72,6 +73,14 @@ def test_arrays_give_what_the_file_gives(experiment: Experiment) -> None:
     rows = zip(one.evaluate(fitted).verdicts, other.evaluate(same).verdicts, strict=True)
     for row, twin in rows:
         assert twin.force_error_mean_N == pytest.approx(row.force_error_mean_N, rel=1e-5)
+
+
+def test_the_robot_model_may_be_off_unless_it_is_said_to_be_exact(experiment: Experiment) -> None:
+    """By the defaults of a file, or as specified."""
+    for tolerance, mass in ((None, 0.03), ({"mass_relative": 0.1}, 0.1), ("exact", 0.0)):
+        made = experiment_of_arrays(**arrays_of(experiment, tolerance=tolerance))
+        assert made.fit_options.tolerance.mass == mass
+    assert made.fit_options.tolerance == EXACT
 
 
 def test_arrays_may_come_in_frames_of_pandas(experiment: Experiment) -> None:

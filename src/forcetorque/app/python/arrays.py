@@ -88,12 +88,12 @@ def experiment_of_arrays(
     full_scale: Any = None,
     limit_counts: float = 32767.0,
     quantity: _Quantity = "raw",
+    tolerance: Mapping[str, float] | Literal["exact"] | None = None,
     name: str = "arrays",
 ) -> Experiment:
     """Make an experiment of one sensor from arrays.
 
-    The robot model is taken as exact. `experiment_of_tables` takes several sensors, loads, an IMU, contacts, sessions,
-    load cases, accuracy and the tolerance of the robot model.
+    `experiment_of_tables` takes several sensors, loads, an IMU, contacts, sessions, load cases and accuracy.
 
     Args:
         robot: Robot, or its URDF file; `RobotModel.with_sensor` declares a sensor that has no tag.
@@ -114,6 +114,8 @@ def experiment_of_arrays(
         limit_counts: Largest magnitude of a raw reading, at which it saturates; counts; that of 16 bits if left out.
         quantity: Whether the reading is `raw` or a calibrated `wrench`, which needs the prior that made it, or
             `numpy.eye(6)` with `full_scale` where that is not known.
+        tolerance: How far the robot model may be from the robot, such as `{"mass_relative": 0.03}`, with the keys of
+            `tolerance` of `[robot]` in an experiment file, and their defaults; "exact" for a simulated robot.
         name: Name of the experiment.
 
     Returns:
@@ -154,7 +156,7 @@ def experiment_of_arrays(
     return experiment_of_tables(
         {
             "name": name,
-            "robot": {"urdf": model, "tolerance": "exact"},
+            "robot": {"urdf": model, "tolerance": {} if tolerance is None else tolerance},
             "recording": {"stream": streams},
             "sensor": [
                 {
