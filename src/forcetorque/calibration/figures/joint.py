@@ -92,7 +92,8 @@ def _draw(panel: Axes, residuals: Sequence[PartResidual], starts: dict[str, floa
         panel.plot(time, before, **_BEFORE)
         panel.plot(time, after, **_AFTER)
         panel.plot(time[~one.kept], after[~one.kept], **_LEFT_OUT)
-    panel.set_yscale("log")
+    if any(np.nanmax(line.get_ydata(), initial=0.0) > 0.0 for line in panel.lines):  # Matplotlib warns of an empty one
+        panel.set_yscale("log")
     panel.grid(visible=True, axis="y", color="0.9", linewidth=0.6)
     panel.set_axisbelow(True)
 
