@@ -66,7 +66,7 @@ def test_a_tare_a_drift_and_a_tap_that_clips_are_told_apart(tmp_path: Path) -> N
     wrench[4000:] -= wrench[3800:4000].mean(axis=0)
     inspection = _inspected(tmp_path, time, wrench)
     sensor = _sensor(inspection)
-    assert sensor.tares_s == (pytest.approx(20.0, abs=0.011),)
+    assert sensor.tares_s == pytest.approx((20.0,), abs=0.011)
     assert sensor.drift_per_hour is not None
     assert sensor.drift_half_width_95_per_hour is not None
     assert abs(sensor.drift_per_hour[2] - 36.0) < 2.0 * sensor.drift_half_width_95_per_hour[2] < 10.0
@@ -131,6 +131,14 @@ def test_a_log_of_a_robot_is_no_sensor_by_itself(tmp_path: Path) -> None:
     assert inspection.sensor is None
     assert inspection.streams == {}
     assert list(inspection.answers()) == []
+
+
+def test_a_table_that_is_too_long_to_be_read_at_once_is_listed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its columns are, some rows at a time."""
+    monkeypatch.setattr("forcetorque.inspection.draft.first_look.MOST_ROWS", 1000)
+    inspection = _inspected(tmp_path, *_clean())
+    assert inspection.sensor is None
+    assert len(inspection.unread) == 7
 
 
 def test_the_answer_comes_first_in_few_lines(tmp_path: Path, run: Run) -> None:

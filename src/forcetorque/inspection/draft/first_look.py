@@ -54,6 +54,10 @@ def read_drafted(
     return Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings), ""
 
 
+MOST_ROWS = 3_600_000
+"""Rows of a table of a sensor by itself that is read at once: an hour of 1 kHz takes a gigabyte."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SensorLog:
     """A table of a sensor by itself, as it was first read."""
@@ -72,10 +76,13 @@ def first_look_at_sensor(path: Path, log_format: str | None) -> SensorLog | None
         log_format: Name of the format; it is recognised by what is there if None.
 
     Returns:
-        The recording, and what was assumed; None for any other table, or where no value is likely.
+        The recording, and what was assumed; None for any other table, one of more rows than are read at once, or where
+        no value is likely.
     """
     log = draft_log([path], None, log_format)
     if not all(stream.is_sensor_alone for stream in log.streams):
+        return None
+    if any(column.rows > MOST_ROWS for stream in log.streams if stream.table for column in stream.table.columns):
         return None
     sensors = draft_sensors(log.streams, None)
     lines = recording_lines(log, Path(), None, {sensor.stream: sensor.name for sensor in sensors})
