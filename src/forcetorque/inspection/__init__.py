@@ -8,6 +8,7 @@ from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.inspection.draft.draft import draft_experiment
+    from forcetorque.inspection.draft.resume import resume_experiment
     from forcetorque.inspection.inspect import inspect_log, inspected
 
 CAPABILITY = Capability(
@@ -23,6 +24,7 @@ __all__ = [
     "draft_experiment",
     "inspect_log",
     "inspected",
+    "resume_experiment",
 ]
 
 __getattr__, __dir__ = lazy_names(
@@ -31,5 +33,6 @@ __getattr__, __dir__ = lazy_names(
         "draft_experiment": "forcetorque.inspection.draft.draft",
         "inspect_log": "forcetorque.inspection.inspect",
         "inspected": "forcetorque.inspection.inspect",
+        "resume_experiment": "forcetorque.inspection.draft.resume",
     },
 )

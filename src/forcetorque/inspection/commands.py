@@ -59,18 +59,16 @@ def init(
 
     Exit codes with --resume: 0 nothing is left, 2 error, 4 questions or proposals are open.
 
-    Python: `inspection.draft_experiment("log.csv", urdf="robot.urdf")`
-
-    Raises:
-        ExperimentError: If there is neither a log nor a file, or both.
+    Python: `inspection.draft_experiment("log.csv", urdf="robot.urdf")`, `inspection.resume_experiment("x.toml")`
     """
     if resume is not None:
-        _resume(resume, log or [], output_format, no_input=no_input, details=details)
+        of_log = {"a log": log, "--urdf": urdf, "--log-format": log_format, "--sensor": sensor, "--matrices": matrices}
+        _refuse_beside(resume, [name for name, value in of_log.items() if value])
+        _resume(resume, output_format, no_input=no_input, details=details)
         return
     from forcetorque.inspection.draft.draft import draft_experiment
 
-    if not log:
-        raise ExperimentError("init: expected a log, or an experiment file by --resume, got neither")
+    log = _required(log)
     start_logging().info("reading %s", ", ".join(map(str, log)))
     refuse_two_on_standard_output(output, output_format)
     declare_outputs(output, force=force)
@@ -88,13 +86,22 @@ def init(
         show(draft, output_format, details=details)
 
 
-def _resume(file: Path, logs: list[Path], output_format: Format, *, no_input: bool, details: bool) -> None:
+def _required(logs: list[Path] | None) -> list[Path]:
+    if not logs:
+        raise ExperimentError("init: expected a log, or an experiment file by --resume, got neither")
+    return logs
+
+
+def _refuse_beside(file: Path, options: list[str]) -> None:
+    if options:
+        raise ExperimentError(f"--resume {file}: expected nothing of a log beside it, got {', '.join(options)}")
+
+
+def _resume(file: Path, output_format: Format, *, no_input: bool, details: bool) -> None:
     from forcetorque.inspection.draft.questions import OPEN_QUESTIONS
     from forcetorque.inspection.draft.resume import resume_experiment
     from forcetorque.results.terminal.prompts import accepts, ask, is_terminal
 
-    if logs:
-        raise ExperimentError(f"--resume {file}: expected no log beside it, got {', '.join(map(str, logs))}")
     start_logging().info("reading %s", file)
     asks = is_terminal() and not no_input
     draft = resume_experiment(file, ask=ask if asks else None, accepts=accepts if asks else None)

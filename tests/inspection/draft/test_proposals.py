@@ -206,5 +206,5 @@ def test_a_file_with_open_questions_lists_these(arm: Path, run: Run) -> None:
     listed = run("init", "--resume", file, "--no-input")
     assert listed.code == 4
     assert "1 LINE TO FILL IN" in listed.out
-    assert "expected no log beside it" in run("init", "log.csv", "--resume", file).error()
+    assert "expected nothing of a log beside it, got a log" in run("init", "log.csv", "--resume", file).error()
     assert "expected a log, or an experiment file by --resume" in run("init").error()
