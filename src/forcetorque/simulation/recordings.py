@@ -29,7 +29,7 @@ from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.simulation.motions.movement import Movement, Phase, PhaseKind
 from forcetorque.simulation.network import fail_groups, jitter_stamps, lose_messages, offset_clocks
-from forcetorque.simulation.scenario.file import Network
+from forcetorque.simulation.scenario.file import Load, Network
 from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S, Scenario, SimulatedRecording, simulate
 from forcetorque.simulation.sensor import calibrated_by_board
 from forcetorque.simulation.sensor_family import Specimen
@@ -113,6 +113,8 @@ def experiment_text(scenario: Scenario, simulated: SimulatedRecording, log: str,
         )
         if temperature:
             text.append('\n[[sensor.variable]]\nname = "temperature"\n')
+    if len(scenario.file.load) == 1:  # an interval names one load; more are in the truth alone
+        text.append(_load_text(scenario.file.load[0]))
     if scenario.robot_errors is None:  # the model is exact
         text.append("\n[calibration]\naccuracy = { force_N = 0.0, moment_Nm = 0.0 }\n")
     if "velocity" in simulated.recording.stream("joints").signals:
@@ -122,6 +124,12 @@ def experiment_text(scenario: Scenario, simulated: SimulatedRecording, log: str,
     else:
         text += [_contacts_text(simulated.movement, imu=scenario.imu is not None), _interval_text(simulated)]
     return "".join(text)
+
+
+def _load_text(load: Load) -> str:
+    """The mass that is added to the robot, which the URDF lacks."""
+    centre = ", ".join(repr(float(value)) for value in load.centre_of_mass_m)
+    return f'\n[[load]]\nlink = "{load.link}"\nmass_kg = {load.mass_kg!r}\ncentre_of_mass_m = [{centre}]\n'
 
 
 def _contacts_text(movement: Movement, *, imu: bool) -> str:

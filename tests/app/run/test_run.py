@@ -145,6 +145,14 @@ def test_a_log_without_a_file_asks_its_questions(tmp_path: Path, run: Run, monke
     assert "[1, 2]" in file.read_text(encoding="utf-8")
 
 
+def test_a_file_with_open_questions_lists_them(folder: Path, run: Run) -> None:
+    """As a file that was begun from a log; without a terminal nothing is asked."""
+    edit(folder / PARQUET, 'serial = "SIM001"', 'serial = "?"  # on its label')
+    outcome = run("run", PARQUET, "-o", "results", "--no-input")
+    assert outcome.code == 4
+    assert "1 question(s) are open" in " ".join(outcome.out.split())
+
+
 def test_known_loads_of_a_workbench(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """A sound bench gives a calibration; swapped weights stop it."""
     monkeypatch.chdir(tmp_path)

@@ -56,12 +56,16 @@ def run(
     Python: `experiment.run("results")`, of files `forcetorque.run("experiment.toml", "results")`
     """
     from forcetorque.app.run.run import run as go
+    from forcetorque.inspection.draft.questions import open_questions
 
     log = start_logging()
     refuse_standard_output("--output", output)
-    if not _state_experiments(files):
-        files = [_begun(files, output, urdf, sensor or (), matrices, force=force)]
-        if (unanswered := _unanswered(files[0], no_input=no_input)) is not None:
+    if _state_experiments(files):
+        open_files = [file for file in files if file.is_file() and open_questions(file)]
+    else:
+        files = open_files = [_begun(files, output, urdf, sensor or (), matrices, force=force)]
+    for file in open_files:
+        if (unanswered := _unanswered(file, no_input=no_input)) is not None:
             _end(unanswered, output_format, details=details, files=files)
     result = go(
         files,
