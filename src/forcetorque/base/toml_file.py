@@ -161,14 +161,31 @@ def read_toml(path: Path | str, form: type[_Content], *, what: str) -> _Content:
             value.
     """
     file = Path(path)
+    text, content = parsed_toml(file, what=what)
+    _require_no_unanswered_key(file, text)
+    return checked_tables(content, form, file)
+
+
+def parsed_toml(file: Path, *, what: str) -> tuple[str, dict[str, Any]]:
+    """Parse a TOML file whose keys may still be to be filled in.
+
+    Args:
+        file: The file.
+        what: What the file is called in messages.
+
+    Returns:
+        Its text without a byte-order mark, and the tables in it.
+
+    Raises:
+        MissingFileError: If there is no such file.
+        FormatError: If it is not TOML.
+    """
     if not file.is_file():
         raise MissingFileError(f"{file}: expected {what}, there is none")
     try:
-        text, content = toml_content(file)
+        return toml_content(file)
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, or numbers and lists beyond all bounds
         raise FormatError(f"{file}: expected TOML, got {error}") from error
-    _require_no_unanswered_key(file, text)
-    return checked_tables(content, form, file)
 
 
 def checked_tables(content: dict[str, Any], form: type[_Content], file: Path) -> _Content:

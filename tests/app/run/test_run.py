@@ -153,6 +153,19 @@ def test_a_file_with_open_questions_lists_them(folder: Path, run: Run) -> None:
     assert "1 question(s) are open" in " ".join(outcome.out.split())
 
 
+@pytest.mark.parametrize("command", [("run",), ("init", "--no-input", "--resume")], ids=["run", "init"])
+def test_a_file_that_is_no_toml_is_one_line(folder: Path, run: Run, command: tuple[str, ...]) -> None:
+    """Another encoding, half a file, and none."""
+    (folder / "other.toml").write_bytes('schema = "forcetorque/experiment/1"'.encode("utf-16"))
+    (folder / "half.toml").write_text("[robot", encoding="utf-8")
+    for file, words in (
+        ("other.toml", "expected TOML"),
+        ("half.toml", "expected TOML"),
+        ("none.toml", "there is none"),
+    ):
+        assert words in run(*command, file).error()
+
+
 def test_known_loads_of_a_workbench(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """A sound bench gives a calibration; swapped weights stop it."""
     monkeypatch.chdir(tmp_path)

@@ -9,7 +9,14 @@ from pathlib import Path
 
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.run_files import files_of_one_run
-from forcetorque.base.toml_file import OPEN, UnansweredKey, toml_content, unanswered_keys, with_answer
+from forcetorque.base.toml_file import (
+    OPEN,
+    UnansweredKey,
+    parsed_toml,
+    toml_content,
+    unanswered_keys,
+    with_answer,
+)
 from forcetorque.inspection.draft.priors import serial_of
 from forcetorque.inspection.draft.toml_lines import toml_value
 
@@ -25,8 +32,13 @@ def open_questions(file: Path) -> tuple[UnansweredKey, ...]:
 
     Returns:
         The keys, in the order of the file.
+
+    Raises:
+        MissingFileError: If there is no such file.
+        FormatError: If it is not TOML.
     """
-    return unanswered_keys(file.read_text(encoding="utf-8-sig"))
+    with files_of_one_run():  # the answers are written to the file
+        return unanswered_keys(parsed_toml(file, what="an experiment file")[0])
 
 
 def logs_of(file: Path) -> set[Path]:

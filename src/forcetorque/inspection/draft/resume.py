@@ -25,6 +25,7 @@ def resume_experiment(
         The file with the questions that are open; with those that are answered, the proposals that are left.
     """
     path = Path(file)
+    open_questions(path)  # what is no TOML file is refused before anything is asked
     if ask is not None:
         answer_questions(path, ask)
     questions = open_questions(path)
