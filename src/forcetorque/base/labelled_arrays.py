@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 
 from forcetorque.base.arrays import IntArray
-from forcetorque.base.errors import MissingExtraError
+from forcetorque.base.errors import MissingExtraError, install_line
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 
 TIME: Final = "time"
@@ -70,7 +70,7 @@ def xarray_dataset(
     try:
         import xarray
     except ImportError as error:
-        raise MissingExtraError("to_xarray needs xarray: pip install forcetorque[frames]") from error
+        raise MissingExtraError(f"to_xarray needs xarray: {install_line('frames')}") from error
     variables = {
         name: (
             array.dims,

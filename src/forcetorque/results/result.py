@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 from pydantic import Field
 
-from forcetorque.base.errors import MissingExtraError, ShapeError
+from forcetorque.base.errors import MissingExtraError, ShapeError, install_line
 from forcetorque.results.answer import Answer, answer_text
 from forcetorque.results.capability import named
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -127,7 +127,7 @@ class Result(Row):
         try:
             import pandas
         except ImportError:
-            raise MissingExtraError("to_pandas needs pandas: pip install forcetorque[frames]") from None
+            raise MissingExtraError(f"to_pandas needs pandas: {install_line('frames')}") from None
         return pandas.DataFrame(self.records(), columns=self.columns())
 
     def text(self, width: int = NOTEBOOK_WIDTH) -> str:
