@@ -81,7 +81,10 @@ def test_one_sensor_is_calibrated_and_judged_over_its_known_phases(inside: Path,
     errors = {(row["candidate"], row["offset"]): row["force_error_mean_N"] for row in result["verdicts"]}
     assert errors[str(fitted), "judged-mean"] < 0.2 * errors["prior", "judged-mean"]
     accepted = run("accept", "switching_day2.toml", "--spec", "limits.toml", "-c", fitted, "--format", "json")
-    assert accepted.code == 0
+    criteria = json.loads(accepted.out)["criteria"]
+    assert all(row["passed"] for row in criteria if not row["criterion"].startswith("verdict."))
+    forbidden = any(use["decision"] == "do not use" for use in result["uses"])
+    assert (accepted.code, len([row for row in criteria if not row["passed"]])) == (int(forbidden), int(forbidden))
     rows = run("study", "validate", "switching_day2.toml", "-c", fitted, "--format", "json").result()
     assert "l_leg_ft" in json.dumps(rows)
     assert run("export", fitted, "--to", "wholebodydynamics", "-o", tmp_path / "export").code == 0

@@ -46,7 +46,7 @@ def test_one_that_may_not_be_used_leads_to_a_plan() -> None:
     assert "predicted to err too much as well" in no_better[0]
     assert "(the prior) may be used there" in better[0]
     assert worse[1] == "Record more."
-    assert "`forcetorque plan walk.toml -c leg.json` lists what to record next" in worse[2]
+    assert "`forcetorque plan walk.toml -c leg.json --clearance-deg 10` lists what to record next" in worse[2]
 
 
 def test_no_plan_where_none_can_be_had() -> None:

@@ -182,7 +182,7 @@ def inspection_answer(inspection: Inspection) -> Answer:
         verdict=f"{len(grouped)} EVENT{'S' * (len(grouped) > 1)}",
         why=(*shown, *((f"{rest} shorter one(s)",) if rest else ()), bar, *more),
         step="leave these events out of every [[interval]]" if is_experiment else _NEXT[False],
-        command="" if is_experiment else begin,
+        command=typed("init", "--resume", source) if is_experiment else begin,
         concern=Concern.UNCERTAIN,
     )
 

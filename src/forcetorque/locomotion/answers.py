@@ -79,12 +79,21 @@ def coherence_answers(coherence: Coherence) -> Iterator[Answer]:
             verdict=_net_error(row),
             why=(
                 f"net contact force of {row.phases} phase{'s' * (row.phases != 1)} less the weight, "
-                f"{amount(coherence.weight_N, 'N')}: mean of the norm, and the largest",
+                f"{amount(coherence.weight_N, 'N')}: mean of the norm, and the largest{_against_prior(row)}",
                 "phases that gave offset or matrix are not counted; forces of one foot against the other cancel",
             ),
             written=(coherence.figure_file,),
             concern=Concern.NONE if row.phases else Concern.UNCERTAIN,
         )
+
+
+def _against_prior(row: CoherenceSummary) -> str:
+    if row.prior_force_error_mean_N is None or row.common_force_error_mean_N is None:
+        return ""
+    return (
+        f"; over the {row.common_phases} phase(s) that are evidence for both: "
+        f"{amount(row.common_force_error_mean_N, 'N')}, prior {amount(row.prior_force_error_mean_N, 'N')}"
+    )
 
 
 def _net_error(row: CoherenceSummary) -> str:

@@ -81,7 +81,7 @@ def _samples(weighed: WeighedLoad) -> str:
 def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
     if weighed.hypotheses:
         first = weighed.hypotheses[0]
-        return f"check for {first.name}: {first.words}", typed("inspect", EXPERIMENT)
+        return f"check for {first.name}: {first.words}", ""
     if weighed.open:
         return "record more postures, which turn the load about other axes", ""
     return "write it to a file that the robot reads", typed(

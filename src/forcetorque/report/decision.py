@@ -303,12 +303,13 @@ def _plan(
             for file, verdicts in wanted.items()
         ]
         yield from texts_with_names(first, names.values())
-        needed = ""
+        specified: list[str] = []
     else:
-        needed = "; it needs clearance_deg, what joints keep away from their limits, in [plan] of the experiment file"
+        specified = ["--clearance-deg", "10"]
     for file in wanted:
-        command = shlex.join(["forcetorque", "plan", *runs, "-c", file])
-        yield f"`{command}` lists what to record next, and the error to expect after each recording{needed}."
+        command = shlex.join(["forcetorque", "plan", *runs, "-c", file, *specified])
+        kept = "; joints keep 10 degrees away from their limits" if specified else ""
+        yield f"`{command}` lists what to record next, and the error to expect after each recording{kept}."
 
 
 def _first_recording(calibration: Calibration, verdict: UseVerdict, runs: Sequence[SensorRun]) -> str:

@@ -12,7 +12,7 @@ from time import monotonic
 from forcetorque.app.run.result import Stage, StageName, WholeRun
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, OutputError
 from forcetorque.base.output_file import refuse_output
-from forcetorque.base.toml_file import toml_content
+from forcetorque.base.toml_file import parsed_toml
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, calibrate_for_file
 from forcetorque.calibration.export.export import export_icub_matrix, export_table
 from forcetorque.calibration.joint.calibrate import JOINT_FILE, calibrate_jointly, calibration_file
@@ -45,6 +45,8 @@ TABLE = "calibrations.csv"
 """Name of the file with the matrices of all sensors."""
 _PAGE, _NUMBERS = "report.html", "report.numbers.json"
 _OVERRIDE = 'correct it, or go on with --override "reason"'
+_EXPORT = "forcetorque export --to icub-matrix"
+"""Command that writes the matrix file of a sensor of an iCub."""
 _CHANNELS = 6
 """Channels of a sensor whose matrix the icub-matrix file holds."""
 
@@ -170,7 +172,7 @@ def run(
 
 
 def _is_workbench(path: Path) -> bool:
-    return str(toml_content(path)[1].get("schema", "")).startswith(_WORKBENCH)
+    return str(parsed_toml(path, what="an experiment file")[1].get("schema", "")).startswith(_WORKBENCH)
 
 
 def _by_known_loads(way: _Way) -> None:
@@ -399,12 +401,14 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
         evaluation = Evaluation.together(evaluations)
         way.results.append(evaluation)
         way.answers = (*evaluation.answers(), *without)
+    elif without:
+        way.answers = tuple(without)
     forbidden = [use for use in uses if use.decision == "do not use"]
     if forbidden:
         worst = forbidden[0]
         remedy = next((reason.remedy for reason in worst.reasons if reason.remedy is not None), "keep the prior matrix")
         way.stop("evaluate", "; ".join(f"{use.sensor}: {use.sentence}" for use in forbidden), remedy.rstrip("."))
-    elif evaluations:
+    elif evaluations or without:
         texts = [f"{use.sensor}: {use.decision}" for use in uses]
         way.end("evaluate", ", ".join([*texts, *(f"{one.subject.split()[0]}: no verdict" for one in without)]))
     else:
@@ -441,7 +445,7 @@ def _report(way: _Way, experiments: Mapping[Path, Experiment], saved: SensorCali
 
 
 def _export(way: _Way, saved: SensorCalibrations) -> None:
-    """Write matrices as files that robots read: a table of all, and per sensor the file of an iCub's board."""
+    """Write a table of all matrices and, per sensor that may be used, the file that an iCub's board reads."""
     way.begin("export")
     named = {entry.file: entry.calibration for entry in saved.calibrations}
     table = way.output / TABLE
@@ -450,6 +454,11 @@ def _export(way: _Way, saved: SensorCalibrations) -> None:
     for file, calibration in named.items():
         if _is_of_icub(calibration):
             matrix = way.output / _matrix_file(calibration.sensor.serial)
+            if not _may_be_used(way, calibration.sensor.name):
+                refused.append(
+                    f"{matrix} is not written, since the calibration may not be used yet: {_EXPORT} {file} writes it"
+                )
+                continue
             try:
                 export_icub_matrix(file, calibration, matrix, force=way.force)
             except ForceTorqueError as error:  # such as a row that no full scale holds: the table has it
@@ -458,6 +467,11 @@ def _export(way: _Way, saved: SensorCalibrations) -> None:
                 files.append(str(matrix))
     way.written += files
     way.end("export", "; ".join([", ".join(files), *refused]))
+
+
+def _may_be_used(way: _Way, sensor: str) -> bool:
+    decisions = {use.decision for use in way.uses if use.sensor == sensor}
+    return way.override is not None or decisions == {"use"}
 
 
 def _is_of_icub(calibration: Calibration) -> bool:

@@ -164,7 +164,7 @@ class Draft(Result):
     @property
     def _next(self) -> str:
         fitted = "[[sensor]]" in self.content and f"\n{line('motion', NO_MOTION)}" not in self.content
-        return "calibrate -o new.json" if fitted else "inspect"
+        return "run" if fitted else "inspect"
 
     def columns(self) -> list[str]:
         """Name the columns of the CSV.

@@ -107,8 +107,8 @@ def prior_lines(
     if files:
         words = "; its serial number follows from it" if all(file.serial for file in files) else ""
         names = listed([file.path.name for file in files], _MOST_FILES)
-        example = relative(files[0].path, folder)
-        return [question("prior", f'file of its matrix{words}, as "{example}"; the folder has {names}'), serial]
+        place = relative(files[0].path.parent, folder)
+        return [question("prior", f'file of its own matrix{words}, "{place}/" and the name: {names}'), serial]
     if sensor.is_raw:
         words = "file of the maker's calibration: a matrix file of iCub, .dat, .cal, or a table"
         return [serial, question("prior", words)]

@@ -428,12 +428,10 @@ def measurement_warnings(readers: Sequence[Reader], summary: Sequence[CoherenceS
                     f"offset {reader.policy}, {sensor}: {', '.join(offset.not_logged)} are in no stream and are taken "
                     "to be at rest: the offset of forces is known, that of moments is not"
                 )
-    priors = {(one.offset, one.offset_interval): one.force_error_mean_N for one in summary if one.candidate == PRIOR}
     for one in summary:
-        prior = priors.get((one.offset, one.offset_interval))
-        mean = one.force_error_mean_N
-        if one.candidate != PRIOR and prior is not None and mean is not None and mean > prior:
+        prior, mean = one.prior_force_error_mean_N, one.common_force_error_mean_N
+        if prior is not None and mean is not None and mean > prior:
             yield (
                 f"{one.candidate}, offset {policy_words(one.offset, one.offset_interval)}: error {mean:.2f} N, more "
-                f"than the {prior:.2f} N of the prior"
+                f"than the {prior:.2f} N of the prior over the same {one.common_phases} phase(s)"
             )

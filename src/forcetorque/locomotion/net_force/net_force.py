@@ -16,6 +16,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import sample_statistics
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.offsets import offset_policies
@@ -208,19 +209,24 @@ def _offset_rows(reader: Reader) -> Iterator[OffsetOfSensor]:
 
 
 def _summary(rows: Sequence[PhaseForce]) -> Iterator[CoherenceSummary]:
-    groups: dict[tuple[str, Offset, str | None], list[float]] = {}
+    groups: dict[tuple[str, Offset, str | None], dict[str, float]] = {}
     for row in rows:
-        norms = groups.setdefault((row.candidate, row.offset, row.offset_interval), [])
+        norms = groups.setdefault((row.candidate, row.offset, row.offset_interval), {})
         if row.evidence:
-            norms.append(float(np.linalg.norm(row.force_error_N)))
+            norms[row.phase] = float(np.linalg.norm(row.force_error_N))
     for (candidate, offset, interval), norms in groups.items():
+        by_prior = {} if candidate == PRIOR else groups.get((PRIOR, offset, interval), {})
+        common = [phase for phase in norms if phase in by_prior]
         yield CoherenceSummary(
             candidate=candidate,
             offset=offset,
             offset_interval=interval,
             phases=len(norms),
-            force_error_mean_N=float(np.mean(norms)) if norms else None,
-            force_error_largest_N=max(norms, default=None),
+            force_error_mean_N=float(np.mean([*norms.values()])) if norms else None,
+            force_error_largest_N=max(norms.values(), default=None),
+            prior_force_error_mean_N=float(np.mean([by_prior[phase] for phase in common])) if common else None,
+            common_phases=None if candidate == PRIOR else len(common),
+            common_force_error_mean_N=float(np.mean([norms[phase] for phase in common])) if common else None,
         )
 
 

@@ -102,6 +102,12 @@ class CoherenceSummary(Row):
     """Mean over these phases of the norm of the error; null for none."""
     force_error_largest_N: float | None
     """Largest of these norms."""
+    prior_force_error_mean_N: float | None = None
+    """Mean over the same phases, as far as they are evidence of the prior too, with its offset; null for the prior."""
+    common_phases: int | None = None
+    """Number of these phases; null for the prior."""
+    common_force_error_mean_N: float | None = None
+    """Mean over them of what reads the sensors here; null for the prior."""
 
 
 class Coherence(DrawnResult):
