@@ -149,8 +149,8 @@ def accept(
         population: Matrices of other sensors by serial number.
 
     Returns:
-        Criteria in the order of `AcceptanceFile`, the verdicts of `evaluate`, and static checks. A sensor that
-        `evaluate` forbids to use ("do not use") is not accepted, whatever the limits.
+        Criteria in the order of `AcceptanceFile`, the verdicts of `evaluate`, and static checks. Where the file
+        states no load case, a sensor that `evaluate` forbids to use ("do not use") is not accepted.
 
     Raises:
         ForceTorqueError: If a limit is stated for what cannot be measured; the message names its table.

@@ -228,8 +228,8 @@ def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Ite
         spec: Content of the acceptance file.
 
     Yields:
-        One criterion per limit, in the order of `AcceptanceFile`, and one that fails for every verdict "do not use" on
-        a load case that the file does not state.
+        One criterion per limit, in the order of `AcceptanceFile`; where it states no load case, also one that fails
+        for every verdict "do not use" of `evaluate`.
 
     Raises:
         ForceTorqueError: If a limit is stated for what cannot be measured; the message names its table.
@@ -249,8 +249,8 @@ def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Ite
         except ForceTorqueError as error:
             name = subjects[0].run.sensor.name
             raise type(error)(f"sensor {name!r}: [{table}] cannot be evaluated: {error}") from error
-    stated_cases = {table.name for table in spec.load_case}
-    yield from _forbidden(subjects[0], [use for use in subjects[0].uses if use.load_case not in stated_cases])
+    if not spec.load_case:
+        yield from _forbidden(subjects[0])
 
 
 def _worst(
@@ -443,9 +443,9 @@ def _load_case(subject: Subject, stated: Sequence[LoadCaseTable]) -> Iterator[Cr
         yield from _use(subject, f"{start}.use", verdict)
 
 
-def _forbidden(subject: Subject, uses: Sequence[UseVerdict]) -> Iterator[Criterion]:
+def _forbidden(subject: Subject) -> Iterator[Criterion]:
     """Fail for load cases of the experiment, or the default ones, that data contradict."""
-    for verdict in uses:
+    for verdict in subject.uses:
         if verdict.decision == "do not use":
             yield from _use(subject, f"verdict.{verdict.load_case}", verdict)
 

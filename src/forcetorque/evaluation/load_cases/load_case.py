@@ -249,7 +249,8 @@ def operating_load_cases(
         try:
             case = location.case(table)
             if case is not None:
-                _require_readable(case, runs[0], matrix)
+                if (beyond := beyond_range(case, runs[0], matrix)) is not None:
+                    raise ExperimentError(f"load case {case.name!r}: {beyond}; expected loads that it can read")
                 cases.append(case)
         except ExperimentError as error:
             refused = True
@@ -407,24 +408,31 @@ def _full_scale(run: SensorRun) -> FloatArray:
     return sensor.limit_counts * np.linalg.norm(sensor.prior, axis=1)
 
 
-def _require_readable(case: LoadCase, run: SensorRun, matrix: FloatArray | None) -> None:
-    """Refuse loads that the sensor cannot read."""
+def beyond_range(case: LoadCase, run: SensorRun, matrix: FloatArray | None) -> str | None:
+    """Compare the loads with what the sensor can read.
+
+    Args:
+        case: The load case.
+        run: The sensor.
+        matrix: Matrix by which loads are turned into counts; shape (6, c); the prior if None.
+
+    Returns:
+        What the loads reach, and the limit; None where the sensor can read them, or nobody knows its limit.
+    """
     sensor = run.sensor
     if sensor.full_scale is not None:
         largest = np.abs(case.wrench).max(axis=0)
         worst = int(np.argmax(largest / sensor.full_scale))
-        if largest[worst] > sensor.full_scale[worst]:
-            raise ExperimentError(
-                f"load case {case.name!r}: reaches {largest[worst]:.4g} {'N' if worst < 3 else 'N m'} in "
-                f"{WRENCH_COMPONENTS[worst]}, the full scale of {sensor.name!r} is {sensor.full_scale[worst]:.4g}"
-            )
-        return
+        if largest[worst] <= sensor.full_scale[worst]:
+            return None
+        return (
+            f"reaches {largest[worst]:.4g} {'N' if worst < 3 else 'N m'} in {WRENCH_COMPONENTS[worst]}, the full scale "
+            f"of {sensor.name!r} is {sensor.full_scale[worst]:.4g}"
+        )
     read_by = sensor.prior if matrix is None else matrix
     if read_by is None or sensor.prior_source == "identity":
-        return
+        return None
     counts = float(np.abs(case.wrench @ np.linalg.pinv(read_by).T).max())
-    if counts > sensor.limit_counts:
-        raise ExperimentError(
-            f"load case {case.name!r}: reaches {counts:.0f} counts in a channel of {sensor.name!r}, which reads up to "
-            f"{sensor.limit_counts:.0f}; expected loads that it can read"
-        )
+    if counts <= sensor.limit_counts:
+        return None
+    return f"reaches {counts:.0f} counts in a channel of {sensor.name!r}, which reads up to {sensor.limit_counts:.0f}"

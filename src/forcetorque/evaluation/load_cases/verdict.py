@@ -11,7 +11,13 @@ import numpy as np
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.paired_comparison import ALIKE
 from forcetorque.base.wrench import FORCE, MOMENT
-from forcetorque.evaluation.load_cases.load_case import LoadCase, Refuse, operating_load_cases, raise_rejection
+from forcetorque.evaluation.load_cases.load_case import (
+    LoadCase,
+    Refuse,
+    beyond_range,
+    operating_load_cases,
+    raise_rejection,
+)
 from forcetorque.evaluation.load_cases.predicted_error import (
     CONFIDENCE,
     ErrorMagnitude,
@@ -449,7 +455,9 @@ def use_verdicts(
             except FitError as error:
                 refuse(error)
             else:
-                verdicts.append(_verdict(campaign, name, assessment, notes))
+                beyond = beyond_range(case, campaign.runs[0], calibration.matrix)
+                unreadable = () if beyond is None else (Reason(against=None, text=f"{_ASSUMED} {beyond}"),)
+                verdicts.append(_verdict(campaign, name, assessment, (*unreadable, *notes)))
     return tuple(verdicts)
 
 
@@ -462,6 +470,9 @@ def _notes(campaign: Campaign, name: str, calibration: Calibration) -> Iterator[
             if sentence not in calibration.doubts:  # which are reasons of the verdict
                 yield Reason(against=None, text=sentence)
 
+
+_ASSUMED: Final = "the assumed load case is more than the sensor can read, so specify your loads as [[load_case]]: it"
+"""How the reason begins that a default load case is beyond the range of the sensor; one that is stated is refused."""
 
 _COMPARED: Final = {LoadCaseOffset.FITTED: Offset.FITTED, LoadCaseOffset.TARED: Offset.JUDGED_MEAN}
 """Offset with which validation data compare a calibration and its prior for a load case."""
