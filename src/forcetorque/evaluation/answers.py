@@ -116,7 +116,11 @@ def _measured(row: CandidateErrors, compared: Sequence[PriorComparison]) -> Iter
         f"{one.quantity} error {amount(one.mean, one.unit)} (prior {amount(one.prior_mean, one.unit)}: {one.judgement})"
         for one in own
     )
-    yield f"{row.samples} samples not fitted: {errors}"
+    still = (
+        f"; loads hardly moved there: {amount(row.excitation_N, 'N')} of {amount(row.load_N, 'N')}, "
+        f"{amount(row.excitation_Nm, 'N m')} of {amount(row.load_Nm, 'N m')}"
+    )
+    yield f"{row.samples} samples not fitted: {errors}{still if row.hardly_moved else ''}"
 
 
 def _step(use: UseVerdict) -> tuple[str, str]:
