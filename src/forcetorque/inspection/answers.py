@@ -25,7 +25,7 @@ _WHOLE: Final = 0.95
 """Share of the duration above which a finding is about the log as a whole."""
 _MOST = 4
 """Events that are listed; the others are counted."""
-_NEXT: Final = {True: "calibrate the sensors", False: "begin an experiment file for it"}
+_NEXT: Final = {True: "calibrate the sensors, or identify their load, and evaluate", False: "begin an experiment file for it"}
 """What follows, by whether it is an experiment file."""
 _CELLS = 50
 """Characters of the bar."""
@@ -169,7 +169,7 @@ def inspection_answer(inspection: Inspection) -> Answer:
             verdict="REMARKS" if notes else "NOTHING FOUND",
             why=more,
             step=_NEXT[is_experiment],
-            command=typed("calibrate", source, "-o", "calibrations") if is_experiment else begin,
+            command=typed("run", source, "-o", "results") if is_experiment else begin,
             concern=Concern.UNCERTAIN if notes else Concern.NONE,
         )
     longest = sorted(grouped, key=lambda event: event.start_s - event.end_s)[:_MOST]
