@@ -102,7 +102,7 @@ def sensor_alone(log: SensorLog) -> tuple[SensorAlone, tuple[Finding, ...]] | No
     period = _period_ns(stamps)
     pauses = _lossy_pauses(stamps, period)
     repeated: BoolArray = np.concatenate([[False], (np.diff(values[:, present], axis=0) == 0.0).all(axis=1)])
-    noise = np.zeros(len(present))
+    noise = np.zeros(values.shape[1])
     noise[present] = np.sqrt(white_variance(stamps[~repeated], values[np.ix_(~repeated, present)]))
     whole: BoolArray = ~repeated & finite[:, present].all(axis=1)
     fresh: FloatArray = np.where(present, values[whole], 0.0)
