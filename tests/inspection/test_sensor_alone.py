@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.inspection.draft.first_look import SensorLog
 from forcetorque.inspection.inspect import Inspection, inspect_log
-from forcetorque.inspection.sensor_alone import SensorAlone
+from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.stream import Signal, Stream
 from tests.app.outcome import Run
 
 RATE_HZ, SECONDS = 200.0, 30.0
@@ -74,6 +77,55 @@ def test_a_tare_a_drift_and_a_tap_that_clips_are_told_apart(tmp_path: Path) -> N
     (clipped,) = (row for row in inspection.findings if row.kind == "clipped")
     assert (clipped.channel, clipped.size) == ("fz", 20.0)
     assert clipped.count == sensor.clipped_samples > 3
+
+
+def test_samples_without_a_value_are_counted_and_not_clipped(tmp_path: Path, run: Run) -> None:
+    """The verdict names them; the table and JSON hold no NaN."""
+    time, wrench = _clean()
+    wrench[2000:2020] = np.nan
+    inspection = _inspected(tmp_path, time, wrench)
+    sensor = _sensor(inspection)
+    assert (sensor.missing_samples, sensor.clipped_samples, sensor.stuck) == (20, 0, ())
+    assert sensor.drift_per_hour is not None
+    assert next(inspection.answers()).verdict == "200 Hz, 20 samples without a value"
+    result = run("inspect", tmp_path / "ft.csv", "--format", "json").result()
+    assert [finding["kind"] for finding in result["findings"]] == ["missing"]
+
+
+@pytest.mark.parametrize(("value", "verdict"), [(5.0, "fx stuck"), (np.nan, "6000 samples without a value")])
+def test_a_dead_channel_is_named_and_leaves_the_others_theirs(tmp_path: Path, value: float, verdict: str) -> None:
+    """Noise and drift of the other components are those of a log without it."""
+    time, wrench = _clean()
+    wrench[:, 0] = value
+    inspection = _inspected(tmp_path, time, wrench)
+    sensor = _sensor(inspection)
+    np.testing.assert_allclose(sensor.noise, [0.0, *NOISE[1:]], rtol=SPREAD)
+    assert sensor.drift_per_hour is not None
+    assert sensor.drift_half_width_95_per_hour is not None
+    assert sensor.drift_half_width_95_per_hour[0] == 0.0
+    assert min(sensor.drift_half_width_95_per_hour[1:]) > 0.0
+    assert next(inspection.answers()).verdict == f"200 Hz, {verdict}"
+
+
+def test_white_noise_has_a_drift_in_one_of_twenty_logs_at_most() -> None:
+    """The half-widths are those of all six components at once: 95 % of 200 logs have none beyond its own."""
+    stamps = np.arange(220, dtype=np.int64) * 50_000_000
+    drifting = 0
+    for seed in range(200):
+        values = NOISE * np.random.default_rng(seed).normal(size=(len(stamps), 6))
+        stream = Stream(
+            name="ft",
+            clock="log",
+            stamp_ns=stamps,
+            signals={"wrench": Signal.of_fixed("wrench", values, frame="ft")},
+        )
+        summary = sensor_alone(SensorLog(recording=Recording(streams={"ft": stream}), assumed=()))
+        assert summary is not None
+        drift, half_width = summary[0].drift_per_hour, summary[0].drift_half_width_95_per_hour
+        assert drift is not None
+        assert half_width is not None
+        drifting += any(abs(value) > width for value, width in zip(drift, half_width, strict=True))
+    assert 0 < drifting <= 10
 
 
 def test_packets_that_come_in_bursts_lose_nothing(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -18,12 +18,16 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.payload import load_on_wrist_sensor
 from forcetorque.payload import load_warnings as sense
-from forcetorque.payload.identification.load_estimates import LoadSolution
+from forcetorque.payload.answers import payload_answers
+from forcetorque.payload.identification.load_estimates import LoadSolution, OutlierRow
 from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identify import weigh_load
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import overweight_loads, reference_doubts
+from forcetorque.payload.result import WeighedLoad
 from forcetorque.recording.recording import Use
+from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.number_text import plus_minus
 
 MASS, CENTRE = 1.1, np.array([0.01, -0.005, 0.07])
 BIAS = np.array([4.0, -2.0, 9.0, 0.3, 0.1, -0.2])
@@ -80,13 +84,14 @@ use = "validation"
 """
 
 
-def _write(folder: Path, *, text: str = TEXT, matrix: np.ndarray | None = None) -> Path:
-    """Write a table of still poses: gravity in g, moments in N mm, and readings of the known load."""
+def _write(folder: Path, *, text: str = TEXT, matrix: np.ndarray | None = None, pushed: slice = slice(0)) -> Path:
+    """Write a table of still poses: gravity in g, moments in N mm, and readings of the known load, some with a push."""
     rng = np.random.default_rng(1)
     down = rng.normal(size=(POSES, 3))
     down /= np.linalg.norm(down, axis=1, keepdims=True)
     weight = MASS * 9.80665 * down
     reading = np.hstack([weight, np.cross(CENTRE, weight)]) + BIAS + NOISE * rng.normal(size=(POSES, 6))
+    reading[pushed] += [-8.0, 2.0, 1.0, -0.2, -0.4, 0.1]
     if matrix is not None:
         reading = np.linalg.solve(matrix, reading.T).T
     rows = np.hstack([reading * [1, 1, 1, 1000, 1000, 1000], down])
@@ -105,6 +110,70 @@ def test_the_load_is_estimated_on_the_calibration_poses(tmp_path: Path) -> None:
     assert abs(load.mass - MASS) < 2 * load.mass_half_width
     assert (np.abs(load.centre_of_mass - CENTRE) < 2 * load.centre_of_mass_half_width).all()
     np.testing.assert_allclose(session.bias, BIAS, atol=4 * NOISE.max())
+
+
+def _weighed(path: Path) -> WeighedLoad:
+    experiment = load_experiment(path)
+    return weigh_load(SensorRun(experiment, experiment.sensors[0]))
+
+
+def _answer(weighed: WeighedLoad, **changes: Any) -> Answer:
+    (answer,) = payload_answers(weighed.model_copy(update=changes))
+    return answer
+
+
+def test_a_load_that_samples_agree_on_may_be_written(tmp_path: Path) -> None:
+    """Two samples of forty, 5 %, may disagree; the third makes the load uncertain."""
+    weighed = _weighed(_write(tmp_path))
+    row = OutlierRow(row="poses 21", session="", weight=0.01, residual=np.zeros(6))
+    for count in (0, 2):
+        answer = _answer(weighed, disagreeing=(row,) * count)
+        assert answer.concern is Concern.NONE
+        assert answer.why[0].startswith("bias to be subtracted")
+        assert len(answer.why) == 2
+        assert "--to" in answer.command
+    answer = _answer(weighed, disagreeing=(row,) * 3)
+    assert (answer.concern, answer.why[0]) == (Concern.UNCERTAIN, "3 of 40 samples disagree with the others")
+    assert answer.step.startswith("look at what disagrees")
+    assert "--to" not in answer.command
+
+
+def test_a_load_with_contact_in_its_samples_is_not_offered_to_the_robot(tmp_path: Path) -> None:
+    """The first reason says how many samples disagree, and the next step names the session of most of them."""
+    fitted = '[[interval]]\nlabel = "{0}"\nstart_s = {1}\nend_s = {2}\nuse = "calibration"\nsession = "{0}"\n'
+    head = TEXT[: TEXT.index("[[interval]]")].replace("[load]", "[load]\ndrift = false")
+    text = head + fitted.format("free", 0, 30) + fitted.format("contact", 30, 40)
+    answer = _answer(_weighed(_write(tmp_path, text=text, pushed=slice(37, 40))))
+    assert answer.concern is Concern.UNCERTAIN
+    assert answer.why[0] == "3 of 40 samples disagree with the others"
+    assert answer.why[1].startswith("bias of 'contact', the last of 2 power cycles")
+    assert answer.step.startswith("look at 'contact', which disagrees: contact is the likely cause")
+    assert answer.command == typed("inspect", EXPERIMENT)
+
+
+def test_recordings_that_disagree_are_the_first_reason(tmp_path: Path) -> None:
+    """Also where no sample of either does."""
+    words = "a and b disagree beyond their intervals: mass by 0.1 kg, where 0.02 are expected"
+    answer = _answer(_weighed(_write(tmp_path)), disagreements=(words,))
+    assert (answer.concern, answer.why[0]) == (Concern.UNCERTAIN, words)
+    assert answer.step.startswith("look at what disagrees")
+    assert "--to" not in answer.command
+
+
+@pytest.mark.parametrize(("half_width", "is_stated"), [(0.001, True), (0.01, False)])
+def test_a_fitted_drift_beyond_its_half_width_is_a_reason(
+    tmp_path: Path, half_width: float, *, is_stated: bool
+) -> None:
+    """The details have it with its half-width in any case."""
+    weighed = _weighed(_write(tmp_path))
+    drift = {"drift_per_s": (0.0, 0.0, -0.005, 0.0, 0.0, 0.0), "drift_half_width_95_per_s": (half_width,) * 6}
+    drifting = weighed.model_copy(update={"sessions": (weighed.sessions[0].model_copy(update=drift),)})
+    (answer,) = payload_answers(drifting)
+    half = 3600.0 * half_width
+    text = f"fz by {plus_minus(-18.0, half, 'N/h')}"
+    assert (f"the bias drifts: {text}" in answer.why) is is_stated
+    assert any(text in block for block in drifting.blocks() if isinstance(block, str))
+    assert not any("drifts: " in block for block in weighed.blocks() if isinstance(block, str))
 
 
 def test_counts_without_a_prior_weigh_nothing(tmp_path: Path) -> None:

@@ -25,7 +25,10 @@ _WHOLE: Final = 0.95
 """Share of the duration above which a finding is about the log as a whole."""
 _MOST = 4
 """Events that are listed; the others are counted."""
-_NEXT: Final = {True: "calibrate the sensors, or identify their load, and evaluate", False: "begin an experiment file for it"}
+_NEXT: Final = {
+    True: "calibrate the sensors, or identify their load, and evaluate",
+    False: "begin an experiment file for it",
+}
 """What follows, by whether it is an experiment file."""
 _CELLS = 50
 """Characters of the bar."""

@@ -6,12 +6,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+from scipy.special import stdtrit
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.inspection.draft.first_look import SensorLog
 from forcetorque.recording.alignment import usable_samples
-from forcetorque.recording.frozen_and_saturated_samples import flat_tops, white_variance
+from forcetorque.recording.frozen_and_saturated_samples import flat_tops, ranges_of, white_variance
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.recording.stream_faults import stream_findings, true_runs
@@ -35,7 +36,8 @@ _BLOCK_S, _FEWEST_BLOCKS = 1.0, 10
 """Length of the segments whose medians drift is fitted to, s, and the fewest of them."""
 _LOAD_NOISES = 10.0
 """Scatter of these medians about a line, in that of the noise alone, from which on the load changed."""
-_NORMAL_95 = 1.96
+_CONFIDENCE = 0.95
+"""Probability that the intervals of the drifts of all components hold at once."""
 _MANY_REPEATS = 0.1
 """Share of samples that repeat the one before, from which on the sensor is slower than its log."""
 
@@ -57,12 +59,17 @@ class SensorAlone(Row):
     """Samples whose stamp does not step forward."""
     repeated_samples: int
     """Samples that repeat all components of the one before."""
+    missing_samples: int
+    """Samples without a finite value of some component."""
+    stuck: tuple[str, ...]
+    """Components that repeat one value for longer than noise does, or have no other."""
     noise: tuple[float, ...]
-    """Standard deviation of the white noise of each component, in its unit."""
+    """Standard deviation of the white noise of each component, in its unit; 0 where it has none."""
     drift_per_hour: tuple[float, ...] | None
-    """Drift of each component in its unit; None where the load changed, or the log is too short."""
+    """Drift of each component in its unit, 0 of one without noise; None where the load changed, the log is too short,
+    or no component has noise."""
     drift_half_width_95_per_hour: tuple[float, ...] | None
-    """Half of the 95 % interval of each."""
+    """Half-widths of their intervals, which hold for all components at once in 95 % of logs."""
     tares_s: tuple[float, ...]
     """Instants at which all components jumped to zero; s from the first sample."""
     clipped_samples: int
@@ -90,16 +97,21 @@ def sensor_alone(log: SensorLog) -> tuple[SensorAlone, tuple[Finding, ...]] | No
     if len(kept) < 2 * _STRIDE:
         return None
     stamps, values = stream.stamp_ns[kept], signal.values[kept]
+    finite: BoolArray = np.isfinite(values)
+    present = finite.any(axis=0)
     period = _period_ns(stamps)
     pauses = _lossy_pauses(stamps, period)
-    repeated: BoolArray = np.concatenate([[False], (np.diff(values, axis=0) == 0.0).all(axis=1)])
-    fresh = values[~repeated]
-    noise = np.sqrt(white_variance(stamps[~repeated], fresh))
-    tares = _tares(stamps[~repeated], fresh, noise, period)
-    clipped = np.column_stack([flat_tops(np.nan_to_num(column)) for column in values.T])
+    repeated: BoolArray = np.concatenate([[False], (np.diff(values[:, present], axis=0) == 0.0).all(axis=1)])
+    noise = np.zeros(values.shape[1])
+    noise[present] = np.sqrt(white_variance(stamps[~repeated], values[np.ix_(~repeated, present)]))
+    whole: BoolArray = ~repeated & finite[:, present].all(axis=1)
+    fresh: FloatArray = np.where(present, values[whole], 0.0)
+    tares = _tares(stamps[whole], fresh, noise, period)
+    clipped = _clipped(values)
     steps = np.diff(stamps)
     regular = np.delete(steps, [k for k, _ in pauses])
-    drift = _drift(stamps[~repeated], fresh, noise, [instant for instant, _ in tares])
+    drift = _drift(stamps[whole], fresh, noise, [instant for instant, _ in tares])
+    found = [*_other_findings(stream), *_losses(stream, stamps, pauses)]
     summary = SensorAlone(
         stream=stream.name,
         samples=len(stream),
@@ -108,6 +120,8 @@ def sensor_alone(log: SensorLog) -> tuple[SensorAlone, tuple[Finding, ...]] | No
         lost_samples=sum(lost for _, lost in pauses),
         repeated_stamps=len(stream) - len(kept),
         repeated_samples=int(np.count_nonzero(repeated)),
+        missing_samples=int(np.count_nonzero(~finite.all(axis=1))),
+        stuck=_stuck(signal.columns, values, found),
         noise=tuple(noise.tolist()),
         drift_per_hour=None if drift is None else tuple(drift[0].tolist()),
         drift_half_width_95_per_hour=None if drift is None else tuple(drift[1].tolist()),
@@ -117,10 +131,24 @@ def sensor_alone(log: SensorLog) -> tuple[SensorAlone, tuple[Finding, ...]] | No
         units=signal.units,
         assumed=log.assumed,
     )
-    found = [*_other_findings(stream), *_losses(stream, stamps, pauses)]
     found += [_tare_finding(stream, signal, instant, jump) for instant, jump in tares]
     found += _clipping(stream, signal, stamps, values, clipped)
     return summary, (*log.recording.findings, *sorted(found, key=lambda finding: finding.start_ns or 0))
+
+
+def _clipped(values: FloatArray) -> BoolArray:
+    """Where components stay at an end of their range that they jumped to, among finite samples; shape (n, k)."""
+    clipped = np.zeros(values.shape, dtype=bool)
+    for k, column in enumerate(values.T):
+        finite = np.isfinite(column)
+        clipped[finite, k] = flat_tops(column[finite])
+    return clipped
+
+
+def _stuck(names: Sequence[str], values: FloatArray, findings: Sequence[Finding]) -> tuple[str, ...]:
+    named = {finding.channel for finding in findings if finding.kind == "stuck"}
+    constant = np.isfinite(values).any(axis=0) & (ranges_of(values) == 0.0)
+    return tuple(name for name, rests in zip(names, constant, strict=True) if rests or name in named)
 
 
 def _period_ns(stamps: IntArray) -> float:
@@ -172,7 +200,11 @@ def _tares(stamps: IntArray, values: FloatArray, noise: FloatArray, period: floa
 def _drift(
     stamps: IntArray, values: FloatArray, noise: FloatArray, tares: Sequence[int]
 ) -> tuple[FloatArray, FloatArray] | None:
-    """Slopes of medians over time, each stretch between tares with its own level, and half-widths; per hour."""
+    """Slopes of medians over time, with a level for each interval between tares, and half-widths; per hour."""
+    noisy = noise > 0.0  # a stuck component has none, and neither has one that changes by less than the resolution
+    if not noisy.any() or not len(stamps):
+        return None
+    values, noise = values[:, noisy], noise[noisy]
     time = (stamps - stamps[0]) * 1e-9
     stretch = np.searchsorted(np.asarray(tares, dtype=np.int64), stamps, side="right")
     number = stretch * (int(time[-1] / _BLOCK_S) + 2) + (time / _BLOCK_S).astype(np.int64)
@@ -185,18 +217,21 @@ def _drift(
     means, level = means[whole], stretch[starts][whole]
     columns = np.column_stack([means[:, 0], level[:, None] == np.unique(level)])
     freedom = len(means) - columns.shape[1]
-    if len(means) < _FEWEST_BLOCKS or freedom < 2 or not np.isfinite(means).all():
+    if len(means) < _FEWEST_BLOCKS or freedom < 2:
         return None
     coefficients = np.linalg.lstsq(columns, means[:, 1:], rcond=None)[0]
     left = means[:, 1:] - columns @ coefficients
     scatter = np.sqrt((left**2).sum(axis=0) / freedom)
-    if (scatter > _LOAD_NOISES * np.maximum(noise, 1e-300) / np.sqrt(usual)).any():
+    if (scatter > _LOAD_NOISES * noise / np.sqrt(usual)).any():
         return None
     # neighbouring means of a slow noise go together: fewer of them count
     together = np.clip((left[1:] * left[:-1]).sum(axis=0) / np.maximum((left**2).sum(axis=0), 1e-300), 0.0, 0.95)
     inverse = np.linalg.pinv(columns.T @ columns)[0, 0]
     error = scatter * np.sqrt(inverse * (1.0 + together) / (1.0 - together))
-    return 3600.0 * coefficients[0], _NORMAL_95 * 3600.0 * error
+    quantile = stdtrit(freedom, 0.5 + 0.5 * _CONFIDENCE ** (1.0 / np.count_nonzero(noisy)))
+    drift, half_width = np.zeros((2, len(noisy)))
+    drift[noisy], half_width[noisy] = 3600.0 * coefficients[0], 3600.0 * quantile * error
+    return drift, half_width
 
 
 def _other_findings(stream: Stream) -> list[Finding]:
@@ -264,6 +299,8 @@ def sensor_answer(sensor: SensorAlone, source: str, duration_s: float) -> Answer
     wrong = [
         text
         for count, text in (
+            (len(sensor.stuck), f"{', '.join(sensor.stuck)} stuck"),
+            (sensor.missing_samples, f"{sensor.missing_samples} samples without a value"),
             (sensor.clipped_samples, f"{sensor.clipped_samples} samples clipped"),
             (len(sensor.tares_s), f"tared at {', '.join(f'{time:.2f} s' for time in sensor.tares_s[:4])}"),
             (sensor.lost_samples, f"{sensor.lost_samples} samples lost"),
@@ -295,7 +332,7 @@ def _noise_text(sensor: SensorAlone) -> str:
 
 def _drift_text(sensor: SensorAlone) -> str:
     if sensor.drift_per_hour is None or sensor.drift_half_width_95_per_hour is None:
-        return "drift is not told: the load changes, or the log has less than ten seconds"
+        return "drift is not determined: the load changes, the log is shorter than ten seconds, or it has no noise"
     sure = [
         value if abs(value) > width else 0.0
         for value, width in zip(sensor.drift_per_hour, sensor.drift_half_width_95_per_hour, strict=True)

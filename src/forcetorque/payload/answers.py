@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT
+from forcetorque.payload.result import fitted_drifts
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.tare_offset import STILL
 from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
@@ -16,6 +17,10 @@ from forcetorque.results.table import short_names
 if TYPE_CHECKING:
     from forcetorque.payload.result import LoadRow, WeighedLoad
     from forcetorque.payload.tare_offset import Tare
+
+
+_MANY = 0.05
+"""Share of samples that disagree with the others, from which on something else than the load acts (heuristic)."""
 
 
 def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
@@ -31,11 +36,11 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
     step, command = _payload_step(weighed)
     for load in weighed.loads:
         name = "" if load.load == "load" else f", {load.load}"
-        doubtful = bool(contradicted or weighed.open or load.mass_kg is None)
+        doubtful = bool(contradicted or weighed.open or load.mass_kg is None or _disagree(weighed))
         yield Answer(
             subject=f"{weighed.sensor} ({weighed.serial}){name}",
             verdict=_load_verdict(load),
-            why=(_bias(weighed), _samples(weighed)),
+            why=_reasons(weighed),
             step=step,
             command=command,
             concern=Concern.BAD if contradicted else Concern.UNCERTAIN if doubtful else Concern.NONE,
@@ -54,6 +59,40 @@ def _load_verdict(load: LoadRow) -> str:
     if len(known) < len("xyz"):
         return f"{mass}, centre of mass not identifiable"
     return f"{mass} at {plus_minus(known, max(halves) if len(halves) == len(known) else None, 'mm')}"
+
+
+def _disagree(weighed: WeighedLoad) -> bool:
+    """Whether recordings, or too many samples, disagree for one load to explain them."""
+    return bool(weighed.disagreements) or len(weighed.disagreeing) > _MANY * weighed.rows
+
+
+def _reasons(weighed: WeighedLoad) -> tuple[str, ...]:
+    if _disagree(weighed):
+        count = f"{len(weighed.disagreeing)} of {weighed.rows} samples disagree with the others"
+        first = "; ".join((*weighed.disagreements[:1], *((count,) if weighed.disagreeing else ())))
+        return (first, _bias(weighed), *_drift(weighed))
+    return (_bias(weighed), *_drift(weighed), _samples(weighed))
+
+
+def _worst_session(weighed: WeighedLoad) -> str | None:
+    """The session of which most samples disagree; None where there is one only, or none disagree."""
+    names = [row.session for row in weighed.disagreeing]
+    shares = {row.session: names.count(row.session) / row.rows for row in weighed.sessions if row.rows}
+    return max(shares, key=lambda name: shares[name]) if names and len(shares) > 1 else None
+
+
+def _drift(weighed: WeighedLoad) -> Iterator[str]:
+    """The component of a bias whose drift is furthest beyond its half-width."""
+    beyond = [
+        (abs(drift) / half, session.session, f"{name} by {plus_minus(drift, half, unit)}")
+        for session in weighed.sessions
+        for name, unit, drift, half in fitted_drifts(session)
+        if abs(drift) > half > 0.0
+    ]
+    if beyond:
+        _, session, text = max(beyond)
+        of = f" of {session!r}" if len(weighed.sessions) > 1 else ""
+        yield f"the bias{of} drifts: {text}"
 
 
 def _bias(weighed: WeighedLoad) -> str:
@@ -82,6 +121,11 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
     if weighed.hypotheses:
         first = weighed.hypotheses[0]
         return f"check for {first.name}: {first.words}", ""
+    if _disagree(weighed):
+        worst = _worst_session(weighed)
+        which = "what disagrees, in --details" if worst is None else f"{worst!r}, which disagrees"
+        words = f"look at {which}: contact is the likely cause; leave that out of the fit, and repeat"
+        return words, typed("inspect", EXPERIMENT)
     if weighed.open:
         return "record more postures, which turn the load about other axes", ""
     return "write it to a file that the robot reads", typed(

@@ -11,6 +11,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 from pydantic import Field
 
+from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.payload.identification.load_estimates import (
     BiasRow,
     BiasTestRow,
@@ -23,7 +24,7 @@ from forcetorque.payload.identification.load_estimates import (
     three,
 )
 from forcetorque.payload.identification.parameter_vector import SECOND_MOMENTS, SIX_PLACES, six_of
-from forcetorque.results.number_text import finite_or_none, with_error
+from forcetorque.results.number_text import finite_or_none, plus_minus, with_error
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, WrenchValues, table_of
 
@@ -213,6 +214,32 @@ def drift_words(drift: DriftRow) -> str:
     return f"{taken}, {why}: error {drift.error_with:.2f} with, {drift.error_without:.2f} without drift{masses}"
 
 
+_HOUR_S = 3600.0
+
+
+def fitted_drifts(session: BiasRow) -> Iterator[tuple[str, str, float, float]]:
+    """Give the drift of the bias of a session.
+
+    Args:
+        session: The session.
+
+    Yields:
+        Name and unit of a component, its drift and the half-width of its 95 % interval; N/h, N m/h. None where no drift
+        was fitted, or where it is not identifiable.
+    """
+    if session.drift_per_s is None or session.drift_half_width_95_per_s is None:
+        return
+    numbers = zip(session.drift_per_s, session.drift_half_width_95_per_s, strict=True)
+    for name, unit, (drift, half_width) in zip(WRENCH_COMPONENTS, WRENCH_UNITS, numbers, strict=True):
+        if drift is not None and half_width is not None:
+            yield name, f"{unit}/h", _HOUR_S * drift, _HOUR_S * half_width
+
+
+def _drift_text(session: BiasRow) -> str | None:
+    drifts = [f"{name} by {plus_minus(drift, half, unit)}" for name, unit, drift, half in fitted_drifts(session)]
+    return f"the bias of {session.session!r} drifts: {', '.join(drifts)}" if drifts else None
+
+
 def bias_words(test: BiasTestRow, loads: Sequence[LoadRow]) -> str:
     """Say whether one bias would do.
 
@@ -349,6 +376,7 @@ class WeighedLoad(Result):
         if self.mount_rad is not None:
             yield mount_words(self.mount_rad, self.mount_half_width_rad)
         yield drift_words(self.drift)
+        yield from (text for session in self.sessions if (text := _drift_text(session)) is not None)
         yield from (bias_words(test, self.loads) for test in self.bias_tests)
         yield from self.open
         if self.disagreeing:

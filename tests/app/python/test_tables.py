@@ -122,6 +122,16 @@ def test_two_sensors_with_loads_and_sessions_give_what_the_file_gives(two: Path)
         _same_numbers(file, experiment_of_tables(bare), "arm_ft", "fit")
 
 
+def test_positions_of_unknown_joints_are_named(two: Path) -> None:
+    """When the experiment is made, not when its expected wrenches are."""
+    tables = tables_of(load_experiment(two))
+    (joints,) = (stream for stream in tables["recording"]["stream"] if stream["name"] == "joints")
+    (position,) = joints["signal"]
+    position["names"] = [*JOINTS[:-1], "wirst"]
+    with pytest.raises(ExperimentError, match="stream 'joints': position: expected names of joints of .*, got wirst"):
+        experiment_of_tables(tables)
+
+
 def test_an_imu_gives_what_the_file_gives(moving: Path) -> None:
     """A tilted base weighs the limb along other axes."""
     file = load_experiment(moving)
@@ -201,6 +211,12 @@ def test_a_stream_states_units_and_names() -> None:
         ({"row": np.zeros((3, 6))}, ExperimentError, "no quantity is called 'row'; did you mean \"raw\""),
         ({"raw": np.zeros((4, 6))}, ShapeError, r"stream 'arm': raw: expected an array of shape \(3, n\)"),
         ({"raw": "counts"}, ExperimentError, "stream 'arm': raw: expected numbers, got 'counts'"),
+        ({"wrench": np.zeros((3, 5))}, ShapeError, r"stream 'arm': wrench: expected an array of shape \(3, 6\)"),
+        (
+            {"position": {"hip": np.zeros(3)}, "units": {"postion": "deg"}},
+            ExperimentError,
+            "stream 'arm': units: 'postion' is not given; did you mean \"position\"",
+        ),
         ({"position": {}}, ExperimentError, "position: expected columns by name, got none"),
         (
             {"wrench": pd.DataFrame(np.zeros((3, 6)), columns=["tx", "ty", "tz", "fx", "fy", "fz"])},

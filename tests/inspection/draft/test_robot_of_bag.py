@@ -80,14 +80,38 @@ def test_a_fixed_frame_of_a_bag_is_the_mount(bag: Path, tmp_path: Path) -> None:
     assert len(tomllib.loads(draft.content)["interval"]) > 1
 
 
-def test_a_urdf_that_is_there_is_not_replaced(bag: Path, tmp_path: Path) -> None:
-    """It may be that of the user; --force replaces it, and without a file to write the robot is asked for."""
-    (tmp_path / "arm.urdf").write_text("<robot name='mine'><link name='base'/></robot>")
-    with pytest.raises(OutputError, match="arm.urdf: expected a new file"):
-        draft_experiment(bag, tmp_path / "arm.toml")
-    assert not (tmp_path / "arm.toml").exists()
-    draft_experiment(bag, tmp_path / "arm.toml", force=True)
+@pytest.mark.parametrize("force", [False, True])
+def test_a_urdf_that_is_there_is_not_replaced(bag: Path, tmp_path: Path, *, force: bool) -> None:
+    """It may be that of the user, which the experiment file then names; `--force` replaces that file alone."""
+    mine = tmp_path / "arm.urdf"
+    corrected = re.sub('<mass value="[^"]*"', '<mass value="7.5"', robot_text(), count=1)
+    mine.write_text(corrected)
+    (tmp_path / "arm.toml").write_text("" if force else "mine")
+    if not force:
+        with pytest.raises(OutputError, match="arm.toml: expected a new file"):
+            draft_experiment(bag, tmp_path / "arm.toml")
+        (tmp_path / "arm.toml").unlink()
+    draft = draft_experiment(bag, tmp_path / "arm.toml", force=force)
+    assert mine.read_text() == corrected
+    assert draft.robot_file is None
+    assert tomllib.loads(draft.content)["robot"] == {"urdf": "arm.urdf"}
+    assert any(
+        note.startswith(f"{mine}: kept, for it differs from /robot_description of {bag}") for note in draft.notes
+    )
+    assert f"it differs from /robot_description of {bag}" in draft.content
+    assert any("which is taken: masses of " in note for note in draft.notes)
+
+
+def test_the_same_urdf_may_be_there_already(bag: Path, tmp_path: Path) -> None:
+    """A second draft beside it needs no other name."""
+    (tmp_path / "arm.urdf").write_text(robot_text())
+    draft = draft_experiment(bag, tmp_path / "arm.toml")
     assert (tmp_path / "arm.urdf").read_text() == robot_text()
+    assert not any("kept" in note for note in draft.notes)
+
+
+def test_without_a_file_to_write_the_robot_is_asked_for(bag: Path) -> None:
+    """Its question says how to have the URDF of the bag."""
     first = draft_experiment(bag).questions[0]
     assert first.key == "urdf"
     assert "-o FILE writes that of /robot_description" in first.question

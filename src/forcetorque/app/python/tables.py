@@ -15,11 +15,14 @@ from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.experiment.input_files import InMemory
 from forcetorque.experiment.loading import load_tables
+from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import QUANTITIES, Labels
 from forcetorque.robot.model import RobotModel
 
 _IN_MEMORY: Final = "arrays"
 """Stands in the tables for the path of a log, robot or prior matrix that is none."""
+_OF_SEVERAL_FORMS: Final = "orientation"
+"""Quantity whose number of columns depends on its form, such as quaternion or matrix."""
 
 
 def experiment_of_tables(tables: Mapping[str, Any], *, folder: Path | str = ".") -> Experiment:
@@ -41,12 +44,16 @@ def experiment_of_tables(tables: Mapping[str, Any], *, folder: Path | str = ".")
         MissingFileError: If a file that they name is not there.
         FormatError: If a key is unknown, missing or has a wrong value.
         UnitError: If a unit is not one of its quantity.
-        ExperimentError: If they contradict themselves, the robot or the recording, or an array holds no numbers.
+        ExperimentError: If they contradict themselves, the robot or the recording, an array holds no numbers, or the
+            robot has no joint of the name of a column.
     """
     content = {"schema": "forcetorque/experiment/1", "name": _IN_MEMORY, **tables}
     robot, priors, arrays = _robot(content), _priors(content), _arrays(content)
     in_memory = InMemory(robot=robot, priors=priors, arrays=arrays)
-    return Experiment.of(load_tables(_plain(content), in_memory, folder=Path(folder)))
+    experiment = load_tables(_plain(content), in_memory, folder=Path(folder))
+    if arrays is not None:
+        _require_joints(experiment.recording, experiment.model)
+    return Experiment.of(experiment)
 
 
 def stream_of_arrays(
@@ -76,20 +83,24 @@ def stream_of_arrays(
         The table, with arrays in it.
 
     Raises:
-        ExperimentError: If a quantity is unknown, or there is none.
-        ShapeError: If arrays have another number of rows than there are instants.
+        ExperimentError: If a quantity is unknown, there is none, or a unit is of a quantity that is not given.
+        ShapeError: If arrays have another number of rows than there are instants, or of columns than the quantity has.
     """
     place = f"stream {name!r}"
     if not quantities:
         raise ExperimentError(f"{place}: expected a quantity, such as raw=counts, got none")
     time = numbers(time_s, f"{place}: time_s")
     require_shape(time, name=f"{place}: time_s", shape=(None,))
+    for key in units or {}:
+        if key not in quantities:
+            raise ExperimentError(f"{place}: units: {key!r} is not given; {known_names(key, quantities)}")
     signals = []
     for key, given in quantities.items():
         if key not in QUANTITIES:
             raise ExperimentError(f"{place}: no quantity is called {key!r}; {known_names(key, QUANTITIES)}")
         values, names = _columns(given, f"{place}: {key}")
-        require_shape(values, name=f"{place}: {key}", shape=(len(time), None))
+        width = None if key == _OF_SEVERAL_FORMS else len(QUANTITIES[key].columns) or None
+        require_shape(values, name=f"{place}: {key}", shape=(len(time), width))
         signals.append(_signal(key, values, names, frame, (units or {}).get(key)))
     return {"name": name, "clock": clock, "variable": time, "time": {"unit": "s"}, "signal": signals}
 
@@ -125,6 +136,18 @@ def _signal(
     if quantity.has_frame and frame is not None:
         signal["frame"] = frame
     return signal
+
+
+def _require_joints(recording: Recording, model: RobotModel) -> None:
+    """Refuse columns by names of joints that the robot does not have."""
+    for stream in recording.streams.values():
+        for key, signal in stream.signals.items():
+            absent = [name for name in signal.columns if name not in model.joints]
+            if absent and QUANTITIES[key].labels is Labels.JOINTS:
+                raise ExperimentError(
+                    f"stream {stream.name!r}: {key}: expected names of joints of the robot {model.name!r}, got "
+                    f"{', '.join(absent)}; {known_names(absent[0], model.joints)}"
+                )
 
 
 def _robot(content: dict[str, Any]) -> RobotModel | None:

@@ -195,19 +195,19 @@ def draft_experiment(
     Args:
         logs: A log of any format, or several tables of one recording.
         output: File to write; None to write none.
-        urdf: The robot; None for that which the log itself describes, which is written beside the file, or for a wrist
-            sensor whose pose is logged.
+        urdf: The robot; None for that which the log itself describes, which is written beside the file unless another
+            one is there, or for a wrist sensor whose pose is logged.
         log_format: Name of the format; recognised from the files if None.
         column_names: Names of all columns, of tables whose first lines do not name them; none for those of the files.
         sensors: Names or streams of the sensors to draft; all if empty.
         matrices: Folder of the calibrations that the sensors came with; None for none.
-        force: Whether an existing file may be replaced.
+        force: Whether an existing experiment file may be replaced.
 
     Returns:
         The file, and its questions.
 
     Raises:
-        OutputError: If the file exists already, or a URDF that would be written beside it.
+        OutputError: If the file exists already, or what is in place of a URDF beside it is no file.
         ExperimentError: If no log is given.
         FormatError: If the log is of no known format.
     """
@@ -220,19 +220,24 @@ def draft_experiment(
     folder = Path() if file == STANDARD_OUTPUT else file.parent
     paths = [Path(path) for path in files]
     logged = logged_robot(paths, log_format if not column_names else None)
-    model = model_of(logged) if urdf is None else read_urdf(Path(urdf))
-    log = draft_log(paths, model, log_format, column_names)
     is_written = output is not None and file != STANDARD_OUTPUT
     robot_file = file.with_suffix(".urdf") if is_written and urdf is None and logged.urdf is not None else None
+    kept = robot_file if robot_file is not None and _differs(robot_file, logged.urdf) else None
+    if kept is not None:
+        urdf, robot_file = kept, None
+    model = model_of(logged) if urdf is None else read_urdf(Path(urdf))
+    log = draft_log(paths, model, log_format, column_names)
     if robot_file is not None:
-        refuse_output(robot_file, force=force)
+        refuse_output(robot_file, force=True)  # what is there is the same
     found = draft_sensors(log.streams, model)
     chosen = chosen_sensors(found, sensors)
     others = {sensor.stream for sensor in found} - {sensor.stream for sensor in chosen}
     framed = tuple(with_fixed_frame(sensor, log.streams, logged, model) for sensor in chosen)
     priors = () if matrices is None else matrix_files(Path(matrices))
-    robot = _robot_line(urdf, robot_file, logged, folder)
+    robot = _robot_line(urdf, robot_file, logged, folder, is_kept=kept is not None)
     text, notes, recording = _written(without_streams(log, others), framed, priors, folder, model, robot)
+    if kept is not None:
+        notes = (f"{kept}: kept, for it differs from {logged.source}; remove it to have that one written", *notes)
     notes = (*_about_robot(logged, None if urdf is None else Path(urdf), robot_file, model), *notes)
     if robot_file is not None and logged.urdf is not None:
         write_bytes_atomically(robot_file, logged.urdf.encode())
@@ -250,10 +255,17 @@ def draft_experiment(
     )
 
 
-def _robot_line(urdf: Path | str | None, robot_file: Path | None, logged: LoggedRobot, folder: Path) -> str | None:
+def _differs(file: Path, urdf: str | None) -> bool:
+    """Whether a file is there that does not hold this URDF: the user may have corrected it."""
+    return urdf is not None and file.is_file() and file.read_bytes() != urdf.encode()
+
+
+def _robot_line(
+    urdf: Path | str | None, robot_file: Path | None, logged: LoggedRobot, folder: Path, *, is_kept: bool
+) -> str | None:
     """The key of the robot; a question where the log's own description is not written."""
     if urdf is not None:
-        return line("urdf", relative(Path(urdf), folder))
+        return line("urdf", relative(Path(urdf), folder), f"it differs from {logged.source}" if is_kept else "")
     if robot_file is not None:
         return line("urdf", relative(robot_file, folder), f"written from {logged.source}")
     if logged.urdf is None:

@@ -157,6 +157,8 @@ class OutlierRow(Row):
 
     row: Annotated[str, Shown("row")]
     """Where it is from."""
+    session: str
+    """Name of its session."""
     weight: Annotated[float, Shown("weight", digits=3)]
     """What it counts, from 0 to 1."""
     residual: Annotated[WrenchValues, ShownWrench(digits=3)]

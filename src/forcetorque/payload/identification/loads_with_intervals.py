@@ -212,6 +212,11 @@ def _variable(fitted: Fit, number: int, half: FloatArray) -> VariableRow:
 
 def _disagreeing(fitted: Fit) -> tuple[OutlierRow, ...]:
     return tuple(
-        OutlierRow(row=fitted.problem.rows.names[k], weight=float(fitted.weight[k]), residual=fitted.residual[k])
+        OutlierRow(
+            row=fitted.problem.rows.names[k],
+            session=fitted.problem.sessions[fitted.problem.rows.session[k]],
+            weight=float(fitted.weight[k]),
+            residual=fitted.residual[k],
+        )
         for k in np.flatnonzero(fitted.weight < _NAMED)
     )
