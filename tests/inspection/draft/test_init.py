@@ -231,7 +231,7 @@ def test_a_push_that_is_steady_in_the_axes_of_the_sensor_is_in_no_interval(
     total, of_push = shared_s()
     assert total > 40.0
     assert of_push == 0.0
-    monkeypatch.setattr("forcetorque.inspection.draft.draft.contact_spans", lambda *_: [])
+    monkeypatch.setattr("forcetorque.inspection.draft.draft.contact_spans", lambda *_, **__: [])
     assert shared_s()[1] > 4.0
 
 
