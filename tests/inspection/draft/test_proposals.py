@@ -199,6 +199,15 @@ def test_proposals_are_settled_one_by_one(tmp_path: Path, monkeypatch: pytest.Mo
     assert file.read_text(encoding="utf-8") == "a = 2  # one\nb = 1\n"
 
 
+@pytest.mark.parametrize(
+    "options", [("-o", "x.toml"), ("--column-names", "t,fx"), ("--force",), ("--log-format", "ros"), ("--sensor", "a")]
+)
+def test_options_of_a_log_are_refused_beside_a_file(options: tuple[str, ...], arm: Path, run: Run) -> None:
+    """Each by its name; the file is not read."""
+    error = run("init", "--resume", arm / PARQUET, "--no-input", *options).error()
+    assert f"expected nothing of a log beside it, got {'--output' if options[0] == '-o' else options[0]}" in error
+
+
 def test_a_file_with_open_questions_lists_these(arm: Path, run: Run) -> None:
     """And no proposal, since nothing can be read; a log beside the file is refused."""
     file = arm / "open.toml"
