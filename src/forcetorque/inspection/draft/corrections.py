@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass
@@ -13,7 +12,6 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.comparison import Comparison
 from forcetorque.inspection.draft.edited_file import tables_of
@@ -69,11 +67,12 @@ class Correction:
             table[self.key] = value
         return changed
 
-    def edit(self, text: str) -> Edit | None:
+    def edit(self, text: str, content: Mapping[str, Any]) -> Edit | None:
         """Make the change of the text of a file.
 
         Args:
             text: Content of the file.
+            content: Its tables.
 
         Returns:
             The change; None where the text has the key in a form that is not changed.
@@ -82,8 +81,7 @@ class Correction:
             edit = key_edit(text, self.table, self.index or 0, self.key, self.value)
         else:
             edit = table_edit(text, self.table, self.value, before="sensor")
-        content = self.content(tomllib.loads(text), self.value)
-        return edit if edit is not None and edit.results_in(content, text) else None
+        return edit if edit is not None and edit.results_in(self.content(content, self.value), text) else None
 
     @property
     def by_hand(self) -> str:
@@ -156,8 +154,11 @@ def _of_mount(run: SensorRun, index: int, turn: FloatArray) -> Correction:
     angle = np.rad2deg(np.linalg.norm(rotation_vector(turn @ quarter.T))) if _is_rotation(quarter) else np.inf
     is_quarter = bool(angle <= _QUARTER_TURNS_DEG) and not np.array_equal(quarter, np.eye(3))
     vector = rotation_vector(rotation @ (quarter if is_quarter else turn).T)
-    rotation_deg = np.rad2deg(vector).round(2).astype(np.float64)
-    tried = tomllib.loads(SensorMount(rotation_deg=rotation_deg, shift_mm=shift).table)["mount"]
+    rotation_deg = np.rad2deg(vector)
+    tried = {
+        key: [round(float(value), 2) + 0.0 for value in values]
+        for key, values in (("rotation_deg", rotation_deg), ("shift_mm", shift))
+    }
     is_stated = is_quarter or run.sensor.prior is None  # without a prior matrix calibrate estimates no mount
     words, by = rotation_words(rotation_vector(turn.T)), "" if is_stated else ", which calibrate estimates"
     return Correction(

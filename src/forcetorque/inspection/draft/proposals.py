@@ -277,7 +277,7 @@ def _tried(
             improved = Improvement.between(before, after)
         elif before is not None and (after is None or after.is_worse_than(before)):
             worse.append(_worsening(one.run.sensor.name, before, after))
-    edit = None if correction is None or improved is None else correction.edit(text)
+    edit = None if correction is None or improved is None else correction.edit(text, content)
     if correction is None or improved is None:
         step = remedy(comparison, fault)
     else:
