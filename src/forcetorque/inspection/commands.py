@@ -25,8 +25,11 @@ def init(
         typer.Option("--urdf", help="The robot. Default: the log's own description; without, a wrist sensor."),
     ] = None,
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Experiment file to write; - for standard output.")
-    ] = Path("experiment.toml"),
+        Path | None,
+        typer.Option(
+            "--output", "-o", help="Experiment file to write; - for standard output. Default: experiment.toml."
+        ),
+    ] = None,
     log_format: Annotated[
         str | None,
         typer.Option(help="Format of the log, such as ros or hdf5, as in [recording]. Default: by what is there."),
@@ -62,13 +65,22 @@ def init(
     Python: `inspection.draft_experiment("log.csv", urdf="robot.urdf")`, `inspection.resume_experiment("x.toml")`
     """
     if resume is not None:
-        of_log = {"a log": log, "--urdf": urdf, "--log-format": log_format, "--sensor": sensor, "--matrices": matrices}
+        of_log = {
+            "a log": log,
+            "--urdf": urdf,
+            "--output": output,
+            "--log-format": log_format,
+            "--column-names": column_names,
+            "--sensor": sensor,
+            "--matrices": matrices,
+            "--force": force,
+        }
         _refuse_beside(resume, [name for name, value in of_log.items() if value])
         _resume(resume, output_format, no_input=no_input, details=details)
         return
     from forcetorque.inspection.draft.draft import draft_experiment
 
-    log = _required(log)
+    log, output = _required(log), output or Path("experiment.toml")
     start_logging().info("reading %s", ", ".join(map(str, log)))
     refuse_two_on_standard_output(output, output_format)
     declare_outputs(output, force=force)

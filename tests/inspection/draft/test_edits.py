@@ -48,6 +48,12 @@ def test_a_value_keeps_its_comment_and_a_list_its_place() -> None:
     assert "full_scale = [3, 4]\n\n# of the second\n[[sensor]]" in scale
 
 
+def test_comments_around_a_list_of_several_lines_stay() -> None:
+    """Those of the first and last line; a separator in a comment is no end of a line."""
+    text = "[a]\nb = [  # of\n  1,\n]  # it\u2028all\nc = 2\n"
+    assert _changed(key_edit(text, "a", 0, "b", [3]), text) == "[a]\nb = [3]  # of  # it\u2028all\nc = 2\n"
+
+
 def test_a_new_key_is_the_last_of_its_table() -> None:
     """Before the comment on the next table; behind a key that is named."""
     assert 'name = "two"\nserial = "S"\n\n[[interval]]' in _changed(key_edit(TEXT, "sensor", 1, "serial", "S"))

@@ -10,12 +10,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.base.wrench import MeasureDirection
 from forcetorque.inspection.draft.edits import Edit
 from forcetorque.inspection.draft.proposals import Proposal, proposals, settle
 from forcetorque.inspection.draft.resume import resume_experiment
 from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.robot.urdf import read_urdf
+from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.trace import simulate_recording
 from tests.app.outcome import Run
-from tests.scenes.experiments import MOUNTED, PARQUET, TEXTS, TWO, write_experiments
+from tests.scenes.experiments import JOINTS, MOUNTED, OFFSET, PARQUET, TEXTS, TWO, write_experiments
 
 DOWN = "gravity_direction = [0.0, 0.0, -1.0]"
 ONE_INTERVAL = '[[interval]]\nlabel = "all"  # not cut yet\nstart_s = 0.0\nuse = "calibration"\nsupport = "base"\n'
@@ -27,6 +31,29 @@ def arm(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder with the experiment of the small arm."""
     folder = tmp_path_factory.mktemp("arm")
     write_experiments(folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def held(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder with the experiment of the small arm, so slow that weight is all that its sensors feel."""
+    folder = tmp_path_factory.mktemp("held")
+    write_experiments(folder)
+    sensor = SimulatedSensor(matrix=MOUNTED, offset=OFFSET, noise_counts=4.0)
+    recording = simulate_recording(
+        read_urdf(folder / "arm.urdf").with_sensor(
+            "tool_ft", joint="tool_joint", direction=MeasureDirection.PARENT_TO_CHILD
+        ),
+        {"arm_ft": sensor, "tool_ft": sensor},
+        support="base",
+        gravity_direction=[0.0, 0.0, -1.0],
+        ranges=dict.fromkeys(JOINTS, (-2.2, 2.2)),
+        duration_s=400.0,
+        rate_hz=3.0,
+        slowest_hz=0.007,
+        seed=11,
+    )
+    write_recording(folder / "recording", recording)
     return folder
 
 
@@ -74,6 +101,15 @@ def test_a_right_file_gets_no_proposal(arm: Path) -> None:
         ),
         pytest.param(
             TEXTS[PARQUET].replace(
+                "\n\n[[support]]",
+                "\nmount = { rotation_deg = [0, 0, 90], shift_mm = [1, 2, 3] }  # of the drawing\n\n[[support]]",
+            ),
+            "mount",
+            "mount",
+            marks=pytest.mark.long,
+        ),
+        pytest.param(
+            TEXTS[PARQUET].replace(
                 "[[sensor]]", '[[clock]]\nstream = "arm_ft"\nto = "joints"\ndelay_s = 0.15\n\n[[sensor]]'
             ),
             "delay",
@@ -102,8 +138,11 @@ def test_a_wrong_statement_is_corrected_in_its_line(arm: Path, planted: str, kin
     value = tomllib.loads(new)[key]
     if kind == "reversed":
         assert value == "parent_to_child"
+    elif kind == "mount" and "30" in old:  # an angle that no screw pattern has
+        assert value == "unknown"
+        assert "turned by -37.6 deg about (0.81, 0.27, 0.53) against its stated mount" in proposal.sentence
     elif kind == "mount":
-        np.testing.assert_allclose(value["rotation_deg"], np.zeros(3), atol=0.5)
+        assert value == {"rotation_deg": [0.0, 0.0, 0.0], "shift_mm": [1.0, 2.0, 3.0]}
     else:
         np.testing.assert_allclose(value, 0.0 if kind == "delay" else [0.0, 0.0, -1.0], atol=0.01)
 
@@ -137,6 +176,42 @@ def test_what_the_file_does_not_state_is_changed_elsewhere(arm: Path) -> None:
     assert "<axis> of joint 'elbow' in the URDF" in proposal.sentence
 
 
+LONG_SPANS = (
+    ("start_s = 0.5\nend_s = 14.0", "start_s = 5.0\nend_s = 250.0"),
+    ("start_s = 14.5\nend_s = 23.5", "start_s = 251.0\nend_s = 395.0"),
+)
+ARM_SENSOR = TEXTS[TWO][TEXTS[TWO].index("[[sensor]]") : TEXTS[TWO].index("[[support]]")]
+
+
+def _reversed_in_poses() -> str:
+    """Both sensors, with the wrong sense of that of the tool."""
+    text = TEXTS[TWO].replace("parent_to_child", "child_to_parent")
+    for old, new in LONG_SPANS:
+        text = text.replace(old, new)
+    return text
+
+
+def test_faults_that_poses_do_not_separate_are_left_to_a_person(held: Path) -> None:
+    """A wrong sense looks like gravity upwards: both are named, and neither can be accepted."""
+    _, (proposal,) = _proposed(held, _reversed_in_poses().replace(ARM_SENSOR, ""))
+    assert proposal.edit is None
+    for words in (
+        'measure_direction = "child_to_parent" -> measure_direction = "parent_to_child"',
+        f"{DOWN} -> gravity_direction = [0.0, 0.0, 1.0]",
+        "the log does not separate these",
+    ):
+        assert words in proposal.sentence
+
+
+@pytest.mark.long
+def test_a_change_that_makes_another_sensor_worse_is_not_offered(held: Path) -> None:
+    """Gravity that the other sensor needs as it is: the sense is what is wrong."""
+    _, (proposal,) = _proposed(held, _reversed_in_poses())
+    assert (proposal.kind, proposal.about) == ("reversed", "tool_ft")
+    assert proposal.edit is not None
+    assert "measure_direction" in proposal.edit.text
+
+
 def _require_cut(text: str, before: str) -> None:
     """Intervals without the push, of both uses; what stands before them stays."""
     assert text.startswith(before[: before.index("[[interval]]")])
@@ -155,6 +230,20 @@ def test_a_push_is_cut_out_of_the_interval(pushed: Path) -> None:
     assert (proposal.residuals.after < 0.1 * proposal.residuals.before).all()
     before = file.read_text(encoding="utf-8")
     _require_cut(proposal.edit.applied(before), before)
+
+
+def test_intervals_in_one_line_are_changed_by_hand(pushed: Path) -> None:
+    """The times are named, and no line of the file."""
+    text = (pushed / "all.toml").read_text(encoding="utf-8")
+    interval = '{ label = "all", start_s = 0.0, use = "calibration", support = "base" }'
+    head, cut = text[: text.index("[[sensor]]")], text[text.index("[[sensor]]") : text.index("[[interval]]")]
+    file = pushed / "inline.toml"
+    file.write_text(f"interval = [{interval}]\n{head}{cut}", encoding="utf-8")
+    draft = resume_experiment(file)
+    (row,) = draft.proposals
+    assert row.line is None
+    assert "s validation; write label, start_s, end_s and use of each in interval by hand" in row.proposal
+    assert not any("nothing is left to ask" in block for block in draft.blocks() if isinstance(block, str))
 
 
 @pytest.mark.long
@@ -197,6 +286,44 @@ def test_proposals_are_settled_one_by_one(tmp_path: Path, monkeypatch: pytest.Mo
     assert [one.kind for one in settle(file, accepts)] == ["mass", "b"]
     assert asked == ["a is 2: line 1: a = 1 -> a = 2", "b is 2: line 2: b = 1 -> b = 2"]
     assert file.read_text(encoding="utf-8") == "a = 2  # one\nb = 1\n"
+
+
+def test_a_file_that_changed_beside_a_proposal_keeps_the_change(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nothing is written by lines that have moved; the proposal is made again."""
+    file = tmp_path / "x.toml"
+    file.write_text("a = 1\nb = 1\n", encoding="utf-8")
+
+    def stub(path: Path, _: set[tuple[str, str]]) -> tuple[Proposal, ...]:
+        lines = path.read_text(encoding="utf-8").splitlines()
+        if "a = 1" not in lines:
+            return ()
+        edit = Edit(line=lines.index("a = 1") + 1, old=("a = 1",), new=("a = 2",))
+        return (Proposal(kind="a", about="", text="a is 2", edit=edit),)
+
+    monkeypatch.setattr("forcetorque.inspection.draft.proposals.proposals", stub)
+    asked: list[str] = []
+
+    def accepts(proposal: str) -> bool:
+        if not asked:
+            file.write_text("# note\na = 1\nb = 1\n", encoding="utf-8")
+        asked.append(proposal)
+        return True
+
+    assert settle(file, accepts) == ()
+    assert asked[0] == "a is 2: line 1: a = 1 -> a = 2"
+    assert asked[1] == f"{file}: was changed meanwhile, nothing was written\na is 2: line 2: a = 1 -> a = 2"
+    assert file.read_text(encoding="utf-8") == "# note\na = 2\nb = 1\n"
+
+
+@pytest.mark.parametrize(
+    "options", [("-o", "x.toml"), ("--column-names", "t,fx"), ("--force",), ("--log-format", "ros"), ("--sensor", "a")]
+)
+def test_options_of_a_log_are_refused_beside_a_file(options: tuple[str, ...], arm: Path, run: Run) -> None:
+    """Each by its name; the file is not read."""
+    error = run("init", "--resume", arm / PARQUET, "--no-input", *options).error()
+    assert f"expected nothing of a log beside it, got {'--output' if options[0] == '-o' else options[0]}" in error
 
 
 def test_a_file_with_open_questions_lists_these(arm: Path, run: Run) -> None:

@@ -138,6 +138,7 @@ class Draft(Result):
         yield from self.notes
         if self.proposals:
             yield table_of(self.proposals, f"{self.file}: proposals")
+            return
         if not self.questions:
             yield f"{self.file}: nothing is left to ask; read it, then `forcetorque {self._next} {self.file}`"
             return

@@ -46,9 +46,24 @@ class Edit:
         Returns:
             The content with the change.
         """
-        lines = text.splitlines()
+        lines = _lines(text)
         lines[self.line - 1 : self.line - 1 + len(self.old)] = self.new
         return "\n".join(lines) + "\n"
+
+    def results_in(self, content: Mapping[str, Any], text: str) -> bool:
+        """Check the effect on a file, whose keys may be written in a form that the change does not expect.
+
+        Args:
+            content: Tables that it has to have then.
+            text: Its content before.
+
+        Returns:
+            Whether it has these, and no others.
+        """
+        try:
+            return tomllib.loads(self.applied(text)) == content
+        except tomllib.TOMLDecodeError:
+            return False
 
 
 def key_edit(text: str, table: str, index: int, key: str, value: Any, *, behind: str = "") -> Edit | None:
@@ -63,15 +78,16 @@ def key_edit(text: str, table: str, index: int, key: str, value: Any, *, behind:
         behind: Key behind which it is put if it is not there; the end of the table if empty.
 
     Returns:
-        The change; the comment of a key that is there stays. None where the table is not written with a header.
+        The change; comments of the first and last line of a key that is there stay. None where the table is not
+        written with a header.
     """
-    lines = text.splitlines()
+    lines = _lines(text)
     extents = table_extents(lines, table)
     if index >= len(extents):
         return None
     first, after = extents[index]
     for place, end in _keys(lines, first + 1, after, key):
-        comment = _comment(lines[place]) if end == place + 1 else ""
+        comment = "".join(_comment(lines[at]) for at in dict.fromkeys((place, end - 1)))
         new = f"{key} = {toml_value(value)}{comment}"
         return Edit(line=place + 1, old=tuple(lines[place:end]), new=(new,))
     places = [end - 1 for _, end in _keys(lines, first + 1, after, behind)] if behind else []
@@ -91,7 +107,7 @@ def table_edit(text: str, table: str, content: Mapping[str, Any], *, before: str
     Returns:
         The change; None where the other table is not written with a header.
     """
-    lines = text.splitlines()
+    lines = _lines(text)
     extents = table_extents(lines, before)
     if not extents:
         return None
@@ -112,7 +128,7 @@ def interval_edit(text: str, pieces: Sequence[Sequence[Mapping[str, Any]]]) -> E
     Returns:
         The change, from the first interval on; None where intervals are not written as `[[interval]]`.
     """
-    lines = text.splitlines()
+    lines = _lines(text)
     extents = table_extents(lines, "interval")
     if not extents or len(extents) != len(pieces):
         return None
@@ -128,7 +144,7 @@ def interval_edit(text: str, pieces: Sequence[Sequence[Mapping[str, Any]]]) -> E
                 edit = key_edit(copy, "interval", 0, key, value, behind="start_s")
                 copy = copy if edit is None else edit.applied(copy)
             copies.append(copy)
-        new[start - first : end - first] = "\n".join(copies).splitlines()
+        new[start - first : end - first] = _lines("\n".join(copies))
     return Edit(line=first + 1, old=tuple(lines[first : last + 1]), new=tuple(new))
 
 
@@ -146,6 +162,11 @@ def table_extents(lines: Sequence[str], table: str) -> list[tuple[int, int]]:
     headers = [(k, name) for k, name in headers if _is_header(lines, k)]
     ends = [*(k for k, _ in headers[1:]), len(lines)][: len(headers)]
     return [(k, end) for (k, name), end in zip(headers, ends, strict=True) if name == table]
+
+
+def _lines(text: str) -> list[str]:
+    """Lines as TOML has them: other separators of Unicode are characters of a comment or a text."""
+    return text.removesuffix("\n").split("\n")
 
 
 def _is_header(lines: Sequence[str], place: int) -> bool:

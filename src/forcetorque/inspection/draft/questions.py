@@ -7,21 +7,24 @@ import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
-from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.run_files import files_of_one_run
 from forcetorque.base.toml_file import (
     OPEN,
     UnansweredKey,
-    parsed_toml,
     toml_content,
     unanswered_keys,
     with_answer,
 )
+from forcetorque.inspection.draft.edited_file import tables_of, text_of, write_text_of
 from forcetorque.inspection.draft.priors import serial_of
 from forcetorque.inspection.draft.toml_lines import toml_value
 
 OPEN_QUESTIONS = 4
 """Exit code of commands that end with questions, or proposals, that only a person can answer."""
+
+
+_ATTEMPTS = 3
+"""How often in a row a question is asked again, after an answer that cannot be written."""
 
 
 def open_questions(file: Path) -> tuple[UnansweredKey, ...]:
@@ -37,8 +40,7 @@ def open_questions(file: Path) -> tuple[UnansweredKey, ...]:
         MissingFileError: If there is no such file.
         FormatError: If it is not TOML.
     """
-    with files_of_one_run():  # the answers are written to the file
-        return unanswered_keys(parsed_toml(file, what="an experiment file")[0])
+    return unanswered_keys(text_of(file))
 
 
 def logs_of(file: Path) -> set[Path]:
@@ -59,43 +61,68 @@ def logs_of(file: Path) -> set[Path]:
 def answer_questions(file: Path, ask: Callable[[str], str]) -> bool:
     """Ask for every key that is still to be filled in, and write each answer to the file at once.
 
+    An answer that leaves no TOML, or that comes after another program changed the file, is not written; the question is
+    asked again with the reason in front, three times at most.
+
     Args:
         file: Experiment file.
         ask: Shows a question and gives the answer; an empty one leaves the question open.
 
     Returns:
         Whether all are answered.
+
+    Raises:
+        FormatError: If the file is not TOML.
     """
     skipped: set[tuple[int, str]] = set()
-    while True:
-        text = file.read_text(encoding="utf-8-sig")
+    refusals: list[str] = []
+    while len(refusals) < _ATTEMPTS:
+        text = text_of(file)
         keys = [key for key in unanswered_keys(text) if (key.line, key.key) not in skipped]
         if not keys:
             return not skipped
         key = keys[0]
-        answer = ask(f"line {key.line}, {key.key}: {key.words}").strip()
-        if answer:
-            write_bytes_atomically(file, with_serials(with_answer(text, key, answer), file.parent).encode())
-        else:
+        question = f"line {key.line}, {key.key}: {key.words}"
+        answer = ask("\n".join([*refusals[-1:], question])).strip()
+        if not answer:
             skipped.add((key.line, key.key))
+            refusals = []
+        elif text_of(file) != text:
+            refusals.append(f"{file}: was changed meanwhile; the answer was not written")
+        elif (error := _error_of(answered := with_answer(text, key, answer))) is not None:
+            refusals.append(
+                f"{file}:{key.line}: {key.key}: expected a value without a comment, got {answer}, which leaves no "
+                f"TOML ({error}); give the value alone"
+            )
+        else:
+            write_text_of(file, with_serials(answered, file.parent))
+            refusals = []
+    return False
+
+
+def _error_of(text: str) -> str | None:
+    try:
+        tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        return str(error)
+    return None
 
 
 def with_serials(text: str, folder: Path) -> str:
     """Fill in serial numbers that follow from the matrix files that the sensors are given.
 
     Args:
-        text: Content of an experiment file.
+        text: Content of an experiment file; TOML.
         folder: Its folder, from which paths count.
 
     Returns:
         The content with them.
     """
-    content = tomllib.loads(text)
-    tables = [key for key in unanswered_keys(text) if key.key == "serial"]
-    open_sensors = [one for one in content.get("sensor", ()) if one.get("serial") == OPEN]
-    if len(tables) != len(open_sensors):
+    keys = [key for key in unanswered_keys(text) if key.key == "serial"]
+    open_sensors = [one for one in tables_of(tomllib.loads(text), "sensor") if one.get("serial") == OPEN]
+    if len(keys) != len(open_sensors):
         return text
-    for key, sensor in zip(tables, open_sensors, strict=True):
+    for key, sensor in zip(keys, open_sensors, strict=True):
         prior = sensor.get("prior")
         path = folder / str(prior.get("path") if isinstance(prior, dict) else prior)
         serial = serial_of(path) if path.is_file() else None
