@@ -77,10 +77,10 @@ def test_the_right_direction_of_gravity_is_proposed(clean: Experiment) -> None:
 
 @pytest.mark.parametrize("angle_deg", [17.2, -25.0])
 def test_a_turned_mount_is_named_with_angle_and_axis(clean: Experiment, angle_deg: float) -> None:
-    """The angle is within its interval and a degree for errors of the robot."""
-    turn = rotation_about_z(np.array(np.deg2rad(angle_deg)))
+    """The angle of the sensor, as of `mount`, is within its interval and a degree for errors of the robot."""
+    link_R_sensor = rotation_about_z(np.array(np.deg2rad(angle_deg)))
     values = clean.recording.stream(LIMB).signal("wrench").values
-    turned = np.hstack([values[:, :3] @ turn.T, values[:, 3:] @ turn.T])
+    turned = np.hstack([values[:, :3] @ link_R_sensor, values[:, 3:] @ link_R_sensor])  # components along its axes
     comparison, diagnosis = _diagnosed(_with_wrench(clean, turned))
     assert diagnosis.faults[0].kind == "mount"
     finding = fault_finding(comparison, diagnosis)

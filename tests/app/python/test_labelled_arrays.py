@@ -86,8 +86,8 @@ def test_estimates_are_labelled(experiment: Experiment) -> None:
 def test_without_xarray_the_extra_is_named(experiment: Experiment, monkeypatch: pytest.MonkeyPatch) -> None:
     """With the line that installs it, before a data set is made; so of pandas."""
     monkeypatch.setitem(sys.modules, "xarray", None)
-    with pytest.raises(MissingExtraError, match=r"^to_xarray needs xarray: pip install forcetorque\[frames\]$"):
+    with pytest.raises(MissingExtraError, match=r"^to_xarray needs xarray: pip install 'forcetorque\[frames\]'$"):
         experiment.recording.stream("arm_ft").to_xarray()
     monkeypatch.setitem(sys.modules, "pandas", None)
-    with pytest.raises(MissingExtraError, match=r"^to_pandas needs pandas: pip install forcetorque\[frames\]$"):
+    with pytest.raises(MissingExtraError, match=r"^to_pandas needs pandas: pip install 'forcetorque\[frames\]'$"):
         experiment.inspect().to_pandas()

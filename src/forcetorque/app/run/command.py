@@ -128,8 +128,8 @@ def _unanswered(file: Path, *, no_input: bool) -> WholeRun | None:
     if listed:
         text = f"{len(listed)} question(s) are open, the first: {listed[0]}"
         remedy = f'put the answers in place of "?" in {file}, and run it: forcetorque run {file}'
-    elif draft.proposals and not asks:
-        listed = tuple(one.proposal for one in draft.proposals)
+    elif blocking := [one for one in draft.proposals if one.line is None or not asks]:
+        listed = tuple(one.proposal for one in blocking)
         text = f"{len(listed)} proposal(s) are open, the first: {listed[0]}"
         remedy = f"accept them by forcetorque init --resume {file}, or decline them all: forcetorque run {file}"
     else:

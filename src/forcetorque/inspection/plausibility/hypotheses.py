@@ -235,7 +235,7 @@ def _mount(evidence: Evidence, expected: FloatArray) -> Explanation:
         rotation = _rotation(np.clip(fit.step, -0.3, 0.3)) @ rotation
     turn = np.kron(np.eye(2), rotation)
     fit = evidence.fit(expected, turn, columns)
-    vector = _rotation_vector(rotation)
+    vector = -_rotation_vector(rotation)  # components of a wrench turn against the axes of the sensor
     angle = float(np.linalg.norm(vector))
     axis = vector / angle if angle > 0.0 else np.array([0.0, 0.0, 1.0])
     if axis[np.argmax(np.abs(axis))] < 0.0:  # 10 deg about -z are -10 deg about z
