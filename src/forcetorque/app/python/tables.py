@@ -131,6 +131,8 @@ def _signal(
         raise ExperimentError(
             f"{key}: expected the columns {', '.join(quantity.columns)} in this order, got {', '.join(names)}"
         )
+    if names is None and key == "raw":
+        names = [f"ch{k}" for k in range(count)]  # as messages call channels
     if names is not None and not fixed:
         signal["names"] = names
     if quantity.has_frame and frame is not None:
