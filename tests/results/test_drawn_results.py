@@ -69,7 +69,7 @@ def test_the_file_of_the_figure_is_named() -> None:
 def test_without_matplotlib_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     """In one line, with the command to install it."""
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(MissingExtraError, match=r"pip install forcetorque\[report\]"):
+    with pytest.raises(MissingExtraError, match=r"pip install 'forcetorque\[report\]'"):
         Toy(values=(1.0,)).figure()
 
 

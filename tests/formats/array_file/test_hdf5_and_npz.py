@@ -162,5 +162,5 @@ def test_without_h5py_the_error_says_what_to_install(tmp_path: Path, monkeypatch
     monkeypatch.setitem(sys.modules, "h5py", None)
     known = recognised_format(path)
     assert isinstance(known, Hdf5Format)
-    with pytest.raises(MissingExtraError, match=r"HDF5 is read by h5py: pip install forcetorque\[hdf5\]"):
+    with pytest.raises(MissingExtraError, match=r"HDF5 is read by h5py: pip install 'forcetorque\[hdf5\]'"):
         known.describe(path)

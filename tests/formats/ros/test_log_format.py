@@ -234,5 +234,5 @@ def test_without_rosbags_the_error_says_what_to_install(written: Path, monkeypat
     """The bag is recognised all the same."""
     monkeypatch.setitem(sys.modules, "rosbags.rosbag1", None)
     assert isinstance(recognised_format(written), RosFormat)
-    with pytest.raises(MissingExtraError, match=r"bags are read by rosbags: pip install forcetorque\[ros\]"):
+    with pytest.raises(MissingExtraError, match=r"bags are read by rosbags: pip install 'forcetorque\[ros\]'"):
         RosFormat().describe(written)

@@ -92,7 +92,7 @@ def test_without_matplotlib_the_error_says_what_to_install(name: str, monkeypatc
     """One line with the command."""
     for module in ("matplotlib", "matplotlib.figure", "matplotlib.backends.backend_agg"):
         monkeypatch.setitem(sys.modules, module, None)
-    with pytest.raises(MissingExtraError, match=r"pip install forcetorque\[report\]$"):
+    with pytest.raises(MissingExtraError, match=r"pip install 'forcetorque\[report\]'$"):
         FIGURES[name](np.random.default_rng(1))
 
 

@@ -277,7 +277,7 @@ def test_without_icub_models_the_next_robot_is_taken(monkeypatch: pytest.MonkeyP
     """The fall-back of the bundled scenario; without one the extra is named."""
     monkeypatch.setitem(sys.modules, "icub_models", None)
     assert named_robot(["iCubGazeboV2_7", "biped"]) == BIPED_URDF
-    with pytest.raises(MissingExtraError, match=r"pip install forcetorque\[icub\]"):
+    with pytest.raises(MissingExtraError, match=r"pip install 'forcetorque\[icub\]'"):
         named_robot(["iCubGazeboV2_7"])
 
 
