@@ -21,6 +21,7 @@ from forcetorque.inspection.draft.intervals import MOST_SPANS
 from forcetorque.inspection.findings import over_the_whole_log
 from forcetorque.inspection.model_errors import ModelErrors
 from forcetorque.inspection.residual_findings import LOAD_SHARE, UNEXPLAINED, model_findings
+from forcetorque.recording.stream_faults import true_runs
 
 _BLOCK_S = 0.5
 """Length of the medians whose levels are compared."""
@@ -94,7 +95,7 @@ def _disturbed(run: SensorRun) -> list[tuple[int, int]]:
         measured = part.readings.wrench(correction)
         block = (stamps - stamps[0]) // round(_BLOCK_S * 1e9)
         at_level = _at_one_level(block, measured - expected, expected)
-        spans += _runs(stamps, ~at_level)
+        spans += [(int(stamps[first]), int(stamps[last])) for first, last in true_runs(~at_level)]
         findings = model_findings(run.sensor.stream, stamps, measured, expected, in_use=at_level)
         spans += [
             (one.start_ns, one.end_ns)
@@ -124,16 +125,10 @@ def _at_one_level(block: IntArray, residual: FloatArray, expected: FloatArray) -
         if moved > most:
             best, most = chosen, moved
     at = block[starts] - float(block[starts].mean())
-    for _ in range(
-        _ROUNDS
-    ):  # errors of the matrix and of the robot follow the load, and a drift the time; a contact none
+    # errors of the matrix and of the robot follow the load, and a drift the time; a contact follows none of them
+    for _ in range(_ROUNDS):
         if np.count_nonzero(best) >= _FEWEST_BLOCKS:
             beside = ModelErrors(residual=levels, expected=loads, usable=best).beside_load()
             slope, level = np.polyfit(at[best], beside[best], 1)
             best = near(beside, np.outer(at, slope) + level)
     return np.repeat(best, [len(part) for part in parts])
-
-
-def _runs(stamps: IntArray, marked: BoolArray) -> list[tuple[int, int]]:
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]]).astype(np.int8)))
-    return [(int(stamps[first]), int(stamps[last - 1])) for first, last in edges.reshape(-1, 2)]

@@ -83,7 +83,7 @@ def proposals(file: Path, settled: Collection[tuple[str, str]] = ()) -> tuple[Pr
     Raises:
         ForceTorqueError: If the file, or what it points to, cannot be read.
     """
-    text = file.read_text(encoding="utf-8-sig")
+    text = text_of(file)
     experiment = load_experiment(file)
     runs = [SensorRun(experiment, sensor) for sensor in experiment.sensors]
     runs = [run for run in runs if run.sensor.quantity == "wrench" or run.sensor.prior is not None]
