@@ -32,7 +32,7 @@ from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import contradicted_statements
 from forcetorque.recording.recording import Use
 from forcetorque.report.report import report
-from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import Result, created_now
 from forcetorque.workbench.calibrate import workbench
 from forcetorque.workbench.recording import read_bench
@@ -45,8 +45,6 @@ TABLE = "calibrations.csv"
 """Name of the file with the matrices of all sensors."""
 _PAGE, _NUMBERS = "report.html", "report.numbers.json"
 _OVERRIDE = 'correct it, or go on with --override "reason"'
-_EXPORT = "forcetorque export --to icub-matrix"
-"""Command that writes the matrix file of a sensor of an iCub."""
 _CHANNELS = 6
 """Channels of a sensor whose matrix the icub-matrix file holds."""
 
@@ -455,9 +453,8 @@ def _export(way: _Way, saved: SensorCalibrations) -> None:
         if _is_of_icub(calibration):
             matrix = way.output / _matrix_file(calibration.sensor.serial)
             if not _may_be_used(way, calibration.sensor.name):
-                refused.append(
-                    f"{matrix} is not written, since the calibration may not be used yet: {_EXPORT} {file} writes it"
-                )
+                command = typed("export", file, "--to", "icub-matrix", "-o", str(matrix))
+                refused.append(f"{matrix} is not written, for it may not be used yet: forcetorque {command} writes it")
                 continue
             try:
                 export_icub_matrix(file, calibration, matrix, force=way.force)
