@@ -6,14 +6,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
+from forcetorque.evaluation.answers import CONCERN
 from forcetorque.evaluation.load_cases.verdict import TONES, Decision, LoadCaseError, UseVerdict
 from forcetorque.report.decision import NextSteps, Undecided
 from forcetorque.results.document.content import Place, Section, Tone, Verdict
 from forcetorque.results.number_text import amount
 from forcetorque.results.table import Table, short_names
 
-_ORDER: Final[Sequence[Decision]] = ("do not use", "not enough data", "use")
-"""Verdicts in the order in which they ask for attention."""
+_ORDER: Final[Sequence[Decision]] = sorted(CONCERN, key=CONCERN.__getitem__, reverse=True)
+"""Verdicts, the one that asks most for attention first."""
 _HEADINGS = ("sensor", "calibration", "may it be used?", "for", "force error", "moment error", "do next, or why not")
 
 
