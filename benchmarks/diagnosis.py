@@ -65,7 +65,7 @@ def scenario(seed: int, limb: str, motion: str, *, seconds: float) -> ScenarioFi
                 "offset_counts": 3000.0,
                 "drift_counts_per_degC": 6.0,
                 "creep_share": 0.003,
-                "mounting_spread": 0.03,
+                "mounting_sd": 0.03,
             },
             "recording": [{"name": "log", "motion": moved, "temperature_degC": [30.0, 30.5]}],
         }

@@ -96,7 +96,7 @@ def yoga(data: Path, folder: Path, *, exact: bool) -> dict[str, Any]:
         rows = validation_errors(run, {"new": calibration}).verdicts
         split: dict[str, Any] = {"example": path.stem, "seconds": seconds, "samples": rows[0].samples}
         for candidate in ("prior", "new"):
-            of = {row.offset: row for row in rows if row.candidate == candidate}
+            of = {row.offset: row for row in rows if row.calibration == candidate}
             fitted, own = of[Offset.FITTED], of[Offset.JUDGED_MEAN]
             split[candidate] = {
                 "force fitted offset, N": fitted.force_error_mean_N,
@@ -157,7 +157,7 @@ def switching(data: Path, folder: Path, *, exact: bool) -> dict[str, Any]:
         "switching: |mean error of the net force|, N (x, y, z); offset of every sensor from 'left'; * phase was fitted"
     )
     for name, facts in about.items():
-        own = {row.phase: row for row in rows if row.candidate == name}
+        own = {row.phase: row for row in rows if row.calibration == name}
         facts["air"] = _in_air(air, fits.get(name, {}))
         facts["phases"] = {phase: _phase(own[phase], phase in facts["fitted"]) for phase in PHASES}
         cells = "; ".join(_cell(phase, facts["phases"][phase]) for phase in PHASES)
@@ -214,7 +214,7 @@ def _in_air(air: Experiment, calibrations: Mapping[str, Calibration]) -> dict[st
         if sensor in calibrations:
             rows = validation_errors(SensorRun(air, sensor), {"new": calibrations[sensor]}).verdicts
             errors[sensor] = {
-                row.candidate: (row.force_error_mean_N, row.moment_error_mean_Nm)
+                row.calibration: (row.force_error_mean_N, row.moment_error_mean_Nm)
                 for row in rows
                 if row.offset is Offset.FITTED
             }

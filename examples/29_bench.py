@@ -40,7 +40,7 @@ angle_deg = 0.1
 position_mm = 0.5
 nonlinearity = 0.001
 
-[readings]
+[measurements]
 format = "rows"
 file = "{name}.csv"
 channels = ["ch0", "ch1", "ch2", "ch3", "ch4", "ch5"]

@@ -2,10 +2,10 @@
 """What a command costs before it does anything: CPU seconds of a child process, and the modules it loads.
 
 Measured with bytecode at hand on a quiet 2-core machine: 0.1 s for a help, 0.7 to 0.9 s for the load of 24 poses, 1.0
-to 1.1 s for a judgement of the yoga log; it was 0.4, 3.1 and 3.1 s when SciPy came with every module. Neighbours on a
+to 1.1 s for a conclusion of the yoga log; it was 0.4, 3.1 and 3.1 s when SciPy came with every module. Neighbours on a
 processor make that up to twice as much. So a command that computes is held against a child that only loads what it
 needs of others, 0.35 s there: beside other work, on three Pythons, the load took 1.8 to 2.6 times as much in 27 runs,
-the judgement 1.9 to 3.0 times.
+the conclusion 1.9 to 3.0 times.
 """
 
 from __future__ import annotations

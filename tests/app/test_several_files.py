@@ -90,7 +90,7 @@ def test_the_verdict_is_that_of_all_files_together(judged: Path, run: Run) -> No
         [
             row["force_error_mean_N"]
             for row in result[name]
-            if (row["candidate"], row["offset"]) == ("arm.json", "fitted")
+            if (row["calibration"], row["offset"]) == ("arm.json", "fitted")
         ]
         for name in ("verdicts", "recordings")
     ]
@@ -136,7 +136,7 @@ def test_estimates_are_written_per_file(judged: Path, run: Run) -> None:
     assert faults(result, schema) == []
     files = ["estimates.day_1.csv", "estimates.day_2.csv"]
     assert [row["file"] for row in result["recordings"]] == files
-    assert result["rows"] == sum(row["rows"] for row in result["recordings"])
+    assert result["samples"] == sum(row["samples"] for row in result["recordings"])
     for file, name in zip(VALIDATION, files, strict=True):
         alone = run("estimate", file, "-o", "alone.csv", "-c", "arm.json", "--format", "json").result()
         assert Path("alone.csv").read_bytes() == Path(name).read_bytes()

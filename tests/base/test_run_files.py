@@ -89,7 +89,7 @@ def test_files_below_a_folder_that_is_read_are_inputs(tmp_path: Path) -> None:
 def test_a_result_of_an_input_is_refused_by_content(tmp_path: Path) -> None:
     """A result knows its inputs by their hashes, wherever they lie; a calibration of ours is one as well."""
     file = tmp_path / "a.json"
-    file.write_bytes(b'{"schema": "forcetorque/calibration/3"}')
+    file.write_bytes(b'{"schema": "forcetorque/calibration/4"}')
     refuse_output(file, inputs_sha256={"0" * 64})
     digest = hashlib.sha256(file.read_bytes()).hexdigest()
     for force in (False, True):

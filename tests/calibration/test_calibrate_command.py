@@ -28,7 +28,7 @@ def test_a_file_is_written_and_described(arm: Path, run: Run, form: str) -> None
     before = snapshot(arm)
     result = run("calibrate", form, "--output", "made.json", "--format", "json").result()
     assert snapshot(arm).keys() - before.keys() == {"made.json"}
-    assert (result["schema"], result["experiment"]) == ("forcetorque/calibrate/1", "small arm")
+    assert (result["schema"], result["experiment"]) == ("forcetorque/calibrate/2", "small arm")
     (entry,) = result["calibrations"]
     assert entry["file"] == "made.json"
     assert entry["calibration"] == json.loads(Path("made.json").read_text(encoding="utf-8"))
@@ -166,7 +166,7 @@ def test_a_limb_that_stands_still_is_refused(arm: Path, run: Run) -> None:
         'use = "calibration" to where the limb moves, among arrays calibrate'
     )
     kept = run("calibrate", PARQUET, "-o", "a.json", "--lambda", "inf", "--format", "json").result()
-    assert max(kept["calibrations"][0]["calibration"]["validity"]["reference_deviation"]) < 1e-9
+    assert max(kept["calibrations"][0]["calibration"]["validity"]["expected_wrench_sd"]) < 1e-9
 
 
 def test_a_tool_without_mass_is_refused(arm: Path, run: Run) -> None:

@@ -36,7 +36,7 @@ def test_recordings_and_moments_come_to_one_calibration(days: Path, run: Run) ->
         np.testing.assert_allclose(other.matrix, one.matrix, rtol=1e-8)
         assert len(other.provenance.intervals) == len(CALIBRATION)
     (entry,) = whole["calibrations"]
-    assert [row["direction"] for row in entry["learnt"]] == ["fx", "fy", "fz", "tx", "ty", "tz"]
+    assert [row["direction"] for row in entry["information_gain"]] == ["fx", "fy", "fz", "tx", "ty", "tz"]
 
 
 def test_another_serial_number_is_refused(days: Path, run: Run) -> None:

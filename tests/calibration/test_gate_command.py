@@ -98,7 +98,7 @@ def test_the_intact_experiment_raises_no_doubt(arm: Path, run: Run) -> None:
     """The negative control of all the others: no warning, and a verdict "good"."""
     made = run("calibrate", PARQUET, "-o", "made.json", "--details")
     assert (made.code, [line for line in made.log if line.startswith("WARNING")]) == (0, [])
-    assert read_calibration(arm / "made.json").doubts == ()
+    assert read_calibration(arm / "made.json").warnings == ()
     assert "good" in {tone for tone, _ in _verdict(run)}
 
 
@@ -115,7 +115,7 @@ def test_a_doubtful_model_is_said_and_never_called_good(arm: Path, run: Run, nam
     damage, words = DOUBTED[name]
     damage(arm)
     made = run("calibrate", PARQUET, "-o", "made.json", "--details")
-    (doubt,) = read_calibration(arm / "made.json").doubts
+    (doubt,) = read_calibration(arm / "made.json").warnings
     assert (made.code, f"WARNING: arm_ft: {doubt}" in made.log, doubt.startswith(words)) == (0, True, True)
     lines = _verdict(run)
     assert any(doubt in text for _, text in lines)

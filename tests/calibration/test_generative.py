@@ -76,7 +76,7 @@ def test_a_limb_that_stands_still_leaves_the_prior_and_finds_the_offset() -> Non
     np.testing.assert_allclose(fit.offsets[0], of_prior, rtol=0.0, atol=1e-3)
     before = fit.posterior.prior_covariance
     assert before is not None
-    np.testing.assert_allclose(fit.posterior.learnt_covariance, before, rtol=1e-6, atol=1e-9 * before.max())
+    np.testing.assert_allclose(fit.posterior.mean_covariance, before, rtol=1e-6, atol=1e-9 * before.max())
 
 
 @pytest.mark.parametrize("with_prior", [True, False])

@@ -45,7 +45,7 @@ def test_recordings_together_teach_more_than_each(recorded: Path) -> None:
 
     def error(calibration: Calibration) -> float:
         rows = evaluate(judged, {"new": calibration}).verdicts
-        (row,) = (row for row in rows if (row.candidate, row.offset) == ("new", "judged-mean"))
+        (row,) = (row for row in rows if (row.calibration, row.offset) == ("new", "judged-mean"))
         return row.force_error_mean_N
 
     together = error(every)
@@ -112,7 +112,7 @@ def test_moments_are_refused_that_are_not_of_the_sensor(recorded: Path, tmp_path
     file.write_text(file.read_text(encoding="utf-8")[:-100], encoding="utf-8")
     with pytest.raises(FormatError, match="expected JSON"):
         read_moments(file)
-    file.write_text(json.dumps({"schema": "forcetorque/moments/1"}), encoding="utf-8")
+    file.write_text(json.dumps({"schema": "forcetorque/moments/2"}), encoding="utf-8")
     with pytest.raises(FormatError, match="sensor: Field required"):
         read_moments(file)
 
@@ -144,8 +144,8 @@ def test_the_answer_shows_sessions_and_what_was_learnt(days: Path, tmp_path: Pat
     assert "offset of every session" in text
     assert "learnt: fx " in text
     (entry,) = result.calibrations
-    assert entry.learnt is not None
-    assert [row.direction for row in entry.learnt] == ["fx", "fy", "fz", "tx", "ty", "tz"]
+    assert entry.information_gain is not None
+    assert [row.direction for row in entry.information_gain] == ["fx", "fy", "fz", "tx", "ty", "tz"]
 
 
 def test_another_sensor_is_refused(days: Path) -> None:
@@ -179,15 +179,15 @@ def test_a_contact_that_nobody_stated_is_left_out_and_said(arm: Path, tmp_path: 
     streams = dict(experiment.recording.streams) | {"arm_ft": replace(stream, signals=signals)}
     touched = replace(experiment, recording=replace(experiment.recording, streams=streams))
     clean, fitted = _calibrated([SensorRun(experiment, "arm_ft")]), _calibrated([SensorRun(touched, "arm_ft")])
-    assert not any("is left out" in doubt for doubt in clean.doubts)
+    assert not any("is left out" in doubt for doubt in clean.warnings)
     assert clean.provenance.dropped == 0
-    (doubt,) = (doubt for doubt in fitted.doubts if "is left out" in doubt)
+    (doubt,) = (doubt for doubt in fitted.warnings if "is left out" in doubt)
     assert doubt.startswith(
         "interval 'fit': 7.51 to 13.48 s is left out: the readings disagree there with all others, by"
     )
     assert fitted.provenance.dropped == clean.provenance.samples - fitted.provenance.samples == 6.0 * RATE_HZ
     assert fitted.validity.raw_maximum_counts == pytest.approx(clean.validity.raw_maximum_counts, rel=0.2)
     write_calibration(tmp_path / "fitted.json", fitted)
-    assert doubt in read_calibration(tmp_path / "fitted.json").doubts
+    assert doubt in read_calibration(tmp_path / "fitted.json").warnings
     errors = [push_error(one.matrix, MOUNTED).force_N for one in (clean, fitted)]
     assert errors[1] < 1.5 * errors[0]

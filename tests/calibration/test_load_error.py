@@ -93,8 +93,8 @@ def test_the_scale_stays_open_where_nobody_weighed_a_load(unknown: tuple[LoadPro
     # the scale of forces is that of the mass, the other way round
     common = np.linalg.norm(np.mean([error.factor[k, k] for k in range(3)], axis=0))
     assert common == pytest.approx(share, rel=0.1)
-    assert _scale_deviation(posterior.learnt_covariance) < 0.3 * share  # the negative control
-    assert _scale_deviation(wider.learnt_covariance) > _scale_deviation(posterior.learnt_covariance)
+    assert _scale_deviation(posterior.mean_covariance) < 0.3 * share  # the negative control
+    assert _scale_deviation(wider.mean_covariance) > _scale_deviation(posterior.mean_covariance)
     push = np.array([10.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     assert wider.error_covariance(push)[0, 0] > (5.0 * share) ** 2
 

@@ -143,7 +143,7 @@ def test_recordings_with_and_without_tolerances_are_a_warning(arm: Path) -> None
     apart = interval.model_copy(update={"interval": named, "recording": "other day"})
     both = [uncertain, exact.model_copy(update={"intervals": (apart,)})]
     fit = calibrate_sensor(None, moments=both, code_version="1", created="now")
-    assert any("taken as exact in other day: other" in doubt for doubt in fit.doubts)
+    assert any("taken as exact in other day: other" in doubt for doubt in fit.warnings)
 
 
 @pytest.mark.parametrize(

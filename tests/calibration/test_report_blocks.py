@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.report_blocks import excitation_blocks, lambda_blocks, learnt_blocks, uncertainty_blocks
-from forcetorque.calibration.summary import learnt_directions
+from forcetorque.calibration.summary import information_gains
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -42,8 +42,8 @@ def thesis(run: SensorRun) -> Calibration:
 
 def _assessed(**calibrations: Calibration) -> Assessment:
     files = {str(Path("made", f"{name}.json")): one for name, one in calibrations.items()}
-    learnt = {file: rows for file, one in files.items() if (rows := learnt_directions(one)) is not None}
-    return Assessment.model_construct(sensor="arm_ft", serial="SIM001", calibrations=files, learnt=learnt)
+    learnt = {file: rows for file, one in files.items() if (rows := information_gains(one)) is not None}
+    return Assessment.model_construct(sensor="arm_ft", serial="SIM001", calibrations=files, information_gain=learnt)
 
 
 def test_a_generative_fit_is_shown_without_lambda(generative: Calibration) -> None:

@@ -55,7 +55,7 @@ def test_a_fitted_matrix_is_better_than_its_prior_for_each_of_twenty_draws(tmp_p
                 SensorRun(days["switching_day1"], sensor), code_version="1", created="2020-01-01T00:00:00+00:00"
             )
             judged = evaluate(SensorRun(days["switching_day2"], sensor), {"new": fitted})
-            means = {(row.candidate, row.offset): row.force_error_mean_N for row in judged.verdicts}
+            means = {(row.calibration, row.offset): row.force_error_mean_N for row in judged.verdicts}
             errors.append((means["prior", "judged-mean"], means["new", "judged-mean"]))
     prior, new = np.array(errors).T
     assert len(errors) == len(SEEDS) * len(SENSORS)

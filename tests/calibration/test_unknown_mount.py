@@ -52,7 +52,7 @@ def _calibrated(path: Path) -> Calibration:
 def test_a_turned_sensor_is_warned_of_and_estimated(tmp_path: Path) -> None:
     """Without the key a warning proposes it; with it the mount lies within its interval and the matrix stays."""
     warned = _calibrated(_written(tmp_path, TURN_DEG))
-    (sentence,) = (doubt for doubt in warned.doubts if doubt.startswith("turned by"))
+    (sentence,) = (doubt for doubt in warned.warnings if doubt.startswith("turned by"))
     assert "set mount = \"unknown\" for sensor 'wrist'" in sentence
     assert warned.mount is None
     calibration = _calibrated(_written(tmp_path, TURN_DEG, mount='mount = "unknown"'))
@@ -62,7 +62,7 @@ def test_a_turned_sensor_is_warned_of_and_estimated(tmp_path: Path) -> None:
     assert mount.shift_half_width_mm is not None
     assert (np.abs(mount.rotation_deg - TURN_DEG) < mount.rotation_half_width_deg).all()
     assert (np.abs(mount.shift_mm - 1e3 * SHIFT_M) < mount.shift_half_width_mm).all()
-    assert not any(doubt.startswith("turned by") for doubt in calibration.doubts)
+    assert not any(doubt.startswith("turned by") for doubt in calibration.warnings)
     # the sensor itself is exact
     assert np.abs(calibration.matrix[:3, :3] - np.eye(3)).max() < np.abs(warned.matrix[:3, :3] - np.eye(3)).max()
     assert "estimated mount: turned by" in mount.text
@@ -71,7 +71,7 @@ def test_a_turned_sensor_is_warned_of_and_estimated(tmp_path: Path) -> None:
 
 def test_a_mount_as_stated_is_no_warning(tmp_path: Path) -> None:
     """Negative control."""
-    assert _calibrated(_written(tmp_path, np.zeros(3))).doubts == ()
+    assert _calibrated(_written(tmp_path, np.zeros(3))).warnings == ()
 
 
 def test_a_calibration_fits_the_mount_that_it_was_made_with(tmp_path: Path) -> None:

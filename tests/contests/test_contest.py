@@ -66,7 +66,7 @@ def test_the_planted_one_wins_and_the_others_are_equal(entries: Entries) -> None
     for name in (BOUGHT, THIRD):
         assert by_name[OURS].error_percent / by_name[name].error_percent == pytest.approx(1.0 / 1.5, rel=0.05)
     (pair,) = (p for p in result.pairs if p.error_of == "wrench" and {p.contestant, p.other} == {BOUGHT, THIRD})
-    assert pair.judgement == "no difference"
+    assert pair.conclusion == "no difference"
     assert f"{OURS} errs least, significantly" in str(result)
     assert result.loads_kg == JUDGED
 
@@ -84,7 +84,7 @@ def test_methods_meet_and_what_lacks_something_is_named(answer: Contest) -> None
     assert answer.winner is None
     assert "no contestant wins" in str(answer)
     (pair,) = (p for p in answer.pairs if p.error_of == "wrench" and p.contestant == "in situ" and "no" in p.other)
-    assert pair.judgement == "no difference"
+    assert pair.conclusion == "no difference"
     by_name = {row.contestant: row for row in answer.contestants}
     assert by_name["in situ"].fitted_loads_kg == FITTED
 

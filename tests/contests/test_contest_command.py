@@ -34,7 +34,7 @@ def test_it_ranks_draws_and_goes_into_a_report(run: Run, folder: Path, monkeypat
     asked = run("bench", "contest", "contest.toml", "--figure", "contest.png", "--format", "json")
     assert asked.code == 0
     result = asked.result()
-    assert result["schema"] == "forcetorque/contest/1"
+    assert result["schema"] == "forcetorque/contest/2"
     ranks = {row["contestant"]: row["rank"] for row in result["contestants"]}
     assert ranks["ours 1, in situ"] < ranks["mini58 as bought"] < ranks["ours 1, factory matrix"]
     # one load on the device moves five directions of six, which without a prior is too few
@@ -43,7 +43,7 @@ def test_it_ranks_draws_and_goes_into_a_report(run: Run, folder: Path, monkeypat
     (drawn,) = result_figures(result)
     assert isinstance(drawn, Figure)
     assert "Errors of every contestant over the loads" in drawn.caption
-    assert list(result_figures({"schema": "forcetorque/thermal/1"})) == []
+    assert list(result_figures({"schema": "forcetorque/thermal/2"})) == []
     text = Contest.model_validate_json(asked.out)
     lines = list(csv.DictReader(io.StringIO(_csv(text))))
     assert {line["row"] for line in lines} == {"contestant", "pair"}

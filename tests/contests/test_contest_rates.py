@@ -65,16 +65,16 @@ def _methods(seed: int) -> Contest:
     return contest(Entries(name="equal", runs=(*fitted, *judged), contestants=(*halves, maker(OURS))))
 
 
-def _judgement(result: Contest, one: str, other: str) -> str:
+def _conclusion(result: Contest, one: str, other: str) -> str:
     (pair,) = (p for p in result.pairs if p.error_of == "wrench" and {p.contestant, p.other} == {one, other})
-    return pair.judgement
+    return pair.conclusion
 
 
 def _ranked_wrongly(result: Contest) -> bool:
     """Whether any of the three whose errors are equal is ranked before another."""
     equal = ("bought A", "bought B", MORE)
     pairs = [(one, other) for k, one in enumerate(equal) for other in equal[k + 1 :]]
-    return any(_judgement(result, *pair) in ("better", "worse") for pair in pairs)
+    return any(_conclusion(result, *pair) in ("better", "worse") for pair in pairs)
 
 
 @pytest.mark.long
@@ -91,7 +91,7 @@ def test_the_planted_winner_is_found() -> None:
 def test_equal_methods_are_called_equal() -> None:
     """Fits to different recordings of one sensor; both are better than its prior."""
     results = [_methods(seed) for seed in range(SEEDS)]
-    equal = np.mean([_judgement(result, "a", "b") == "no difference" for result in results])
-    better = np.mean([_judgement(result, "a", OURS) == "better" for result in results])
+    equal = np.mean([_conclusion(result, "a", "b") == "no difference" for result in results])
+    better = np.mean([_conclusion(result, "a", OURS) == "better" for result in results])
     assert equal >= LEAST
     assert better >= LEAST

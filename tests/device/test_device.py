@@ -51,6 +51,6 @@ def test_swapped_axes_reach_less_of_the_sphere(design: DeviceDesign) -> None:
 
 def test_json_and_csv_hold_the_loads(design: DeviceDesign) -> None:
     """Numbers alone: motions and pictures are not part of it."""
-    assert '"schema": "forcetorque/device/1"' in design.json_text()
+    assert '"schema": "forcetorque/device/2"' in design.json_text()
     assert "trajectories" not in design.json_text()
     assert len(design.records()) == 8

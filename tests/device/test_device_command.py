@@ -95,7 +95,7 @@ def test_the_documented_example_may_be_used(run: Run, folder: Path, tmp_path: Pa
     new = tmp_path / "new.json"
     assert run("calibrate", str(folder / "35_kg.toml"), str(folder / "15_kg.toml"), "-o", str(new)).code == 0
     asked = run("evaluate", str(folder / "25_kg.toml"), "-c", str(new), "--format", "json")
-    (use,) = asked.result()["uses"]
+    (use,) = asked.result()["load_cases"]
     assert use["decision"] == "use"
     force = next(error for error in use["errors"] if error["quantity"] == "force")
     truth = np.array(json.loads((folder / "truth.json").read_text())["sensors"]["ft_1"]["matrix"])

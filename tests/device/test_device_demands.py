@@ -163,10 +163,10 @@ def test_the_page_has_these_figures(demands: DeviceDemands) -> None:
         kilograms = ["-" if load is None else f"{load:.1f} kg" for load in (row.force_met_to_kg, row.moment_met_to_kg)]
         shown[row.gravity_by, f"{row.full_width:g} {row.unit}"] = [
             f"{row.rms[0]:.3f} N",
-            f"{row.one_force_N:.2f} N",
+            f"{row.single_force_N:.2f} N",
             f"{row.largest_force_N:.2f} N",
             f"{row.force_norm_N:.2f} N",
-            f"{row.one_moment_Nm:.3f} N m",
+            f"{row.single_moment_Nm:.3f} N m",
             *kilograms,
         ]
     lines = (Path(__file__).parents[2] / "docs" / "device" / "demands.md").read_text(encoding="utf-8").splitlines()

@@ -121,7 +121,7 @@ def test_without_the_lock_at_minus_90_the_rank_is_5_again() -> None:
 def test_requirement_1_is_not_met_in_every_direction() -> None:
     """By extents the device excites more than the workbench; by covariance it has .4 to .6 in its worst direction."""
     span = device_span(DEVICE, swaps=0)
-    excitation = {row.motion: row.excitation for row in span.remedies}
+    excitation = {row.motion: row.excitation for row in span.options}
     assert excitation["12 steps"] < 1e-6
     assert max(excitation, key=excitation.__getitem__) == "third lock"
     assert 0.3 < excitation["third lock"] < 1.0

@@ -263,13 +263,13 @@ def test_the_summary_shows_itself(arm: Path, fitted: Calibration) -> None:
     corrections = corrections_of(experiment, {"fitted": fitted})
     spans = estimate_experiment(experiment, corrections)
     summary = summarise_estimates(experiment, corrections, spans)
-    assert summary.rows == sum(len(span.stamp_ns) for span in spans)
+    assert summary.samples == sum(len(span.stamp_ns) for span in spans)
     require_shown(summary)
     assert "written" not in summary.text()
     assert not (arm / "out.csv").exists()
     written = summarise_estimates(experiment, corrections, spans, file=arm / "out.csv")
-    assert (arm / "out.csv").read_bytes().count(b"\n") == written.rows + 1
-    assert f"{written.rows} rows written to" in written.text()
+    assert (arm / "out.csv").read_bytes().count(b"\n") == written.samples + 1
+    assert f"{written.samples} rows written to" in written.text()
 
 
 def test_what_cannot_be_estimated_is_a_warning_of_the_summary(arm: Path) -> None:

@@ -30,7 +30,7 @@ def test_the_file_holds_every_sample_with_units(arm: Path, run: Run) -> None:
     experiment = load_experiment(PARQUET)
     corrections = corrections_of(experiment, {"fitted.json": read_calibration(Path("fitted.json"))})
     spans = estimate_experiment(experiment, corrections)
-    assert table.num_rows == result["rows"] == sum(len(span.estimates) for span in spans)
+    assert table.num_rows == result["samples"] == sum(len(span.estimates) for span in spans)
     assert set(table.column("interval").to_pylist()) == {"fit", "judge"}
     for column, values, unit in (
         ("contact.arm_ft.fz", [span.estimates.contact("arm_ft")[:, 2] for span in spans], b"N"),
@@ -41,7 +41,7 @@ def test_the_file_holds_every_sample_with_units(arm: Path, run: Run) -> None:
         np.testing.assert_array_equal(table.column(column).to_numpy(), np.concatenate(values))
         assert table.schema.field(column).metadata[b"unit"] == unit
     assert table.column("rank.arm_ft").to_numpy().min() == 6
-    assert result["readings"] == {"arm_ft": "fitted.json"}
+    assert result["wrench_sources"] == {"arm_ft": "fitted.json"}
 
 
 def test_text_holds_the_same_as_parquet(arm: Path, run: Run) -> None:
@@ -81,7 +81,7 @@ def test_contacts_by_name(arm: Path, run: Run) -> None:
         "estimate", TWO, "-o", "out.parquet", "--contacts", "tool", "--contacts", "hand:force", "--format", "json"
     ).result()
     assert {row["contact"] for row in result["contacts"]} == {"base", "tool", "hand"}
-    ranks = {row["part"]: row["rank"] for row in result["parts"]}
+    ranks = {row["sub_model"]: row["rank"] for row in result["sub_models"]}
     assert ranks == {"base": 6, "arm_ft": 3, "tool_ft": 6}
 
 
@@ -89,7 +89,9 @@ def test_what_trades_off_is_said(arm: Path, run: Run) -> None:
     """With more unknowns than equations the groups are in the result and on the screen."""
     words = ("estimate", PARQUET, "-o", "o.csv", "--contacts", "hand", "--contacts", "forearm:force")
     said = run(*words, "--length-scale", "0.2", "--format", "json").result()
-    (group,) = [row["ambiguous"] for row in said["parts"] if row["part"] == "arm_ft" and row["interval"] == "judge"]
+    (group,) = [
+        row["ambiguous"] for row in said["sub_models"] if row["sub_model"] == "arm_ft" and row["interval"] == "judge"
+    ]
     assert {"hand.fx", "forearm.fx"} <= {name for names in group for name in names}
     assert "not separable: " in run(*words, "--length-scale", "0.2").out
     assert "length_scale" in run(*words).error()

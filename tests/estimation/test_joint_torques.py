@@ -62,7 +62,7 @@ def _fitted(experiment: Experiment, index: int = 0) -> Calibration:
 
 
 def _by_key(found: JointTorques) -> dict[Key, JointTorqueErrors]:
-    return {(verdict.candidate, verdict.offset, verdict.joint): verdict for verdict in found.verdicts}
+    return {(verdict.calibration, verdict.offset, verdict.joint): verdict for verdict in found.verdicts}
 
 
 def _model_torques(experiment: Experiment, at_ns: IntArray) -> dict[str, FloatArray]:

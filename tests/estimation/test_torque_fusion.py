@@ -152,7 +152,7 @@ def test_what_a_fusion_needs_is_asked_for(arm: Path, fitted: Calibration) -> Non
     text = file.read_text(encoding="utf-8")
     for missing, message in (
         (FUSION, r"expected \[fusion\] with model_deviation"),
-        (ERRORS, "sensor 'arm_ft': expected reading_noise and reading_deviation"),
+        (ERRORS, "sensor 'arm_ft': expected measurement_noise and measurement_offset_sd"),
         (motor_tables(), "expected two sources of joint torques at least"),
     ):
         assert missing in text

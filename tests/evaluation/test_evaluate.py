@@ -43,7 +43,7 @@ def _fitted(experiment: Experiment, regularisation: float) -> Calibration:
 def test_every_candidate_is_judged_with_both_offsets(experiment: Experiment, fitted: Calibration) -> None:
     """One calibration means four verdicts, the prior first; all are of the same samples."""
     verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": fitted}).verdicts
-    assert [(v.candidate, v.offset) for v in verdicts] == [
+    assert [(v.calibration, v.offset) for v in verdicts] == [
         ("prior", "fitted"),
         ("prior", "judged-mean"),
         ("new", "fitted"),
@@ -59,7 +59,7 @@ def test_the_new_matrix_is_better_than_the_prior_where_it_was_not_fitted(
 ) -> None:
     """The simulated mounting is found: every force error falls to a tenth, with either offset."""
     by_key = {
-        (v.candidate, v.offset): v
+        (v.calibration, v.offset): v
         for v in evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": fitted}).verdicts
     }
     for offset in ("fitted", "judged-mean"):
@@ -72,7 +72,7 @@ def test_the_new_matrix_is_better_than_the_prior_where_it_was_not_fitted(
 def test_the_re_estimated_offset_leaves_no_mean_error(experiment: Experiment, fitted: Calibration) -> None:
     """It is estimated on the judged samples; the fitted one is not."""
     verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": fitted}).verdicts
-    bias = {v.offset: np.abs(v.bias).max() for v in verdicts if v.candidate == "new"}
+    bias = {v.offset: np.abs(v.bias).max() for v in verdicts if v.calibration == "new"}
     assert bias["judged-mean"] < 1e-11 < 1e-3 < bias["fitted"]
 
 
@@ -82,7 +82,7 @@ def test_a_calibration_that_is_called_prior_is_compared_with_its_prior(
     """As under any other name; with itself it would be no different."""
     run = SensorRun(experiment, experiment.sensors[0])
     one, other = (evaluate(run, {name: fitted}).comparisons for name in ("new", "prior"))
-    assert {row.judgement for row in one} == {"better"}
+    assert {row.conclusion for row in one} == {"better"}
     assert [row.ratio for row in one] == [row.ratio for row in other]
 
 
@@ -94,7 +94,7 @@ def test_a_shared_prior_comes_once(experiment: Experiment, fitted: Calibration) 
         prior = fitted.prior.model_copy(update={"offset": fitted.prior.offset + change})
         other = _fitted(experiment, 1e6).model_copy(update={"prior": prior})
         verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"a": fitted, "b": other}).verdicts
-        candidates[change] = list(dict.fromkeys(v.candidate for v in verdicts))
+        candidates[change] = list(dict.fromkeys(v.calibration for v in verdicts))
     assert candidates == {1e-13: ["prior of a", "a", "b"], 1e-3: ["prior of a", "prior of b", "a", "b"]}
 
 
@@ -102,7 +102,7 @@ def test_a_calibration_without_prior_stands_alone(experiment: Experiment, fitted
     """There is nothing to compare with, and nothing is made up."""
     alone = fitted.model_copy(update={"prior": None})
     verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": alone}).verdicts
-    assert [v.candidate for v in verdicts] == ["new", "new"]
+    assert [v.calibration for v in verdicts] == ["new", "new"]
 
 
 def test_another_serial_number_is_refused(experiment: Experiment, fitted: Calibration) -> None:
@@ -186,7 +186,7 @@ def test_without_a_calibration_the_prior_of_the_experiment_is_judged(
     sensor = experiment.sensors[0]
     alone = evaluate(SensorRun(experiment, sensor), {}).verdicts
     carried = evaluate(SensorRun(experiment, sensor), {"new": fitted}).verdicts[:2]
-    assert [(one.candidate, one.offset) for one in alone] == [("prior", "fitted"), ("prior", "judged-mean")]
+    assert [(one.calibration, one.offset) for one in alone] == [("prior", "fitted"), ("prior", "judged-mean")]
     for one, other in zip(alone, carried, strict=True):
         np.testing.assert_allclose(one.rmse, other.rmse, rtol=1e-9)
         assert one.samples == other.samples
@@ -219,7 +219,7 @@ def test_every_calibration_names_the_prior_to_compare_it_with(experiment: Experi
     assert judged.priors == {"a": "prior of a", "b": "prior of a", "c": "prior of c"}
     assert [each.name for each in judged.candidates] == [name for name, _ in judged.measured]
     verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), given).verdicts
-    assert {(v.candidate, v.prior) for v in verdicts} == {
+    assert {(v.calibration, v.prior) for v in verdicts} == {
         ("prior of a", None),
         ("prior of c", None),
         ("a", "prior of a"),
@@ -233,11 +233,11 @@ def test_calibrations_one_by_one_are_judged_as_together(experiment: Experiment, 
     """Each, and the prior that it names, has the same errors, whoever else is judged."""
     given = {"a": fitted, "b": _fitted(experiment, 1e6)}
     sensor = experiment.sensors[0]
-    together = {(v.candidate, v.offset): v for v in evaluate(SensorRun(experiment, sensor), given).verdicts}
+    together = {(v.calibration, v.offset): v for v in evaluate(SensorRun(experiment, sensor), given).verdicts}
     compared = 0
     for name, calibration in given.items():
         alone = {
-            (v.candidate, v.offset): v for v in evaluate(SensorRun(experiment, sensor), {name: calibration}).verdicts
+            (v.calibration, v.offset): v for v in evaluate(SensorRun(experiment, sensor), {name: calibration}).verdicts
         }
         for offset in ("fitted", "judged-mean"):
             one, other = alone[name, offset], together[name, offset]
@@ -253,7 +253,7 @@ def test_where_the_offset_comes_from_is_said(experiment: Experiment, fitted: Cal
     """That of a prior from the fitted data, of a calibration from its file; of a prior alone, perhaps from nowhere."""
     sensor = experiment.sensors[0]
     sources = {
-        (v.candidate, v.offset): v.offset_source
+        (v.calibration, v.offset): v.offset_source
         for v in evaluate(SensorRun(experiment, sensor), {"new": fitted}).verdicts
     }
     assert sources == {

@@ -27,7 +27,7 @@ OFFSETS = ("fitted", "judged-mean")
 
 
 def _verdicts(result: Any) -> dict[tuple[str, str], Any]:
-    return {(row["candidate"], row["offset"]): row for row in result["verdicts"]}
+    return {(row["calibration"], row["offset"]): row for row in result["verdicts"]}
 
 
 def _samples(form: str, use: Use) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
@@ -82,12 +82,12 @@ def test_the_json_fits_the_printed_schema(arm: Path, run: Run) -> None:
     """The result is what `forcetorque schema evaluate` promises; a damaged one is noticed."""
     result = run("evaluate", PARQUET, "-c", "fitted.json", "--format", "json").result()
     schema = run("schema", "evaluate").result()
-    assert (result["schema"], result["experiment"]) == ("forcetorque/evaluate/1", "small arm")
+    assert (result["schema"], result["experiment"]) == ("forcetorque/evaluate/2", "small arm")
     assert faults(result, schema) == []
     for key in ("samples", "rmse", "offset"):
         row = {**result["verdicts"][0], key: "no such word"}
         assert faults({**result, "verdicts": [row]}, schema) != []
-    assert {key for row in result["verdicts"] for key in row} == set(schema["$defs"]["CandidateErrors"]["properties"])
+    assert {key for row in result["verdicts"] for key in row} == set(schema["$defs"]["CalibrationErrors"]["properties"])
 
 
 def test_the_csv_holds_the_same_numbers(arm: Path, run: Run) -> None:
@@ -96,7 +96,7 @@ def test_the_csv_holds_the_same_numbers(arm: Path, run: Run) -> None:
     rows = run("evaluate", PARQUET, "-c", "fitted.json", "--format", "csv").rows()
     assert len(rows) == len(verdicts) == 4
     for row, verdict in zip(rows, verdicts, strict=True):
-        assert (row["candidate"], row["offset"]) == (verdict["candidate"], verdict["offset"])
+        assert (row["calibration"], row["offset"]) == (verdict["calibration"], verdict["offset"])
         assert abs(float(row["rmse_fz_N"]) - verdict["rmse"][2]) < ROUNDING
         assert abs(float(row["bias_tx_Nm"]) - verdict["bias"][3]) < ROUNDING
         assert abs(float(row["largest_tz_Nm"]) - verdict["largest"][5]) < ROUNDING
@@ -115,7 +115,7 @@ def test_the_table_is_the_default(arm: Path, run: Run) -> None:
     assert lines[0].rstrip() == f"small arm: arm_ft (SIM001), {verdicts[0]['samples']} samples that were not fitted"
     errors = lines[: lines.index("mean error, by its own offset")]
     rows = [line.split() for line in errors if line.startswith((" prior", " fitted.json"))]
-    assert [row[:2] for row in rows] == [[verdict["candidate"], verdict["offset"]] for verdict in verdicts]
+    assert [row[:2] for row in rows] == [[verdict["calibration"], verdict["offset"]] for verdict in verdicts]
     for row, verdict in zip(rows, verdicts, strict=True):
         assert row[2:8] == [f"{value:.3f}" for value in verdict["rmse"]]
 
@@ -125,7 +125,7 @@ def test_several_calibrations_are_compared(arm: Path, run: Run) -> None:
     assert run("calibrate", TWO, "-o", "made", "--lambda", "5").code == 0
     ours, tool = "made/arm_ft_SIM001.json", "made/tool_ft_SIM%2F002.json"
     rows = run("evaluate", TWO, "-c", "fitted.json", "-c", tool, "-c", ours, "--format", "csv").rows()
-    assert [(row["sensor"], row["candidate"]) for row in rows[::2]] == [
+    assert [(row["sensor"], row["calibration"]) for row in rows[::2]] == [
         ("arm_ft", "prior of fitted.json"),
         ("arm_ft", "fitted.json"),
         ("arm_ft", ours),
@@ -234,10 +234,10 @@ def test_a_corrupt_or_foreign_calibration_is_refused(arm: Path, run: Run, name: 
     [
         ("", "cut.json: expected JSON, got Expecting value: line 1 column 1"),
         (
-            '{"schema": "forcetorque/calibration/3",\n "sensor": ',
+            '{"schema": "forcetorque/calibration/4",\n "sensor": ',
             "cut.json: expected JSON, got Expecting value: line 2",
         ),
-        ("[1, 2]", "cut.json: expected the schema 'forcetorque/calibration/3', got None"),
+        ("[1, 2]", "cut.json: expected the schema 'forcetorque/calibration/4', got None"),
         ("[" * 9999, "cut.json: expected JSON, got maximum recursion depth"),
         ("\udcff", "cut.json: expected JSON, got 'utf-8' codec can't decode byte 0xff in position 0"),
     ],

@@ -68,7 +68,7 @@ def _turned(run: SensorRun) -> Calibration:
 
 
 def _rows(evaluation: Evaluation) -> list[tuple[float, bool]]:
-    return [(row.force_error_mean_N, row.hardly_moved) for row in evaluation.verdicts if row.candidate == NAME]
+    return [(row.force_error_mean_N, row.hardly_moved) for row in evaluation.verdicts if row.calibration == NAME]
 
 
 def test_a_sensor_that_is_turned_and_judged_at_rest_is_said_to_be_judged_by_nothing(arm: Path) -> None:
@@ -79,7 +79,7 @@ def test_a_sensor_that_is_turned_and_judged_at_rest_is_said_to_be_judged_by_noth
         assert not hardly
     moved = evaluate(moving, {NAME: _turned(moving)})
     assert not [words for words in moved.warnings if "hardly moved" in words]
-    assert [use.decision for use in moved.uses] == ["do not use"]
+    assert [use.decision for use in moved.load_cases] == ["do not use"]
     _halt(arm)
     still = _run(arm)
     evaluation = evaluate(still, {NAME: _turned(still)})
@@ -88,7 +88,7 @@ def test_a_sensor_that_is_turned_and_judged_at_rest_is_said_to_be_judged_by_noth
         assert hardly
     (words,) = [words for words in evaluation.warnings if "hardly moved" in words]
     row = evaluation.verdicts[-1]
-    assert [use.decision for use in evaluation.uses] != ["use"]
+    assert [use.decision for use in evaluation.load_cases] != ["use"]
     assert words == (
         f"arm_ft: the loads hardly moved in the validation samples ({row.excitation_N:.2g} N of {row.load_N:.2g} N, "
         f"{row.excitation_Nm:.2g} N m of {row.load_Nm:.2g} N m): a wrong matrix would show nothing"
@@ -107,7 +107,7 @@ def test_the_excitation_is_that_of_the_reference(arm: Path) -> None:
     for row in rows:
         assert row.excitation_N == pytest.approx(np.sqrt(reference[:, :3].var(axis=0).sum()))
         assert row.excitation_Nm == pytest.approx(np.sqrt(reference[:, 3:].var(axis=0).sum()))
-        fitted = np.linalg.norm(calibration.validity.reference_deviation[:3])
+        fitted = np.linalg.norm(calibration.validity.expected_wrench_sd[:3])
         assert row.load_N == pytest.approx(max(fitted, np.sqrt((reference[:, :3] ** 2).sum(axis=1).mean())))
     row = rows[0]
     forces = row.model_copy(update={"excitation_N": 0.9 * HARDLY * row.load_N})

@@ -8,18 +8,18 @@ from typing import Any, Literal
 
 import pytest
 
-from forcetorque.base.noise.paired_comparison import Judgement
+from forcetorque.base.noise.paired_comparison import Conclusion
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.calibration.summary import LearntDirection
-from forcetorque.evaluation.evaluation import CandidateErrors
+from forcetorque.calibration.summary import InformationGain
+from forcetorque.evaluation.evaluation import CalibrationErrors
 from forcetorque.evaluation.load_cases.validation_evidence import PriorComparison
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.report.assessment import Assessment, verdict
 
-BETTER: Judgement = "better"
-WORSE: Judgement = "worse"
-ALIKE: Judgement = "no difference"
-UNTOLD: Judgement = "not told apart"
+BETTER: Conclusion = "better"
+WORSE: Conclusion = "worse"
+ALIKE: Conclusion = "no difference"
+UNTOLD: Conclusion = "inconclusive"
 INTERVALS: dict[str, tuple[float, float]] = {
     BETTER: (0.4, 0.6),
     WORSE: (1.5, 2.5),
@@ -28,9 +28,9 @@ INTERVALS: dict[str, tuple[float, float]] = {
 }
 
 
-def _row(candidate: str) -> CandidateErrors:
-    return CandidateErrors(
-        sensor="leg_ft", serial="S1", candidate=candidate, offset=Offset.JUDGED_MEAN, offset_source="", samples=100,
+def _row(candidate: str) -> CalibrationErrors:
+    return CalibrationErrors(
+        sensor="leg_ft", serial="S1", calibration=candidate, offset=Offset.JUDGED_MEAN, offset_source="", samples=100,
         rmse=[1.0] * 6, bias=[0.0] * 6, largest=[1.0] * 6, force_error_mean_N=1.0, force_error_standard_error_N=0.1,
         force_error_largest_N=2.0, moment_error_mean_Nm=0.1, moment_error_standard_error_Nm=0.01,
         moment_error_largest_Nm=0.2, force_error_half_width_95_N=0.2, moment_error_half_width_95_Nm=0.02,
@@ -39,26 +39,26 @@ def _row(candidate: str) -> CandidateErrors:
     )  # fmt: skip
 
 
-def _comparison(quantity: Literal["force", "moment"], judgement: Judgement, **other: Any) -> PriorComparison:
-    low, high = INTERVALS[judgement]
-    given = {"sensor": "leg_ft", "candidate": "new.json", "prior": "prior", "offset": Offset.JUDGED_MEAN} | {
-        "ratio": 0.5 * (low + high), "ratio_low": low, "ratio_high": high, "stretches": 10,
+def _comparison(quantity: Literal["force", "moment"], conclusion: Conclusion, **other: Any) -> PriorComparison:
+    low, high = INTERVALS[conclusion]
+    given = {"sensor": "leg_ft", "calibration": "new.json", "prior": "prior", "offset": Offset.JUDGED_MEAN} | {
+        "ratio": 0.5 * (low + high), "ratio_low": low, "ratio_high": high, "segments": 10,
     } | other  # fmt: skip
     return PriorComparison(
         **given, quantity=quantity, unit="N" if quantity == "force" else "N m", samples=100, mean=1.0,
-        prior_mean=2.0, judgement=judgement, constant=0.3,
+        prior_mean=2.0, conclusion=conclusion, constant=0.3,
     )  # fmt: skip
 
 
 def _fitted(doubts: tuple[str, ...] = ()) -> SimpleNamespace:
     """What matters to the verdict of a calibration."""
-    return SimpleNamespace(validity=SimpleNamespace(excited=(True,) * 6), doubts=doubts, posterior=None)
+    return SimpleNamespace(validity=SimpleNamespace(excited=(True,) * 6), warnings=doubts, posterior=None)
 
 
 def _report(comparisons: list[PriorComparison], **other: Any) -> Assessment:
     lists = "independence contact_forces best joint_torques spheres static criteria warnings left_out"
     empty: dict[str, Any] = dict.fromkeys(lists.split(), ())
-    given = empty | {"calibrations": {"new.json": _fitted()}, "not_judged": {}} | other
+    given = empty | {"calibrations": {"new.json": _fitted()}, "not_evaluated": {}} | other
     judged = {"evaluation": (_row("prior"), _row("new.json")), "comparisons": tuple(comparisons)}
     return Assessment.model_construct(sensor="leg_ft", serial="S1", verdict=(), **judged | given)
 
@@ -75,7 +75,7 @@ def _report(comparisons: list[PriorComparison], **other: Any) -> Assessment:
         (UNTOLD, UNTOLD, "caution"),
     ],
 )
-def test_a_better_force_does_not_hide_a_worse_moment(force: Judgement, moment: Judgement, tone: str) -> None:
+def test_a_better_force_does_not_hide_a_worse_moment(force: Conclusion, moment: Conclusion, tone: str) -> None:
     """Both are named, and the worse of the two gives the tone."""
     (line,) = verdict(_report([_comparison("force", force), _comparison("moment", moment)]))
     assert line.tone == tone
@@ -90,15 +90,15 @@ def test_a_calibration_in_doubt_is_never_good() -> None:
         first, second = verdict(_report([_comparison(q, gain) for q in ("force", "moment")], **doubted))
         assert (first.tone, second.tone) == (tone, "caution")
         assert second.text.endswith("has a warning from before it was fitted: the gain changed by +69%")
-    passed = (SimpleNamespace(candidate="new.json", passed=True, criterion="force"),)
+    passed = (SimpleNamespace(calibration="new.json", passed=True, criterion="force"),)
     for calibrations, tone in ((doubted, "caution"), ({}, "good")):
         assert verdict(_report([], criteria=passed, **calibrations))[0].tone == tone
 
 
-def _learnt(*shares: float) -> tuple[LearntDirection, ...]:
+def _learnt(*shares: float) -> tuple[InformationGain, ...]:
     return tuple(
-        LearntDirection(
-            direction=name, learnt=share, force_error_before_N=1.0, force_error_after_N=1.0 - share,
+        InformationGain(
+            direction=name, uncertainty_reduction=share, force_error_before_N=1.0, force_error_after_N=1.0 - share,
             moment_error_before_Nm=1.0, moment_error_after_Nm=1.0 - share,
         )
         for name, share in zip(WRENCH_COMPONENTS, shares, strict=True)
@@ -107,15 +107,18 @@ def _learnt(*shares: float) -> tuple[LearntDirection, ...]:
 
 def test_what_a_generative_fit_did_not_learn_is_said_and_raw_directions_are_not() -> None:
     """A direction below half is a caution with what to do; with none there is no sentence; others as they were."""
-    shy = SimpleNamespace(validity=SimpleNamespace(excited=(True, False) * 3), doubts=(), posterior="known")
+    shy = SimpleNamespace(validity=SimpleNamespace(excited=(True, False) * 3), warnings=(), posterior="known")
     both = [_comparison(quantity, BETTER) for quantity in ("force", "moment")]
-    given = {"calibrations": {"new.json": shy}, "learnt": {"new.json": _learnt(0.9, 0.9, 0.97, 0.8, 0.8, 0.04)}}
+    given = {
+        "calibrations": {"new.json": shy},
+        "information_gain": {"new.json": _learnt(0.9, 0.9, 0.97, 0.8, 0.8, 0.04)},
+    }
     _, line = verdict(_report(both, **given))
     assert line.tone == "caution"
     assert (
         "new.json: learnt: fx 90 %, fy 90 %, fz 97 %, tx 80 %, ty 80 %, tz 4 %; for tz the prior decides" in line.text
     )
-    (_,) = verdict(_report(both, **given | {"learnt": {"new.json": _learnt(*[0.9] * 6)}}))
+    (_,) = verdict(_report(both, **given | {"information_gain": {"new.json": _learnt(*[0.9] * 6)}}))
     shy.posterior = None
     _, line = verdict(_report(both, calibrations={"new.json": shy}))
     assert "the fitted loads moved 3 of 6 raw directions" in line.text
@@ -133,7 +136,7 @@ def test_an_own_offset_is_called_one_draw() -> None:
 
 def test_what_was_not_judged_comes_last() -> None:
     """With its reason."""
-    *_, last = verdict(_report([_comparison("force", BETTER)], not_judged={"spheres": "no grid"}))
+    *_, last = verdict(_report([_comparison("force", BETTER)], not_evaluated={"spheres": "no grid"}))
     assert (last.tone, last.text) == ("unknown", "not evaluated: spheres: no grid")
 
 
@@ -163,7 +166,7 @@ def test_an_interval_that_says_nothing_is_words(
 ) -> None:
     """None, or one whose ends are more than ten times apart."""
     low, high = ends
-    row = _comparison("force", UNTOLD, ratio=1.0, ratio_low=low, ratio_high=high, stretches=stretches)
+    row = _comparison("force", UNTOLD, ratio=1.0, ratio_low=low, ratio_high=high, segments=stretches)
     assert row.against(row.prior_mean, "the prior").endswith(f"({UNTOLD}: {words})")
 
 

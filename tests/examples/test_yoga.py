@@ -16,7 +16,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.evaluation.commands import evaluate
-from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation
+from forcetorque.evaluation.evaluation import CalibrationErrors, Evaluation
 from forcetorque.evaluation.load_cases.validation_evidence import PriorComparison
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
@@ -51,8 +51,8 @@ def _evaluation(path: Path, data_dir: Path) -> Evaluation:
     return evaluate(run, {"new": calibrate_sensor(run, code_version="test", created="test")})
 
 
-def _verdicts(path: Path, data_dir: Path) -> dict[tuple[str, str], CandidateErrors]:
-    return {(v.candidate, v.offset): v for v in _evaluation(path, data_dir).verdicts}
+def _verdicts(path: Path, data_dir: Path) -> dict[tuple[str, str], CalibrationErrors]:
+    return {(v.calibration, v.offset): v for v in _evaluation(path, data_dir).verdicts}
 
 
 @pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
@@ -64,7 +64,7 @@ def test_no_worse_than_the_prior(path: Path, data_dir: Path) -> None:
         assert new.samples > 1000
         assert new.force_error_mean_N <= prior.force_error_mean_N
         assert new.moment_error_mean_Nm <= prior.moment_error_mean_Nm
-        assert not any(row.judgement == "worse" for row in _judgements(path, data_dir).values())
+        assert not any(row.conclusion == "worse" for row in _judgements(path, data_dir).values())
 
 
 @pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
@@ -132,11 +132,11 @@ def test_the_reverse_is_better_where_the_offset_is_that_of_the_judged_half(data_
     rows = _judgements(YOGA[1], data_dir)
     for quantity in ("force", "moment"):
         row = rows["judged-mean", quantity]
-        assert row.judgement == "better"
+        assert row.conclusion == "better"
         assert row.ratio_high is not None
         assert row.ratio_high < 0.45
-        assert rows["fitted", quantity].judgement == "not told apart"
-        assert rows["fitted", quantity].stretches == 1
+        assert rows["fitted", quantity].conclusion == "inconclusive"
+        assert rows["fitted", quantity].segments == 1
     assert rows["judged-mean", "force"].ratio == pytest.approx(0.30, abs=0.02)
 
 
@@ -144,7 +144,7 @@ def test_forward_with_the_offset_of_the_judged_half_is_not_better(data_dir: Path
     """Negative control: .67 to .55 N, in some stretches more and in some less."""
     row = _judgements(YOGA[0], data_dir)["judged-mean", "force"]
     assert row.mean < row.prior_mean
-    assert row.judgement == "not told apart"
+    assert row.conclusion == "inconclusive"
     assert row.ratio_low is not None
     assert row.ratio_high is not None
     assert row.ratio_low < 1.0 < row.ratio_high

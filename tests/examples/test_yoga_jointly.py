@@ -24,7 +24,7 @@ def test_four_sensors_come_out_of_one_stretch(data_dir: Path, tmp_path: Path) ->
     result = calibrate_jointly([load_experiment(copy)], folder=tmp_path / "calibrations")
     assert [entry.calibration.sensor.serial for entry in result.calibrations] == ["SN026", "SN230", "SN217", "SN229"]
     assert result.joint is not None
-    parts = {row.part: row for row in result.joint.parts}
+    parts = {row.sub_model: row for row in result.joint.sub_models}
     weight = "weight on l_leg_ft_sensor, r_leg_ft_sensor"
     assert set(parts) == {"l_foot_ft_sensor", "r_leg_ft_sensor", "r_foot_ft_sensor", weight}
     assert all(row.force_after_N < 0.5 * row.force_before_N for row in parts.values())
@@ -45,6 +45,6 @@ def test_the_misfit_of_the_model_is_not_taken_for_errors_of_the_matrices(data_di
     candidate = {Path(entry.file).name: entry.calibration for entry in fitted.calibrations}
     experiment = load_experiment(files[SWITCHING])
     result = coherence(experiment, {"fitted": candidate}, offsets=["one-link-fixed-frame:left"])
-    errors = [np.linalg.norm(row.force_error_N) for row in result.rows if row.evidence and row.candidate == "fitted"]
+    errors = [np.linalg.norm(row.force_error_N) for row in result.rows if row.evidence and row.calibration == "fitted"]
     assert len(errors) == 2
     assert max(errors) < 13.0

@@ -29,7 +29,7 @@ def test_the_feet_bear_the_weight_in_all_phases(data_dir: Path, tmp_path: Path) 
     for phase in ("double", "double again"):
         assert np.linalg.norm(rows[phase].force_error_N) < 4.0
         assert abs(rows[phase].force_error_N[2]) < 1.0
-        assert rows[phase].touching == ("l_sole", "r_sole")
+        assert rows[phase].contact_links == ("l_sole", "r_sole")
         # arms and torso are not logged
         assert rows[phase].moment_error_Nm is None
     assert np.linalg.norm(rows["left"].force_error_N) < 0.5

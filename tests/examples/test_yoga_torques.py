@@ -35,7 +35,7 @@ def verdicts(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[K
     new = calibrate_sensor(run, code_version="test", created="test")
     found = joint_torques(run, {"new": new})
     assert found.left_out == ()
-    return {(verdict.candidate, verdict.offset, verdict.joint): verdict for verdict in found.verdicts}
+    return {(verdict.calibration, verdict.offset, verdict.joint): verdict for verdict in found.verdicts}
 
 
 def test_joints_between_the_sensor_and_the_standing_foot_are_judged(verdicts: dict[Key, JointTorqueErrors]) -> None:

@@ -105,7 +105,7 @@ def test_a_calibration_keeps_what_was_added(asked: Asked) -> None:
     for added in (asked.calibration.provenance.added, *(one.added for one in recording_moments(asked.run))):
         assert added == added_to(asked.run.experiment.recording)
         assert len(added) == asked.times
-    assert not asked.calibration.doubts
+    assert not asked.calibration.warnings
 
 
 class _Answer(Result):

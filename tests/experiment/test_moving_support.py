@@ -144,9 +144,9 @@ def test_a_contact_that_is_stated_is_not_added_again(arm: Path) -> None:
 @pytest.mark.parametrize(
     ("links", "match"),
     [
-        ('["base", "nose"]', r"touched: robot 'arm' has no link 'nose'"),
+        ('["base", "nose"]', r"contact_links: robot 'arm' has no link 'nose'"),
         ("[]", "at least 1 item"),
-        ('["base"]\nsupport = "base"', "expected support or touched, got both"),
+        ('["base"]\nsupport = "base"', "expected support or contact_links, got both"),
     ],
 )
 def test_what_touches_is_a_link_and_no_support(arm: Path, links: str, match: str) -> None:

@@ -248,7 +248,7 @@ TABLES = {
     "[[sensor]]": (
         r"sensor\[0\]",
         "allowed_gains, amplifier_gain, frame, full_scale, joint, limit_counts, measure_direction, mount, name, prior, "
-        "reading_deviation, reading_noise, serial, stream, variable",
+        "measurement_offset_sd, measurement_noise, serial, stream, variable",
     ),
     "[[support]]": (r"support\[0\]", "frame, gravity_direction, imu"),
     'label = "judge"': (r"interval\[1\]", "end_s, kind, label, load, session, start_s, support, touched, use"),

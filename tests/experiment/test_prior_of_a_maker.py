@@ -104,7 +104,7 @@ def _judged(file: Path) -> tuple[float, float]:
     run = SensorRun(load_experiment(file), "wrist")
     calibration = calibrate_sensor(run, code_version="0", created="2026-01-01T00:00:00+00:00")
     verdicts = evaluate(run, {"new": calibration}).verdicts
-    errors = {row.candidate: row.force_error_mean_N for row in verdicts if row.offset == "judged-mean"}
+    errors = {row.calibration: row.force_error_mean_N for row in verdicts if row.offset == "judged-mean"}
     return errors["prior"], errors["new"]
 
 

@@ -380,7 +380,7 @@ def test_a_planted_delay_of_a_sensor_is_taken_back(arm: Path) -> None:
     assert any("ms later than 'joints'" in doubt for doubt in data_doubts(SensorRun(experiment, experiment.sensors[0])))
     inspection = inspect_log(arm / PARQUET)
     (row,) = inspection.clocks
-    assert (row.stream, row.to, row.estimated, row.untold) == ("arm_ft", "joints", True, None)
+    assert (row.stream, row.to, row.estimated, row.undetermined) == ("arm_ft", "joints", True, None)
     assert (row.delay_s, row.delay_half_width_95_s) == (shift.delay_s, shift.delay_half_width_s)
     assert json.loads(inspection.json_text())["clocks"][0]["explained"] == shift.explained
 
@@ -404,7 +404,7 @@ def test_streams_that_show_nothing_in_common_are_refused(poses: Path) -> None:
     inspection = inspect_log(poses / "tool.toml")
     (row,) = inspection.clocks
     assert (row.stream, row.to, row.estimated, row.delay_s, row.drift) == ("again", "wrench", True, None, None)
-    assert "show nothing in common" in (row.untold or "")
+    assert "show nothing in common" in (row.undetermined or "")
     assert "untold_clock" in [finding.kind for finding in inspection.findings]
     assert set(inspection.streams) == {"pose", "wrench", "again"}
 

@@ -56,7 +56,7 @@ def fitted(arm: Path) -> Calibration:
 
 def _bias(run: SensorRun, calibration: Calibration) -> dict[str, FloatArray]:
     rows = evaluate(run, {NAME: calibration}).verdicts
-    return {row.candidate: row.bias for row in rows if row.offset == "fitted"}
+    return {row.calibration: row.bias for row in rows if row.offset == "fitted"}
 
 
 def test_the_offset_of_the_session_is_used_and_of_no_other(arm: Path, fitted: Calibration) -> None:
@@ -103,7 +103,9 @@ def test_every_question_reads_the_session(arm: Path, fitted: Calibration) -> Non
     assert np.array_equal(stepped[~inside], plain[~inside], equal_nan=True)
     forces = [
         next(
-            row for row in contact_forces(run, {NAME: one}).verdicts if (row.candidate, row.offset) == (NAME, "fitted")
+            row
+            for row in contact_forces(run, {NAME: one}).verdicts
+            if (row.calibration, row.offset) == (NAME, "fitted")
         )
         for one in (fitted, shifted)
     ]

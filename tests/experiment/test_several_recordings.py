@@ -49,12 +49,12 @@ def test_errors_are_pooled_before_they_are_averaged(recorded: Path, fitted: Cali
     """The pooled root mean square is that of all samples, not the mean of those of the days, which differ in length."""
     errors = _errors(recorded, fitted)
     evaluation = evaluate(two_days(recorded), {NAME: fitted})
-    (pooled,) = [row for row in evaluation.verdicts if (row.candidate, row.offset) == (NAME, Offset.FITTED)]
+    (pooled,) = [row for row in evaluation.verdicts if (row.calibration, row.offset) == (NAME, Offset.FITTED)]
     every = np.concatenate(list(errors.values()))
     assert pooled.samples == len(every)
     assert np.allclose(pooled.rmse, np.sqrt((every**2).mean(axis=0)), rtol=0.0, atol=ROUNDING)
     assert pooled.force_error_mean_N == pytest.approx(np.linalg.norm(every[:, :3], axis=1).mean(), abs=ROUNDING)
-    apart = [row for row in evaluation.recordings if (row.candidate, row.offset) == (NAME, Offset.FITTED)]
+    apart = [row for row in evaluation.recordings if (row.calibration, row.offset) == (NAME, Offset.FITTED)]
     assert [row.recording for row in apart] == list(errors)
     for row in apart:
         assert np.allclose(row.rmse, np.sqrt((errors[row.recording] ** 2).mean(axis=0)), rtol=0.0, atol=ROUNDING)
@@ -79,7 +79,7 @@ def test_each_recording_has_the_errors_that_it_has_alone(recorded: Path, fitted:
         alone = evaluate(run, {NAME: fitted})
         assert alone.recordings == ()
         apart = [row for row in evaluation.recordings if row.recording == run.experiment.name]
-        assert [(row.candidate, row.offset) for row in apart] == [(r.candidate, r.offset) for r in alone.verdicts]
+        assert [(row.calibration, row.offset) for row in apart] == [(r.calibration, r.offset) for r in alone.verdicts]
         for row, same in zip(apart, alone.verdicts, strict=True):
             assert np.array_equal(row.rmse, same.rmse)
             assert row.force_error_standard_error_N == same.force_error_standard_error_N
@@ -96,13 +96,13 @@ def test_calibrations_are_compared_with_their_priors_over_all_recordings(recorde
     assert [(row.quantity, row.offset) for row in pooled] == [(row.quantity, row.offset) for row in days[0]]
     for row, *apart in zip(pooled, *days, strict=True):
         assert row.samples == sum(day.samples for day in apart)
-        assert row.stretches == sum(day.stretches for day in apart)
-        log = np.average(np.log([day.ratio for day in apart]), weights=[day.stretches for day in apart])
+        assert row.segments == sum(day.segments for day in apart)
+        log = np.average(np.log([day.ratio for day in apart]), weights=[day.segments for day in apart])
         assert np.log(row.ratio) == pytest.approx(log, abs=ROUNDING)
     for best in validate(two_days(recorded), {NAME: fitted}).best:
         (row,) = best.comparisons
-        assert (best.best, row.judgement) == (NAME, "better")
-        assert row.stretches > 2
+        assert (best.best, row.conclusion) == (NAME, "better")
+        assert row.segments > 2
 
 
 def test_contact_forces_and_torques_are_pooled(recorded: Path, fitted: Calibration) -> None:
@@ -110,16 +110,16 @@ def test_contact_forces_and_torques_are_pooled(recorded: Path, fitted: Calibrati
     validation = validate(two_days(recorded), {NAME: fitted})
     assert len(validation.recordings) == 2 * len(validation.contact_forces)
     for row in validation.contact_forces:
-        days = [r for r in validation.recordings if (r.candidate, r.offset) == (row.candidate, row.offset)]
+        days = [r for r in validation.recordings if (r.calibration, r.offset) == (row.calibration, row.offset)]
         assert row.samples == sum(r.samples for r in days)
         mean = np.average([r.force_mean_N for r in days], weights=[r.samples for r in days])
         assert row.force_mean_N == pytest.approx(mean, abs=ROUNDING)
     assert validation.joint_torques
     assert len(validation.recording_torques) == 2 * len(validation.joint_torques)
     for torque in validation.joint_torques:
-        key = (torque.candidate, torque.offset, torque.joint)
+        key = (torque.calibration, torque.offset, torque.joint)
         squares = [
-            (r.samples, r.rmse**2) for r in validation.recording_torques if (r.candidate, r.offset, r.joint) == key
+            (r.samples, r.rmse**2) for r in validation.recording_torques if (r.calibration, r.offset, r.joint) == key
         ]
         counts, values = zip(*squares, strict=True)
         assert torque.rmse == pytest.approx(np.sqrt(np.average(values, weights=counts)), abs=ROUNDING)
@@ -138,8 +138,8 @@ def test_errors_are_accepted_together_and_recordings_by_the_worst(recorded: Path
     """A mean that holds over both days is accepted though one of them exceeds it; a share of lost samples is not."""
     evaluation = evaluate(two_days(recorded), {NAME: fitted})
     key = (NAME, Offset.FITTED)
-    apart = [row.force_error_mean_N for row in evaluation.recordings if (row.candidate, row.offset) == key]
-    (pooled,) = [row.force_error_mean_N for row in evaluation.verdicts if (row.candidate, row.offset) == key]
+    apart = [row.force_error_mean_N for row in evaluation.recordings if (row.calibration, row.offset) == key]
+    (pooled,) = [row.force_error_mean_N for row in evaluation.verdicts if (row.calibration, row.offset) == key]
     assert min(apart) < pooled < max(apart)
     limit = 0.5 * (pooled + max(apart))
     spec = _limits(

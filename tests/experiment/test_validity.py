@@ -23,7 +23,7 @@ from forcetorque.experiment.calibration.artefact import Calibration, read_calibr
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.validity import ReadingsOutside, sentences
+from forcetorque.experiment.validity import SamplesOutside, sentences
 from forcetorque.recording.recording import Use
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.report.assessment import assess
@@ -63,7 +63,7 @@ def whole(arm: Path) -> Calibration:
     return calibration.model_copy(update={"provenance": other})
 
 
-def _row(folder: Path, calibration: Calibration) -> tuple[ReadingsOutside, tuple[str, ...]]:
+def _row(folder: Path, calibration: Calibration) -> tuple[SamplesOutside, tuple[str, ...]]:
     result = evaluate(SensorRun(load_experiment(folder / PARQUET), "arm_ft"), {NAME: calibration})
     (row,) = result.validity
     return row, result.warnings
@@ -143,7 +143,7 @@ def test_estimates_have_a_flag_per_sample(arm: Path) -> None:
             (row,) = summary.validity
             flags = table.column("outside.arm_ft").to_pylist()
             assert set(flags) == {True, False}
-            assert (flags.count(True), len(flags)) == (row.outside, row.readings)
+            assert (flags.count(True), len(flags)) == (row.outside, row.samples)
             judged = [flag for flag, label in zip(flags, table.column("interval").to_pylist(), strict=True) if flag]
             assert len(judged) == flags.count(True)
             assert summary.warnings == row.sentences
@@ -185,4 +185,4 @@ def test_files_of_earlier_versions_are_read_and_judged_by_their_channels(arm: Pa
     file.write_text(json.dumps(content), encoding="utf-8")
     older = read_calibration(file)
     row, _ = _row(arm, older)
-    assert 0 < row.outside < row.readings
+    assert 0 < row.outside < row.samples

@@ -88,7 +88,7 @@ def test_a_verdict_takes_the_temperature_of_the_judged_samples(
     """The exact calibration leaves nothing on data that was not fitted; prior and plain calibration leave newtons."""
     experiment = load_experiment(with_variables(warm_log / PARQUET, place))
     verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": with_temperature}).verdicts
-    errors = {(v.candidate, v.offset): v for v in verdicts}
+    errors = {(v.calibration, v.offset): v for v in verdicts}
     assert list(errors) == [(c, o) for c in ("prior", "new") for o in ("fitted", "judged-mean")]
     for offset in ("fitted", "judged-mean"):
         assert errors["new", offset].rmse.max() < NOTHING < 0.1 < errors["prior", offset].rmse.max()
@@ -106,15 +106,15 @@ def test_a_verdict_does_not_depend_on_who_is_judged_beside(
     alone = {}
     for name, one in {"warm": with_temperature, "plain": without}.items():
         verdicts = evaluate(SensorRun(experiment, sensor), {name: one.model_copy(update={"prior": None})}).verdicts
-        alone |= {(v.candidate, v.offset): v.rmse for v in verdicts}
+        alone |= {(v.calibration, v.offset): v.rmse for v in verdicts}
     tried = 0
     for order in (("warm", "plain"), ("plain", "warm")):
         given = {name: {"warm": with_temperature, "plain": without}[name] for name in order}
         verdicts = evaluate(SensorRun(experiment, sensor), given).verdicts
         assert len({v.samples for v in verdicts}) == 1
         for verdict in verdicts:
-            if not verdict.candidate.startswith("prior"):
-                np.testing.assert_array_equal(verdict.rmse, alone[verdict.candidate, verdict.offset])
+            if not verdict.calibration.startswith("prior"):
+                np.testing.assert_array_equal(verdict.rmse, alone[verdict.calibration, verdict.offset])
                 tried += 1
     assert tried == 8
 
@@ -134,7 +134,7 @@ def test_samples_without_a_temperature_are_judged_for_nobody(
     seconds = seconds_of(experiment.recording, stream.stamp_ns)
     assert {v.samples for v in plain} == {np.count_nonzero(inside)}
     assert {v.samples for v in both} == {np.count_nonzero(inside & ((seconds <= 15.0) | (seconds >= 19.0)))}
-    assert max(v.rmse.max() for v in both if v.candidate == "warm") < NOTHING
+    assert max(v.rmse.max() for v in both if v.calibration == "warm") < NOTHING
 
 
 @PLACES
@@ -198,7 +198,7 @@ def test_a_calibrated_stream_is_corrected_with_its_temperature(warm_log: Path) -
     assert experiment.sensors[0].quantity == "wrench"
     made = _fitted(experiment)
     verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": made}).verdicts
-    assert max(v.rmse.max() for v in verdicts if v.candidate == "new") < NOTHING
+    assert max(v.rmse.max() for v in verdicts if v.calibration == "new") < NOTHING
     spans = estimate_experiment(experiment, corrections_of(experiment, {"new": made}))
     assert max(np.abs(span.estimates.contact("arm_ft")).max() for span in spans) < NOTHING
 

@@ -27,7 +27,7 @@ def test_phases_samples_and_a_figure(feet: Path, run: Run) -> None:
     assert shown.code == 0
     result = shown.result()
     assert faults(result, run("schema", "balance").result()) == []
-    assert [(row["phase"], row["stretches"]) for row in result["phases"]] == [("l_sole + r_sole", 2), ("l_sole", 1)]
+    assert [(row["phase"], row["intervals"]) for row in result["phases"]] == [("l_sole + r_sole", 2), ("l_sole", 1)]
     assert all(abs(row["from_weight_N"]) < 1.0 for row in result["phases"])
     assert "centre of pressure and zero moment point: only the vertical forces" in shown.err
     table = pq.read_table("samples.parquet")

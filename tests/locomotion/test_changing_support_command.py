@@ -78,12 +78,12 @@ def test_one_sensor_is_calibrated_and_judged_over_its_known_phases(inside: Path,
     left = np.array(calibration.matrix) @ np.linalg.inv(truth["matrix"]) - np.eye(6)
     assert np.abs(left[:, 2]).max() < 0.3 * np.abs(np.array(truth["matrix_error"])[:, 2]).max()
     result = run("evaluate", "switching_day2.toml", "-c", fitted, "--format", "json").result()
-    errors = {(row["candidate"], row["offset"]): row["force_error_mean_N"] for row in result["verdicts"]}
+    errors = {(row["calibration"], row["offset"]): row["force_error_mean_N"] for row in result["verdicts"]}
     assert errors[str(fitted), "judged-mean"] < 0.2 * errors["prior", "judged-mean"]
     accepted = run("accept", "switching_day2.toml", "--spec", "limits.toml", "-c", fitted, "--format", "json")
     criteria = json.loads(accepted.out)["criteria"]
     assert all(row["passed"] for row in criteria if not row["criterion"].startswith("verdict."))
-    forbidden = any(use["decision"] == "do not use" for use in result["uses"])
+    forbidden = any(use["decision"] == "do not use" for use in result["load_cases"])
     assert (accepted.code, len([row for row in criteria if not row["passed"]])) == (int(forbidden), int(forbidden))
     rows = run("study", "validate", "switching_day2.toml", "-c", fitted, "--format", "json").result()
     assert "l_leg_ft" in json.dumps(rows)
@@ -93,14 +93,14 @@ def test_one_sensor_is_calibrated_and_judged_over_its_known_phases(inside: Path,
 def test_both_feet_down_without_touched_are_refused_by_name(inside: Path, tmp_path: Path, run: Run) -> None:
     """Where the other foot is a contact beside a support at rest, a fit that cannot be says what may have touched."""
     text = (inside / "switching_day1.toml").read_text(encoding="utf-8")
-    text = text.replace('touched = ["l_sole", "r_sole"]', 'support = "l_sole"')
+    text = text.replace('contact_links = ["l_sole", "r_sole"]', 'support = "l_sole"')
     labels = ", ".join(f'"{label}"' for label in DOUBLE)
     stated = inside / "stated.toml"
     stated.write_text(f'{text}\n[[contact]]\nframe = "r_sole"\nintervals = [{labels}]\n', encoding="utf-8")
     refused = run("calibrate", stated, "--sensor", "l_leg_ft", "-o", tmp_path / "leg.json")
     assert refused.code == 2
     assert "by [[contact]] r_sole may touch the robot beyond the sensor in 'double_1', 'double_2'" in refused.err
-    assert "name all links that touched in touched of [[interval]], with an IMU" in refused.err
+    assert "name all links that touched in contact_links of [[interval]], with an IMU" in refused.err
     assert not (tmp_path / "leg.json").exists()
 
 

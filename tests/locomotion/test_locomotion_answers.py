@@ -54,7 +54,7 @@ def test_the_candidate_with_least_error_comes_first() -> None:
     """One without evidence comes last, and asks for attention."""
     summary = [
         CoherenceSummary(
-            candidate=name,
+            calibration=name,
             offset=Offset.FITTED,
             offset_interval=None,
             phases=0 if mean is None else 2,

@@ -41,7 +41,7 @@ def test_a_clean_recording_has_no_findings(arm: Path, run: Run, what: str) -> No
     """The simulated arm has nothing to report, by its experiment and by its folder."""
     result = run("inspect", arm / what, "--format", "json").result()
     assert result["findings"] == []
-    assert result["schema"] == "forcetorque/inspect/2"
+    assert result["schema"] == "forcetorque/inspect/3"
     joints = result["streams"]["joints"]
     assert joints["samples"] > 1000
     assert joints["rate_hz"] == pytest.approx(RATE_HZ, rel=0.01)

@@ -82,7 +82,7 @@ def test_a_hundred_poses_drift_and_jump(axia: dict[str, SensorRun]) -> None:
     assert weighed.drift.plain_mass_without_kg[0] == pytest.approx(1.239, abs=0.001)
     assert weighed.drift.plain_mass_with_kg[0] == pytest.approx(1.180, abs=0.001)
     assert _names(weighed) == ["jump"]
-    assert "the bias jumps in fz before 'poses 51'" in weighed.hypotheses[0].words
+    assert "the bias jumps in fz before 'poses 51'" in weighed.hypotheses[0].description
 
 
 @pytest.mark.real_data
@@ -111,7 +111,7 @@ def test_recordings_that_disagree_are_named(axia: dict[str, SensorRun]) -> None:
     assert "rows disagree" in " ".join(weighed.warnings)
     alone = weigh_load(axia["run"])
     assert "lag" in _names(alone)
-    assert "about 0.5 s behind the motion" in " ".join(one.words for one in alone.hypotheses)
+    assert "about 0.5 s behind the motion" in " ".join(one.description for one in alone.hypotheses)
     assert alone.drift.plain_mass_without_kg[0] == pytest.approx(1.155, abs=0.001)
 
 
@@ -144,6 +144,8 @@ def test_a_contact_is_told_from_free_runs(data_dir: Path, tmp_path: Path) -> Non
     path = tmp_path / "runs.toml"
     path.write_text(text)
     weighed = weigh_load(load_experiment(path)["wrist"])
-    assert {row.interval: row.touched for row in weighed.judged} == dict(zip(names, [False, False, True], strict=True))
-    assert weighed.judged[2].largest_force_N > 5.0 * weighed.judged[1].largest_force_N
+    assert {row.interval: row.contact for row in weighed.validation} == dict(
+        zip(names, [False, False, True], strict=True)
+    )
+    assert weighed.validation[2].largest_force_N > 5.0 * weighed.validation[1].largest_force_N
     assert any("'3-vibrations-contact'" in words and "something touches it" in words for words in weighed.warnings)

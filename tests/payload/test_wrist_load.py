@@ -125,7 +125,7 @@ def _answer(weighed: WeighedLoad, **changes: Any) -> Answer:
 def test_a_load_that_samples_agree_on_may_be_written(tmp_path: Path) -> None:
     """Two samples of forty, 5 %, may disagree; the third makes the load uncertain."""
     weighed = _weighed(_write(tmp_path))
-    row = OutlierRow(row="poses 21", session="", weight=0.01, residual=np.zeros(6))
+    row = OutlierRow(observation="poses 21", session="", weight=0.01, residual=np.zeros(6))
     for count in (0, 2):
         answer = _answer(weighed, disagreeing=(row,) * count)
         assert answer.concern is Concern.NONE
@@ -224,7 +224,7 @@ def test_a_load_that_is_not_determined_does_not_stop_who_does_not_need_it(tmp_pa
     assert "turn the sensor about two level axes" in finding.message
     weighed = weigh_load(SensorRun(experiment, experiment.sensors[0]))
     assert weighed.loads[0].mass_kg is None
-    assert any("are told only together" in words for words in weighed.open)
+    assert any("are told only together" in words for words in weighed.undetermined)
     with pytest.raises(ExperimentError, match=r"load 'load': the calibration intervals do not determine it"):
         calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created="now")
 
@@ -237,7 +237,7 @@ def test_samples_that_lack_something_are_left_out_and_counted(tmp_path: Path) ->
     (tmp_path / "poses.csv").write_text("\n".join(lines) + "\n")
     experiment = load_experiment(path)
     weighed = weigh_load(SensorRun(experiment, experiment.sensors[0]))
-    assert (weighed.rows, weighed.left_out) == (38, 2)
+    assert (weighed.observations, weighed.left_out) == (38, 2)
     assert any(words.startswith("2 sample(s) lack") for words in weighed.warnings)
     assert weighed.loads[0].mass_kg == pytest.approx(MASS, abs=0.01)
 
@@ -313,7 +313,7 @@ frame = "tool"
     experiment = load_experiment(path)
     run = SensorRun(experiment, experiment.sensors[0])
     calibration = calibrate_sensor(run, code_version="1", created="now")
-    verdicts = {(v.candidate, v.offset): v for v in evaluate(run, {"new": calibration}).verdicts}
+    verdicts = {(v.calibration, v.offset): v for v in evaluate(run, {"new": calibration}).verdicts}
     assert verdicts["new", "fitted"].force_error_mean_N < 0.5 * verdicts["prior", "fitted"].force_error_mean_N
     with pytest.raises(ExperimentError, match="there is nothing to weigh"):
         weigh_load(run)
@@ -341,7 +341,7 @@ def test_a_distorted_wrist_sensor_is_mended_by_a_known_load(tmp_path: Path) -> N
     sensor = experiment.sensors[0]
     calibration = calibrate_sensor(SensorRun(experiment, sensor), code_version="1", created="now")
     verdicts = {
-        (v.candidate, v.offset): v for v in evaluate(SensorRun(experiment, sensor), {"new": calibration}).verdicts
+        (v.calibration, v.offset): v for v in evaluate(SensorRun(experiment, sensor), {"new": calibration}).verdicts
     }
     assert verdicts["new", "fitted"].force_error_mean_N < 0.5 * verdicts["prior", "fitted"].force_error_mean_N
 
@@ -435,7 +435,7 @@ def test_columns_of_tables_are_variables(tmp_path: Path) -> None:
         assert (np.abs(variable.coefficients + truth) < noise).all()
         assert not (np.abs(variable.coefficients - truth) < noise).any()
     errors = evaluate(SensorRun(experiment, sensor), {"new": made}).verdicts
-    by_key = {(v.candidate, v.offset): v for v in errors}
+    by_key = {(v.calibration, v.offset): v for v in errors}
     assert (
         by_key["new", "fitted"].force_error_mean_N
         < 2.0 * NOISE[0]

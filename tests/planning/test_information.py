@@ -45,7 +45,7 @@ def _written_out(before: Posterior, loads: PlannedLoads, row: int) -> FloatArray
     design = np.column_stack([loads.columns, np.ones(len(time))])
     information = design.T @ np.linalg.solve(noise.white**2 * (np.eye(len(time)) + slow), design)
     prior = before.covariance[row, :7, :7].copy()
-    prior[:6, :6] = before.learnt_covariance[row]
+    prior[:6, :6] = before.mean_covariance[row]
     information[:7, :7] += np.linalg.inv(prior)
     size = np.sqrt(np.diag(information))
     return np.linalg.inv(information / np.outer(size, size)) / np.outer(size, size)
@@ -55,12 +55,12 @@ def test_a_lesson_teaches_what_the_covariance_written_out_says(before: Posterior
     """Matrix, temperature and offset, each with its covariance; repeatability is added about the mean load."""
     loads = _planned_loads(LOADS)
     after = Knowledge.of(before).updated(loads).posterior
-    repeated = before.covariance[:, :6, :6] - before.learnt_covariance
+    repeated = before.covariance[:, :6, :6] - before.mean_covariance
     mean = loads.wrench.mean(axis=0)
     turned = np.vstack([np.eye(6), np.zeros((1, 6)), -mean])
     for row in range(6):
         expected = _written_out(before, loads, row)
-        np.testing.assert_allclose(after.learnt_covariance[row], expected[:6, :6], rtol=1e-6, atol=1e-12)
+        np.testing.assert_allclose(after.mean_covariance[row], expected[:6, :6], rtol=1e-6, atol=1e-12)
         expected = expected + turned @ repeated[row] @ turned.T
         size = np.sqrt(np.diag(expected))
         np.testing.assert_allclose(
@@ -76,19 +76,17 @@ def test_two_lessons_in_one_order_or_the_other(before: Posterior, with_terms: bo
     start = replace(Knowledge.of(before, nuisance=nuisance), centre=np.zeros(6))
     first, second = _planned_loads(LOADS[:25]), _planned_loads(LOADS[25:])
     one, other = start.updated(first).updated(second), start.updated(second).updated(first)
-    np.testing.assert_allclose(
-        one.posterior.learnt_covariance, other.posterior.learnt_covariance, rtol=1e-6, atol=1e-13
-    )
+    np.testing.assert_allclose(one.posterior.mean_covariance, other.posterior.mean_covariance, rtol=1e-6, atol=1e-13)
     np.testing.assert_allclose(one.posterior.load_centre, LOADS.mean(axis=0))
-    plain = Knowledge.of(before).updated(first).updated(second).posterior.learnt_covariance
-    less = np.einsum("kii->ki", one.posterior.learnt_covariance) >= np.einsum("kii->ki", plain) * (1.0 - 1e-6)
+    plain = Knowledge.of(before).updated(first).updated(second).posterior.mean_covariance
+    less = np.einsum("kii->ki", one.posterior.mean_covariance) >= np.einsum("kii->ki", plain) * (1.0 - 1e-6)
     assert less.all()
 
 
 def test_postures_all_alike_teach_nothing_of_the_matrix(before: Posterior) -> None:
     """Negative control: one load for as long as one likes is an offset; loads that differ narrow what is known."""
     alike = Knowledge.of(before).updated(_planned_loads(np.tile(LOADS[0], (40, 1)), warmer=0.0)).posterior
-    np.testing.assert_allclose(alike.learnt_covariance, before.learnt_covariance, rtol=1e-9)
+    np.testing.assert_allclose(alike.mean_covariance, before.mean_covariance, rtol=1e-9)
     error, told = (
         predict_from_posterior(alike, CASE),
         predict_from_posterior(Knowledge.of(before).updated(_planned_loads(LOADS)).posterior, CASE),

@@ -25,7 +25,7 @@ from forcetorque.calibration.figures.information import learnt_figure
 from forcetorque.calibration.figures.joint import joint_figure
 from forcetorque.calibration.figures.lambda_curves import held_out_figure, lambda_difference_figure
 from forcetorque.calibration.joint.robust_fit import PartResidual
-from forcetorque.calibration.summary import LearntDirection
+from forcetorque.calibration.summary import InformationGain
 from forcetorque.contests.figure import contest_figure
 from forcetorque.contests.ranking import ContestLoadRow
 from forcetorque.device.demand_result import GradeRow
@@ -36,7 +36,7 @@ from forcetorque.estimation.figures import contact_figure, torque_figure
 from forcetorque.evaluation.figures.errors_and_matrices import comparison_figure, difference_figure, residual_figure
 from forcetorque.evaluation.figures.load_cases import use_figure
 from forcetorque.evaluation.figures.sphere import force_space_figure, index_figure, sphere_figure
-from forcetorque.evaluation.load_cases.verdict import LoadCaseError, Reason, UseVerdict
+from forcetorque.evaluation.load_cases.verdict import LoadCaseError, LoadCaseVerdict, Reason
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, analyse_sphere
 from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials
 from forcetorque.experiment.validation_offset import Offset
@@ -104,7 +104,7 @@ def _balance(rng: np.random.Generator) -> Figure:
             weight_N=300.0,
             forces=forces,
             net_N=np.full(400, 300.0),
-            phases=support_phases(forces, time_s, ContactThresholds(touch_N=45.0, release_N=18.0)),
+            phases=support_phases(forces, time_s, ContactThresholds(contact_threshold_N=45.0, release_N=18.0)),
             feet=tuple(feet),
             robot=RobotBalance(frame="l_sole", pressure=feet[0].pressure),
         )
@@ -186,10 +186,10 @@ def sphere_of(
     return SensorSphere(
         sensor="leg_ft",
         serial="SN1",
-        candidate=candidate,
+        calibration=candidate,
         intervals=("grid",),
         fitted_on=(),
-        no_reference="no joints" if reference is None else None,
+        no_model="no joints" if reference is None else None,
         force=force,
         reference=reference,
         analysis=analyse_sphere(wrench, expected, gravity=9.81, mass=mass),
@@ -200,7 +200,7 @@ def _sphere(rng: np.random.Generator) -> Figure:
     directions = rng.normal(size=(500, 3))
     reference = 46.0 * directions / np.linalg.norm(directions, axis=1, keepdims=True)
     force = reference @ (np.eye(3) + 0.2 * rng.normal(size=(3, 3))) + rng.normal(size=3) + rng.normal(size=(500, 3))
-    return sphere_figure([sphere_of(force, reference), sphere_of(force[:40], None, candidate="new.json", mass=4.7)])
+    return sphere_figure([sphere_of(force, reference), sphere_of(force[:40], None, calibration="new.json", mass=4.7)])
 
 
 def _residual(rng: np.random.Generator) -> Figure:
@@ -221,16 +221,16 @@ def _excitation(rng: np.random.Generator) -> Figure:
     return excitation_figure(*excitation_of_sensors(rng, 6, 12))
 
 
-def learnt_of(rng: np.random.Generator) -> tuple[LearntDirection, ...]:
+def learnt_of(rng: np.random.Generator) -> tuple[InformationGain, ...]:
     """What some recordings taught of every direction: more of some, less of others."""
     return tuple(
-        LearntDirection(
+        InformationGain(
             direction=name,
             force_error_before_N=before,
             force_error_after_N=before * (1.05 - share),
             moment_error_before_Nm=0.05 * before,
             moment_error_after_Nm=0.05 * before * (1.05 - share),
-            learnt=share,
+            uncertainty_reduction=share,
         )
         for name, before, share in zip(WRENCH_COMPONENTS, rng.uniform(0.03, 0.06, 6), rng.uniform(0, 1, 6), strict=True)
     )
@@ -241,7 +241,7 @@ def _joint(rng: np.random.Generator) -> Figure:
     return joint_figure(
         [
             PartResidual(
-                part=part,
+                sub_model=part,
                 label=label,
                 recording="sway",
                 session="day 1",
@@ -345,7 +345,7 @@ def use_of(
     measured: float | None = None,
     reasons: tuple[Reason, ...] = (),
     **changed: Any,
-) -> UseVerdict:
+) -> LoadCaseVerdict:
     """A verdict whose force error has this median; moment errors are a hundredth of it, intervals half to double."""
 
     def error(quantity: Any, unit: Any, scale: float) -> LoadCaseError:
@@ -373,15 +373,15 @@ def use_of(
     enough = allowed is None or 2.0 * force <= allowed
     values: dict[str, Any] = {
         "decision": "use" if enough else "do not use",
-        "sentence": f"{'use' if enough else 'do not use'} for a push of 100 N: it errs by some {force:g} N",
+        "message": f"{'use' if enough else 'do not use'} for a push of 100 N: it errs by some {force:g} N",
         "within": 0.99 if enough else 0.01,
-        "stated": True,
+        "specified": True,
         "offset": "fitted",
     }
-    return UseVerdict(
+    return LoadCaseVerdict(
         sensor="leg_ft",
         serial="SN1",
-        candidate=candidate,
+        calibration=candidate,
         load_case=load_case,
         loads="a push of 100 N",
         reasons=reasons,
@@ -409,7 +409,7 @@ def _held_out(rng: np.random.Generator) -> Figure:
 
 
 def trial_groups(
-    rng: np.random.Generator, *, sensors: int, trials: int = 3, caps: int = 0, with_reference: bool = True
+    rng: np.random.Generator, *, sensors: int, trials: int = 3, caps: int = 0, with_model: bool = True
 ) -> list[TrialGroup]:
     """Groups of trials of sensors, the last of which covered a small part of the sphere only."""
     spheres = []
@@ -421,7 +421,7 @@ def trial_groups(
                 directions = 0.1 * directions + [0.0, 0.0, 1.0]
             reference = 46.0 * directions / np.linalg.norm(directions, axis=1, keepdims=True)
             force = reference @ matrix.T + 5.0 * rng.normal(size=3) + 0.5 * rng.normal(size=(300, 3))
-            sphere = replace(sphere_of(force, reference if with_reference else None, mass=4.7), serial=f"SN{k}")
+            sphere = replace(sphere_of(force, reference if with_model else None, mass=4.7), serial=f"SN{k}")
             spheres.append(
                 TrialSphere(file="a.toml", experiment="a", condition=None, number=None, prior=None, sphere=sphere)
             )
@@ -433,8 +433,8 @@ def _coherence(rng: np.random.Generator) -> Figure:
     rows = tuple(
         PhaseForce(
             phase=phase,
-            touching=("l_sole",),
-            candidate=candidate,
+            contact_links=("l_sole",),
+            calibration=candidate,
             offset=offset,
             offset_interval=interval,
             samples=100,
@@ -486,8 +486,8 @@ def _reference_error(rng: np.random.Generator) -> Figure:
                 plus_minus=round(float(0.5 * width), 4),
                 unit="m/s2" if k % 2 else "deg",
                 rms=width * np.array([1.0, 1.1, 1.2, 0.2, 0.2, 0.1]),
-                one_force_N=2.0 * float(width),
-                one_moment_Nm=0.5 * float(width),
+                single_force_N=2.0 * float(width),
+                single_moment_Nm=0.5 * float(width),
                 largest=width * np.array([2.0, 2.1, 2.2, 0.6, 0.6, 0.4]),
                 largest_force_N=2.2 * float(width),
                 largest_moment_Nm=0.6 * float(width),
@@ -525,7 +525,7 @@ def _response(rng: np.random.Generator) -> Figure:
         DecayCurve(
             title=f"_taps $of$ {'x' * 40}, {k}.00 s",
             time_s=time,
-            reading=fitted + 0.02 * rng.normal(size=300),
+            measurement=fitted + 0.02 * rng.normal(size=300),
             fitted=fitted,
         )
         for k in range(5)
@@ -547,7 +547,7 @@ def _response(rng: np.random.Generator) -> Figure:
         Response(
             sensor="_left $wrist$ " + "x" * 70,
             serial="FT1",
-            reading="the logged wrench",
+            wrench_source="the logged wrench",
             excitation=ExcitationKind.IMPACT,
             signal="fz",
             force="hammer",
@@ -646,7 +646,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "excitation": _excitation,
     "held out": _held_out,
     "joint": _joint,
-    "learnt": _learnt,
+    "information_gain": _learnt,
     "reference error": _reference_error,
     "skin event": _skin_event,
     "skin_wrench": _skin_wrench,

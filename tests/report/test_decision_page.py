@@ -62,7 +62,7 @@ def test_page_one_of_several_sensors_has_all_of_them() -> None:
         update={"sensor": "leg_ft", "serial": "SN1"}
     )
     bad = use_of("arm.json", force=8.0, reasons=(remedy,)).model_copy(update={"sensor": "arm_ft", "serial": "SN2"})
-    without = Undecided(sensor="foot_ft", serial="SN3", candidate=None, reason="no calibration was given")
+    without = Undecided(sensor="foot_ft", serial="SN3", calibration=None, reason="no calibration was given")
     steps = (NextSteps(sensor="leg_ft", serial="SN1", steps=("put it on the robot",)),)
     page = all_sensors_page([good, bad], [without], steps)
     assert _words(page.blocks) == ["1: arm_ft.", "1: leg_ft.", "1: foot_ft."]

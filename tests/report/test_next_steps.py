@@ -8,7 +8,7 @@ from typing import cast
 
 import numpy as np
 
-from forcetorque.evaluation.load_cases.verdict import Reason, UseVerdict
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, Reason
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.report.decision import Undecided, grouped_by_text, next_steps, texts_with_names
 from tests.report.drawing import use_of
@@ -18,8 +18,8 @@ KEY = ("leg_ft", "SN1")
 MOVE = Reason(against="data", text="the load hardly moved; evaluate it on data that move")
 
 
-def _steps(*uses: UseVerdict, undecided: tuple[Undecided, ...] = (), stands: bool = True) -> tuple[str, ...]:
-    names = dict.fromkeys(row.candidate for row in (*uses, *undecided) if row.candidate is not None)
+def _steps(*uses: LoadCaseVerdict, undecided: tuple[Undecided, ...] = (), stands: bool = True) -> tuple[str, ...]:
+    names = dict.fromkeys(row.calibration for row in (*uses, *undecided) if row.calibration is not None)
     calibrations = {name: make_calibration() for name in names}
     contents = {"plan": None, "load_case": (SimpleNamespace(name="push"),)}
     experiment = SimpleNamespace(stands=stands, section=lambda section: contents[section.key])
@@ -83,19 +83,19 @@ def test_the_same_step_for_several_is_said_once() -> None:
 
 def test_a_use_that_nobody_stated_is_to_be_stated() -> None:
     """And one that somebody stated is not."""
-    (_, step) = _steps(use_of(stated=False))
+    (_, step) = _steps(use_of(specified=False))
     assert step.startswith("Check that this is your use. The experiment file specifies none")
     assert "[[load_case]]" in step
-    assert len(_steps(use_of(stated=True))) == 1
+    assert len(_steps(use_of(specified=True))) == 1
 
 
 def test_where_there_is_no_verdict_the_reason_is_what_to_mend() -> None:
     """Of a calibration; of a sensor without any the command that makes one."""
-    seen = Undecided(sensor="leg_ft", serial="SN1", candidate="leg.json", reason="it was fitted on 'moving'")
+    seen = Undecided(sensor="leg_ft", serial="SN1", calibration="leg.json", reason="it was fitted on 'moving'")
     assert _steps(undecided=(seen,)) == (
         "Remove what prevents a verdict on leg.json, as listed above, and write this report again.",
     )
-    none = Undecided(sensor="leg_ft", serial="SN1", candidate=None, reason="no calibration was given")
+    none = Undecided(sensor="leg_ft", serial="SN1", calibration=None, reason="no calibration was given")
     (step,) = _steps(undecided=(none,))
     assert "`forcetorque calibrate walk.toml --sensor leg_ft -o leg_ft.json`" in step
 

@@ -100,7 +100,7 @@ def test_the_numbers_are_those_of_the_other_commands(result: Any, run: Run) -> N
     accepted = json.loads(run("accept", PARQUET, "--spec", "limits.toml", *same).out)
     assert (sensor["criteria"], sensor["static"]) == (accepted["criteria"], accepted["measured"])
     assert result["experiments"][0]["findings"] == run("inspect", PARQUET, "--format", "json").result()["findings"]
-    assert sensor["not_judged"] == {}
+    assert sensor["not_evaluated"] == {}
 
 
 def test_evaluate_and_validate_say_what_the_report_says(result: Any, run: Run) -> None:
@@ -110,8 +110,8 @@ def test_evaluate_and_validate_say_what_the_report_says(result: Any, run: Run) -
     assert len(sentences) == 2
     shown = " ".join(run("evaluate", PARQUET, "-c", "fitted.json", "--details").out.split())
     assert all(sentence in shown for sentence in sentences)
-    assert {row["judgement"] for row in sensor["comparisons"]} == {"better"}
-    assert {best["judgement"] for best in sensor["best"]} == {"better"}
+    assert {row["conclusion"] for row in sensor["comparisons"]} == {"better"}
+    assert {best["conclusion"] for best in sensor["best"]} == {"better"}
     shown = " ".join(run("study", "validate", PARQUET, "-c", "fitted.json", "--details").out.split())
     lines = [line for line in _words("report.html") if "best is fitted.json" in line]
     assert len(lines) == 2
@@ -121,11 +121,11 @@ def test_evaluate_and_validate_say_what_the_report_says(result: Any, run: Run) -
 @pytest.mark.usefixtures("blank_pictures")
 def test_the_decision_comes_first_and_says_what_the_numbers_say(result: Any, run: Run) -> None:
     """The word on the use, the figure and the steps, then all else, folded; the JSON has the same verdict and steps."""
-    (use,) = result["uses"]
+    (use,) = result["load_cases"]
     assert result["undecided"] == []
-    assert (use["sensor"], use["candidate"], use["stated"]) == ("arm_ft", "fitted.json", False)
+    assert (use["sensor"], use["calibration"], use["specified"]) == ("arm_ft", "fitted.json", False)
     lines = _words("report.html")
-    said = use["sentence"].removeprefix(use["decision"]).strip()
+    said = use["message"].removeprefix(use["decision"]).strip()
     (steps,) = result["next_steps"]
     first_step = steps["steps"][0].split("`")[0].strip()
     order = [
@@ -179,7 +179,7 @@ def test_the_document_holds_the_tables_and_pictures(result: Any) -> None:
         assert title in lines
     for title in ("Choice of lambda", "Excitation"):  # the generative model has neither
         assert title not in lines
-    assert sensor["learnt"]["fitted.json"][2]["direction"] == "fz"
+    assert sensor["information_gain"]["fitted.json"][2]["direction"] == "fz"
     for row in sensor["evaluation"]:
         assert all(f"{value:.3f}" in lines for value in row["rmse"])
     matrix = sensor["calibrations"]["fitted.json"]["matrix"]
@@ -205,10 +205,10 @@ def test_without_a_calibration_the_priors_are_shown(arm: Path, run: Run) -> None
     sensors = result["experiments"][0]["sensors"]
     assert [sensor["sensor"] for sensor in sensors] == ["arm_ft", "tool_ft"]
     for sensor in sensors:
-        assert {row["candidate"] for row in sensor["evaluation"]} == {"prior"}
+        assert {row["calibration"] for row in sensor["evaluation"]} == {"prior"}
         assert sensor["verdict"][0]["tone"] == "unknown"
         assert sensor["verdict"][0]["text"].endswith("no calibration was given to compare it with")
-    assert result["uses"] == []
+    assert result["load_cases"] == []
     assert [row["sensor"] for row in result["undecided"]] == ["arm_ft", "tool_ft"]
     assert "forcetorque calibrate two.toml --sensor arm_ft" in result["next_steps"][0]["steps"][0]
 
@@ -218,7 +218,7 @@ def test_what_cannot_be_judged_is_said_and_the_rest_is_shown(arm: Path, run: Run
     """No interval to judge on: no errors, but spheres, static checks and uncertainty."""
     edit(arm / PARQUET, 'use = "validation"', 'use = "ignore"')
     sensor = _sensor(run("report", PARQUET, "fitted.json", "-o", "report.html", "--format", "json").result())
-    assert sensor["not_judged"]
+    assert sensor["not_evaluated"]
     assert sensor["evaluation"] == []
     assert sensor["spheres"]
     assert sensor["static"]
@@ -237,14 +237,14 @@ def test_nothing_is_shown_of_a_calibration_on_data_that_it_was_fitted_on(arm: Pa
     words = (PARQUET, "fitted.json", "early.json", "-o", "report.html", "--format", "json")
     result = run("report", *words).result()
     sensor = _sensor(result)
-    assert [row["candidate"] for row in result["uses"]] == ["early.json"]
+    assert [row["calibration"] for row in result["load_cases"]] == ["early.json"]
     (unjudged,) = result["undecided"]
-    assert unjudged["candidate"] == "fitted.json"
+    assert unjudged["calibration"] == "fitted.json"
     assert "was fitted on the interval" in unjudged["reason"]
-    assert "was fitted on the interval" in sensor["not_judged"]["errors of fitted.json"]
+    assert "was fitted on the interval" in sensor["not_evaluated"]["errors of fitted.json"]
     for rows in ("evaluation", "contact_forces", "joint_torques", "comparisons", "independence"):
-        assert {row["candidate"] for row in sensor[rows]} <= {"prior", "early.json"}
-        assert "early.json" in {row["candidate"] for row in sensor[rows]}
+        assert {row["calibration"] for row in sensor[rows]} <= {"prior", "early.json"}
+        assert "early.json" in {row["calibration"] for row in sensor[rows]}
     flattered = [line for line in sensor["verdict"] if "which flatters: it was fitted on" in line["text"]]
     assert all(line["tone"] == "caution" for line in flattered)
 
@@ -256,7 +256,7 @@ def test_the_order_of_intervals_in_the_file_does_not_matter(arm: Path, run: Run)
     first = '\n[[interval]]\nlabel = "first"\nstart_s = 14.5\nend_s = 18.5'
     edit(arm / PARQUET, 'label = "judge"\nstart_s = 14.5\nend_s = 23.5', later + first)
     sensor = _sensor(run("report", PARQUET, "fitted.json", "-o", "report.html", "--format", "json").result())
-    assert sensor["not_judged"] == {}
+    assert sensor["not_evaluated"] == {}
     assert sensor["comparisons"]
 
 
@@ -267,11 +267,11 @@ def test_load_cases_of_the_acceptance_file_are_judged(arm: Path, run: Run) -> No
     Path("limits.toml").write_text(LIMITS + case.format("light", 2.0) + case.format("firm", 5.0), encoding="utf-8")
     words = (PARQUET, "fitted.json", "limits.toml", "-o", "report.html", "--format", "json")
     result = run("report", *words).result()
-    assert [(row["load_case"], row["stated"]) for row in result["uses"]] == [("light", True), ("firm", True)]
+    assert [(row["load_case"], row["specified"]) for row in result["load_cases"]] == [("light", True), ("firm", True)]
     assert not any("Check that this is your use" in step for step in result["next_steps"][0]["steps"])
     Path("limits.toml").write_text(LIMITS + case.format("giant", 1e6) + case.format("light", 2.0), encoding="utf-8")
     result = run("report", *words).result()
-    assert [row["load_case"] for row in result["uses"]] == ["light"]
+    assert [row["load_case"] for row in result["load_cases"]] == ["light"]
     (undecided,) = result["undecided"]
     assert "load case 'giant': reaches" in undecided["reason"]
     assert _sensor(result)["evaluation"]
@@ -282,12 +282,12 @@ def test_a_load_case_that_cannot_be_had_costs_no_errors(arm: Path, run: Run) -> 
     """Also where the experiment file states it: what is measured does not hang on what the sensor is for."""
     add(arm / PARQUET, '\n[[load_case]]\nname = "giant"\nforce_N = 1e6\nradius_m = 0.1\n')
     result = run("report", PARQUET, "fitted.json", "-o", "report.html", "--format", "json").result()
-    assert result["uses"] == []
+    assert result["load_cases"] == []
     assert ["load case 'giant': reaches" in row["reason"] for row in result["undecided"]] == [True]
     sensor = _sensor(result)
     assert sensor["evaluation"]
     assert sensor["comparisons"]
-    assert sensor["not_judged"] == {}
+    assert sensor["not_evaluated"] == {}
     assert "load case 'giant': reaches" in run("evaluate", PARQUET, "-c", "fitted.json").error()
 
 
@@ -411,7 +411,7 @@ def test_a_real_leg(data_dir: Path, run: Run, tmp_path: Path, monkeypatch: pytes
     # three times smaller in the mean, and yet: sixteen seconds of slow errors are worth a handful of samples
     force = next(row for row in sensor["comparisons"] if (row["offset"], row["quantity"]) == ("fitted", "force"))
     assert force["mean"] < 0.4 * force["prior_mean"]
-    assert (force["judgement"], force["ratio_low"]) == ("not told apart", None)
+    assert (force["conclusion"], force["ratio_low"]) == ("inconclusive", None)
     assert any("for fx, fy, fz, ty, tz the prior decides" in line["text"] for line in rest)
     assert any("independent samples" in line["text"] for line in rest)
     assert Path("leg.html").stat().st_size < NORMAL_BYTES

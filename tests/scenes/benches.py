@@ -34,7 +34,7 @@ angle_deg = 0.1
 position_mm = 0.5
 nonlinearity = 0.001
 
-[readings]
+[measurements]
 format = "blocks"
 files = "{serial}_output{{}}.dat"
 delimiter = " "

@@ -67,7 +67,7 @@ def make_calibration(
         validity=Validity(
             raw_minimum_counts=-3000.0 * np.arange(1, channels + 1),
             raw_maximum_counts=2000.0 * np.arange(1, channels + 1),
-            reference_deviation=np.ones(6),
+            expected_wrench_sd=np.ones(6),
             rank=channels,
             condition=12.0,
             directions=np.eye(channels),

@@ -25,8 +25,8 @@ MOTOR = SimulatedMotor(
     torque_constant=0.05, gear_ratio=100.0, coulomb=1.5, viscous=0.6, inertia=0.08, noise_a=0.02, offset_a=0.01
 )
 FUSION = "\n[fusion]\nmodel_deviation = 0.02\n"
-ERRORS = """reading_noise = [0.3, 0.3, 0.3, 0.01, 0.01, 0.01]
-reading_deviation = [0.5, 0.5, 0.5, 0.02, 0.02, 0.02]
+ERRORS = """measurement_noise = [0.3, 0.3, 0.3, 0.01, 0.01, 0.01]
+measurement_offset_sd = [0.5, 0.5, 0.5, 0.02, 0.02, 0.02]
 """
 
 

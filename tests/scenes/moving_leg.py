@@ -61,8 +61,8 @@ name = "knee_ft"
 stream = "knee_ft"
 serial = "F1"
 prior = "identity"
-reading_noise = {FT_NOISE.tolist()}
-reading_deviation = {FT_OFFSET.tolist()}
+measurement_noise = {FT_NOISE.tolist()}
+measurement_offset_sd = {FT_OFFSET.tolist()}
 """
 SKIN = """
 [[patch]]

@@ -33,7 +33,7 @@ noise_counts = 1.0
 offset_counts = 500.0
 power_up_counts = 60.0
 drift_counts_per_degC = 10.0
-mounting_spread = 0.05
+mounting_sd = 0.05
 [[recording]]
 name = "grid_cold"
 motion = { kind = "grid", sensor = "arm_ft", speed = 2.0, postures = 3 }

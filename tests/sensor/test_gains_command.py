@@ -44,7 +44,7 @@ def test_the_result_fits_its_schema(arm: Path, run: Run, form: str) -> None:
     schema = run("schema", "gains").result()
     result = run("bench", "gains", form, "--format", "json").result()
     assert faults(result, schema) == []
-    assert result["schema"] == "forcetorque/gains/1"
+    assert result["schema"] == "forcetorque/gains/2"
     edit(arm / form, SERIAL, SERIAL + GAINS)
     assert faults(run("bench", "gains", form, "--format", "json").result(), schema) == []
     assert faults({**result, "margin": "wide"}, schema) != []

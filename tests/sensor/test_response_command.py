@@ -25,7 +25,7 @@ def test_the_response_is_shown_and_drawn(taps: Path, run: Run) -> None:
     figure = taps.parent / "bode.png"
     words = ("bench", "response", taps, "--excitation", "impact", "--force", "log")
     result = run(*words, "--figure", figure, "--format", "json").result()
-    assert result["schema"] == "forcetorque/response/1"
+    assert result["schema"] == "forcetorque/response/2"
     assert len(result["inverse"]["numerator"]) == 3
     assert len(result["curve"]["coherence"]) == len(result["curve"]["frequency_hz"])
     assert figure.read_bytes().startswith(b"\x89PNG")

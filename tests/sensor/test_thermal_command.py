@@ -22,7 +22,7 @@ def test_drift_is_shown_and_drawn(chamber: Path, run: Run) -> None:
     """JSON has the numbers, the table the lines for an experiment file, and the figure is a PNG."""
     figure = chamber.parent / "drift.png"
     result = run("bench", "thermal", chamber, "--figure", figure, "--format", "json").result()
-    assert result["schema"] == "forcetorque/thermal/1"
+    assert result["schema"] == "forcetorque/thermal/2"
     (sensor,) = result["sensors"]
     assert "curve" not in sensor
     slopes = [row["drift_per_degC"] for row in sensor["components"]]

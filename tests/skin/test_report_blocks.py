@@ -61,7 +61,7 @@ def test_the_heuristic_is_told_apart(assessed: ExperimentAssessment) -> None:
     """Its row counts messages and contacts; words and captions say that it is no newtons."""
     (row,) = assessed.skin_events
     expected = round((EVENT_S[1] - EVENT_S[0]) * 50.0)
-    assert (row.stream, row.touched, row.contacts, row.most) == (EVENTS, expected, expected, 1)
+    assert (row.stream, row.messages_with_contact, row.contacts, row.most) == (EVENTS, expected, expected, 1)
     assert row.largest_heuristic == pytest.approx(float(np.linalg.norm(EVENT[4:7])))
     section = skin_section(assessed)
     assert "it is no newtons" in _texts(section)

@@ -63,7 +63,7 @@ def test_a_report_of_contacts_alone(run: Run, tmp_path: Path) -> None:
     result, page = _report(run, write_events(tmp_path))
     assert result["title"] == "Contacts on skin: touched arms"
     (experiment,) = result["experiments"]
-    assert [row["touched"] for row in experiment["skin_events"]] == [len(TOUCHED), 0]
+    assert [row["messages_with_contact"] for row in experiment["skin_events"]] == [len(TOUCHED), 0]
     assert "the heuristic is not newtons" in page
     assert "no sensor" not in page
     assert "2 patches in 1 recording" in page

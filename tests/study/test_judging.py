@@ -49,14 +49,14 @@ def _judge(models: Sequence[WrenchModel], sets: Sequence[ValidationSet], source:
 @BOTH
 def test_the_errors_are_those_of_the_samples_after_the_first_second(source: Offset) -> None:
     """All 351 candidates, over everything, over one day and over one set; other samples give other numbers."""
-    judgement, models = study().errors[source], study().models[:-1]
+    conclusion, models = study().errors[source], study().models[:-1]
     part = slice(None, None, 7)
     assert len(models[part]) == 51
-    assert judgement.count.sum() == sum(len(one.time_s) - 100 for one in JUDGED)
+    assert conclusion.count.sum() == sum(len(one.time_s) - 100 for one in JUDGED)
     parts = {
-        "all": (judgement.pooled(), JUDGED),
-        "day 1": (judgement.pooled(["day 1"]), JUDGED[:2]),
-        "days": (judgement.pooled(["day 2", "day 1"]), JUDGED),
+        "all": (conclusion.pooled(), JUDGED),
+        "day 1": (conclusion.pooled(["day 1"]), JUDGED[:2]),
+        "days": (conclusion.pooled(["day 2", "day 1"]), JUDGED),
     }
     for name, (pooled, sets) in parts.items():
         found = PooledErrors(
@@ -65,7 +65,7 @@ def test_the_errors_are_those_of_the_samples_after_the_first_second(source: Offs
             moment_mean=pooled.moment_mean[:-1][part],
         )
         assert _difference(found, _by_samples(models[part], sets, source)) < EXACT, name
-    assert _difference(judgement.pooled(["day 1"]), judgement.pooled()) > 1e-3
+    assert _difference(conclusion.pooled(["day 1"]), conclusion.pooled()) > 1e-3
 
 
 def test_a_study_of_much_work_is_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -183,7 +183,7 @@ def test_a_mixture_of_offsets_keeps_every_model_its_own() -> None:
 
 @BOTH
 def test_the_wrenches_of_figures_are_those_that_were_judged(source: Offset) -> None:
-    """`with_offset` gives all samples; those after the first second have the errors of the judgement."""
+    """`with_offset` gives all samples; those after the first second have the errors of the conclusion."""
     assert JUDGED
     for model in study().models[:351:70]:
         for one in JUDGED:

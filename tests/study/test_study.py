@@ -277,7 +277,7 @@ def test_every_calibration_can_be_evaluated(days: Path, made: SensorStudy) -> No
     """All give verdicts on a day that was not fitted, where the best beat the prior; a fitted day is refused."""
     experiment = load_experiment(days / VALIDATION[0])
     verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), made.calibrations).verdicts
-    force = {(row.candidate, row.offset): row.force_error_mean_N for row in verdicts}
+    force = {(row.calibration, row.offset): row.force_error_mean_N for row in verdicts}
     assert all((name, offset) in force for name in made.calibrations for offset in ("fitted", "judged-mean"))
     prior = min(value for (name, offset), value in force.items() if "prior" in name and offset == "judged-mean")
     for by in ("best", "best_by_axis"):

@@ -133,7 +133,7 @@ def test_from_a_scenario_to_a_calibration_that_is_better(
     assert sensor["modes"][0]["best"]["force_mean_N"] < 0.05 * sensor["workbench"]["force_mean_N"]
     best = FOLDER / "best_offset_first_second.json"
     verdicts = run("evaluate", files[-1], "-c", best, "--format", "json").result()["verdicts"]
-    errors = {(row["candidate"], row["offset"]): row["force_error_mean_N"] for row in verdicts}
+    errors = {(row["calibration"], row["offset"]): row["force_error_mean_N"] for row in verdicts}
     assert errors[str(best), "judged-mean"] < 0.05 * errors["prior", "judged-mean"]
 
 
@@ -278,7 +278,7 @@ def test_the_calibrations_can_be_evaluated(days: Path, studied_days: Path, run: 
     shutil.copytree(studied_days / "out", days / "out")
     options = [word for name in CALIBRATIONS for word in ("-c", FOLDER / name)]
     done = run("evaluate", VALIDATION[0], *options, "--format", "json")
-    judged = {row["candidate"] for row in done.result()["verdicts"]}
+    judged = {row["calibration"] for row in done.result()["verdicts"]}
     assert judged >= {str(FOLDER / name) for name in CALIBRATIONS}
     assert sum("was chosen among others on 'day_1' too" in line for line in done.log) == 4
     for name in CALIBRATIONS:

@@ -41,7 +41,7 @@ def test_a_view_says_what_is_shown_and_where() -> None:
 
 def _numbers(folder: Path, *experiments: dict[str, object]) -> Path:
     path = folder / "report.numbers.json"
-    path.write_text(json.dumps({"schema": "forcetorque/report/1", "experiments": experiments}), encoding="utf-8")
+    path.write_text(json.dumps({"schema": "forcetorque/report/2", "experiments": experiments}), encoding="utf-8")
     return path
 
 
@@ -62,5 +62,5 @@ def test_what_is_no_report_of_one_experiment_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ForceTorqueError, match=r"expected a report of one experiment, got a.toml, b.toml"):
         view_source(several)
     several.write_text('{"schema": "forcetorque/study/2"}', encoding="utf-8")
-    with pytest.raises(FormatError, match=r"expected the numbers of a report: schema: .*forcetorque/report/1"):
+    with pytest.raises(FormatError, match=r"expected the numbers of a report: schema: .*forcetorque/report/2"):
         view_source(several)

@@ -273,14 +273,14 @@ def _report(run: Run, **changes: object) -> Path:
     sensor = {
         key: []
         for key in ("verdict", "evaluation", "comparisons", "independence", "contact_forces", "best", "joint_torques")
-    } | {"spheres": [], "static": [], "criteria": [], "warnings": [], "not_judged": {}}
+    } | {"spheres": [], "static": [], "criteria": [], "warnings": [], "not_evaluated": {}}
     sensor |= {"sensor": "arm_ft", "serial": "SIM001", "calibrations": {"fitted.json": content}}
     experiment = {
         "experiment": "small arm", "file": PARQUET, "robot": "arm", "duration_s": 24.0, "streams": [], "intervals": [],
         "findings": [], "sensors": [sensor], "inputs_sha256": {},
     } | changes  # fmt: skip
     report = {
-        "schema": "forcetorque/report/1", "title": "t", "created": "2020-01-01T00:00:00+00:00", "code_version": "1",
+        "schema": "forcetorque/report/2", "title": "t", "created": "2020-01-01T00:00:00+00:00", "code_version": "1",
         "experiments": [experiment], "results": {},
     }  # fmt: skip
     path = Path("report.numbers.json")

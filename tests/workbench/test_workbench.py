@@ -31,7 +31,7 @@ measure_direction = "child_to_parent"
 full_scale = [25.0, 25.0, 25.0, 4.0, 4.0, 4.0]
 prior = "identity"
 
-[readings]
+[measurements]
 format = "rows"
 file = "{table}"
 channels = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"]
@@ -205,7 +205,7 @@ def test_a_prior_that_no_sensor_differs_by_is_refused_or_warned_of(factor: float
     if factor == 2.0:
         error = result.calibrations[0].matrix @ simulated.response - np.eye(6)
         assert np.abs(error[:3, :3]).max() < 0.003
-        (warning,) = (message for message in result.calibrations[0].doubts if "the gain changed by +" in message)
+        (warning,) = (message for message in result.calibrations[0].warnings if "the gain changed by +" in message)
         assert f"SIM001: {warning}" in result.warnings
         return
     assert (result.calibrations, result.sensors[0].fitted) == ((), False)
@@ -223,8 +223,8 @@ def test_an_undamaged_sensor_raises_no_warning(positions: int, undamaged: Workbe
     """Negative control, of few positions and of all: sensors are up to a fifth off the nominal matrix."""
     for seed in range(3):
         result = run_workbench(write_bench(tmp_path, seed=seed, positions=positions)[0])
-        assert result.calibrations[0].doubts == ()
-    assert undamaged.calibrations[0].doubts == ()
+        assert result.calibrations[0].warnings == ()
+    assert undamaged.calibrations[0].warnings == ()
 
 
 def test_readings_in_another_order_than_their_loads_are_refused(bench: Path, tmp_path: Path) -> None:
@@ -257,7 +257,7 @@ def test_a_log_with_intervals_is_read_as_blocks(bench: Path, undamaged: Workbenc
         time = start + 0.1 * np.arange(len(block))
         rows.append(np.column_stack([time, block]))
         for position, begin, end in (("bias", start - 0.05, start + 3.95), (str(k + 1), start + 3.95, start + 7.95)):
-            intervals.append(f'[[readings.block]]\nposition = "{position}"\nstart_s = {begin}\nend_s = {end}\n')
+            intervals.append(f'[[measurements.block]]\nposition = "{position}"\nstart_s = {begin}\nend_s = {end}\n')
     names = ["t", *(f"ch{k}" for k in range(6))]
     table = np.concatenate(rows)
     times = [f"{time:.4f}" for time in table[:, 0]]
@@ -267,11 +267,11 @@ def test_a_log_with_intervals_is_read_as_blocks(bench: Path, undamaged: Workbenc
         f"{time},{','.join(f'{count:.4f}' for count in row)}\n" for time, row in zip(times, table[:, 1:], strict=True)
     )
     (tmp_path / "log.csv").write_text(f"{','.join(names)}\n{''.join(lines)}", encoding="utf-8")
-    head, _, _ = bench.read_text(encoding="utf-8").partition("[readings]")
+    head, _, _ = bench.read_text(encoding="utf-8").partition("[measurements]")
     channels = ", ".join(f'"{name}"' for name in names[1:])
     (tmp_path / "nominal.txt").write_bytes((bench.parent / "nominal.txt").read_bytes())
     (tmp_path / "log.toml").write_text(
-        f'{head}[readings]\nformat = "log"\nfile = "log.csv"\ntime = "t"\ntime_unit = "{unit}"\n'
+        f'{head}[measurements]\nformat = "log"\nfile = "log.csv"\ntime = "t"\ntime_unit = "{unit}"\n'
         f"channels = [{channels}]\n" + "".join(intervals),
         encoding="utf-8",
     )
@@ -298,7 +298,7 @@ def test_acceptance_is_by_the_criteria_of_accept(bench: Path, tmp_path: Path) ->
     """Of the matrix and of the bench; what needs a robot is refused, and `accept` refuses the bench."""
     spec = tmp_path / "limits.toml"
     spec.write_text(
-        'schema = "forcetorque/acceptance/1"\nname = "bench"\n[workbench]\nrank = 6\nfaults = 0\nunsound_blocks = 0\n'
+        'schema = "forcetorque/acceptance/1"\nname = "bench"\n[workbench]\nrank = 6\nfaults = 0\ninvalid_blocks = 0\n'
         "held_out = { fx = 0.001, fz = 5.0 }\n[matrix]\ncondition = 20.0\n[uncertainty]\nmatrix_relative = 0.05\n",
         encoding="utf-8",
     )
@@ -311,7 +311,7 @@ def test_acceptance_is_by_the_criteria_of_accept(bench: Path, tmp_path: Path) ->
         "workbench.held_out.fz": True,
         "workbench.rank": True,
         "workbench.faults": True,
-        "workbench.unsound_blocks": True,
+        "workbench.invalid_blocks": True,
     }
     spec.write_text(
         'schema = "forcetorque/acceptance/1"\nname = "robot"\n[evaluate]\nforce_error_mean_N = 1.0\n', encoding="utf-8"

@@ -28,7 +28,7 @@ def test_it_writes_a_calibration_and_a_figure_and_reports_the_fault(run: Run, be
     assert outcome.code == 0
     assert "SIM001: positions 4 and 9 are swapped" in outcome.out
     assert "1 fault(s) of the bench are detected" in outcome.err
-    blocks, fault = read_calibration("new.json").doubts[:2], read_calibration("new.json").doubts[2]
+    blocks, fault = read_calibration("new.json").warnings[:2], read_calibration("new.json").warnings[2]
     assert all("the measurement matches position" in message for message in blocks)
     assert fault == "SIM001: positions 4 and 9 are swapped"
     assert (bench / "bench.png").read_bytes().startswith(b"\x89PNG")

@@ -19,12 +19,12 @@ from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.moments import recording_moments
 from forcetorque.calibration.mount import with_estimated_mount
 from forcetorque.calibration.summary import (
-    LearntDirection,
+    InformationGain,
     calibration_answer,
     calibration_blocks,
     component_records,
     information_figure,
-    learnt_directions,
+    information_gains,
     learnt_words,
 )
 from forcetorque.calibration.thesis.calibrate import thesis_calibration
@@ -175,7 +175,7 @@ def fit_doubts(calibration: Calibration, *, said: Collection[str] = ()) -> Itera
         *_refused(calibration),
         *_wrong_model(calibration),
     )
-    for sentence in (*(doubt for doubt in calibration.doubts if doubt not in said), *own):
+    for sentence in (*(doubt for doubt in calibration.warnings if doubt not in said), *own):
         yield f"{sensor}: {sentence}"
 
 
@@ -258,7 +258,7 @@ class SensorCalibration(Row):
     """Its content."""
     secondary_matrix: Annotated[FloatArray, ArrayField((6, 6))] | None
     """`C C_prior^-1`, for a stream that is calibrated with the prior."""
-    learnt: tuple[LearntDirection, ...] | None
+    information_gain: tuple[InformationGain, ...] | None
     """What the recordings taught of every load direction; None for a type of the thesis, or without a prior."""
 
 
@@ -267,7 +267,7 @@ class SensorCalibrations(DrawnResult):
 
     interval_uses = ("calibration",)
 
-    schema_name: Literal["forcetorque/calibrate/1"] = Field(default="forcetorque/calibrate/1", alias="schema")
+    schema_name: Literal["forcetorque/calibrate/2"] = Field(default="forcetorque/calibrate/2", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment."""
@@ -323,7 +323,7 @@ class SensorCalibrations(DrawnResult):
             words = f"{entry.calibration.sensor.name}: "
             yield calibration_answer(
                 entry.calibration,
-                entry.learnt,
+                entry.information_gain,
                 entry.file,
                 saved=self.saved,
                 doubtful=any(len(self.calibrations) == 1 or one.startswith(words) for one in self.warnings),
@@ -337,9 +337,11 @@ class SensorCalibrations(DrawnResult):
         """
         for entry in self.calibrations:
             yield from calibration_blocks(entry.calibration)
-            if entry.learnt:
-                yield table_of(entry.learnt, "what the recordings taught: error that a unit load makes, one s.d.")
-                yield learnt_words(entry.learnt)
+            if entry.information_gain:
+                yield table_of(
+                    entry.information_gain, "what the recordings taught: error that a unit load makes, one s.d."
+                )
+                yield learnt_words(entry.information_gain)
             yield f"written to {entry.file}" if self.saved else f"not written yet: `save` writes {entry.file}"
         if self.joint is not None:
             yield from self.joint.blocks()
@@ -396,7 +398,7 @@ def calibrate_for_file(
         file=str(file),
         calibration=calibration,
         secondary_matrix=calibration.secondary_matrix(),
-        learnt=learnt_directions(calibration),
+        information_gain=information_gains(calibration),
     )
     campaign = None if runs is None else Campaign.of(runs)
     doubts = [sentence for run in (campaign.runs if campaign else ()) for sentence in data_doubts(run)]

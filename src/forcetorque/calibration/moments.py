@@ -188,7 +188,7 @@ def moments_of(
         nonlinear=options.nonlinear,
         variables=tuple(map(VariableDescription.of, variables)),
         intervals=tuple(intervals),
-        doubts=tuple(doubts),
+        warnings=tuple(doubts),
         added=recording.added,
         inputs_sha256=dict(recording.inputs_sha256),
     )

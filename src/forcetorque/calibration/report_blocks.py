@@ -47,11 +47,13 @@ def learnt_blocks(sensor: Assessment) -> Iterator[Block]:
     from forcetorque.calibration.figures.information import learnt_figure
 
     names = short_names(list(sensor.calibrations))
-    for file, rows in sensor.learnt.items():
+    for file, rows in sensor.information_gain.items():
         yield Text(text=f"{names[file]}: {learnt_words(rows)}.")
-    if sensor.learnt:
+    if sensor.information_gain:
         yield Figure(
-            picture=Picture(lambda: learnt_figure({names[file]: rows for file, rows in sensor.learnt.items()})),
+            picture=Picture(
+                lambda: learnt_figure({names[file]: rows for file, rows in sensor.information_gain.items()})
+            ),
             caption="What the recordings taught: by how much the uncertainty of a load along each direction became "
             "narrower, and the error that it makes, one standard deviation, before and after. Before is the prior, "
             "after holds what the sensor does not repeat too.",

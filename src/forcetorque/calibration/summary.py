@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 def calibration_answer(
     calibration: Calibration,
-    learnt: Sequence[LearntDirection] | None,
+    learnt: Sequence[InformationGain] | None,
     file: str,
     *,
     saved: bool,
@@ -234,7 +234,7 @@ LITTLE_LEARNT = 0.5
 """Share below which more should be recorded along a direction."""
 
 
-class LearntDirection(Row):
+class InformationGain(Row):
     """One load direction: what a push along it would read wrong, before the recordings and after."""
 
     direction: Annotated[str, Shown("load")]
@@ -247,11 +247,11 @@ class LearntDirection(Row):
     """Predicted standard deviation of the moment error that one newton, or newton metre, makes with the prior."""
     moment_error_after_Nm: Annotated[float, Shown("after", "N m/unit", digits=5)]
     """The same with the calibration."""
-    learnt: Annotated[float, Shown("narrower by", digits=2)]
+    uncertainty_reduction: Annotated[float, Shown("narrower by", digits=2)]
     """One less the uncertainty after over that before: 0 where the recordings said nothing, 1 where they said all."""
 
 
-def learnt_directions(calibration: Calibration) -> tuple[LearntDirection, ...] | None:
+def information_gains(calibration: Calibration) -> tuple[InformationGain, ...] | None:
     """Tell what the recordings taught of every load direction.
 
     Args:
@@ -272,20 +272,20 @@ def learnt_directions(calibration: Calibration) -> tuple[LearntDirection, ...] |
         for k in range(6)
     ]
     return tuple(
-        LearntDirection(
+        InformationGain(
             direction=name,
             force_error_before_N=sizes[k][0],
             force_error_after_N=sizes[6 + k][0],
             moment_error_before_Nm=sizes[k][1],
             moment_error_after_Nm=sizes[6 + k][1],
-            learnt=float(shares[k]),
+            uncertainty_reduction=float(shares[k]),
         )
         for k, name in enumerate(WRENCH_COMPONENTS)
     )
 
 
 def information_figure(calibrations: Sequence[Calibration]) -> Figure:
-    """Draw what `learnt_directions` gives of every calibration.
+    """Draw what `information_gains` gives of every calibration.
 
     Args:
         calibrations: Calibrations.
@@ -299,7 +299,7 @@ def information_figure(calibrations: Sequence[Calibration]) -> Figure:
     learnt = {
         f"{calibration.sensor.name} ({calibration.sensor.serial})": directions
         for calibration in calibrations
-        if (directions := learnt_directions(calibration)) is not None
+        if (directions := information_gains(calibration)) is not None
     }
     if not learnt:
         raise FitError(
@@ -310,7 +310,7 @@ def information_figure(calibrations: Sequence[Calibration]) -> Figure:
     return figure
 
 
-def learnt_words(directions: Sequence[LearntDirection]) -> str:
+def learnt_words(directions: Sequence[InformationGain]) -> str:
     """Say what was learnt, and what to record for the rest.
 
     Args:
@@ -319,14 +319,14 @@ def learnt_words(directions: Sequence[LearntDirection]) -> str:
     Returns:
         Words such as `fz 97 %, tz 4 %: add a load off the axis`.
     """
-    shares = ", ".join(f"{row.direction} {100.0 * row.learnt:.0f} %" for row in directions)
-    little = [row.direction for row in directions if row.learnt < LITTLE_LEARNT]
+    shares = ", ".join(f"{row.direction} {100.0 * row.uncertainty_reduction:.0f} %" for row in directions)
+    little = [row.direction for row in directions if row.uncertainty_reduction < LITTLE_LEARNT]
     if not little:
         return f"learnt: {shares}"
     return f"learnt: {shares}; for {', '.join(little)} the prior decides: {to_learn(directions)}"
 
 
-def to_learn(directions: Sequence[LearntDirection]) -> str | None:
+def to_learn(directions: Sequence[InformationGain]) -> str | None:
     """Say what to record for the directions of which little was learnt.
 
     Args:
@@ -335,7 +335,7 @@ def to_learn(directions: Sequence[LearntDirection]) -> str | None:
     Returns:
         Words such as `add a load off the axis`; None where enough is known of all.
     """
-    little = [row.direction for row in directions if row.learnt < LITTLE_LEARNT]
+    little = [row.direction for row in directions if row.uncertainty_reduction < LITTLE_LEARNT]
     advice = []
     if any(name.startswith("t") for name in little):
         advice.append("add a load off the axis, or another tool or posture with its centre of mass elsewhere")

@@ -53,4 +53,4 @@ def _pair(pair: ContestPairRow) -> str:
         if pair.ratio_low is None or pair.ratio_high is None
         else f" (95 %: {pair.ratio_low:.2f} to {pair.ratio_high:.2f})"
     )
-    return f"{pair.contestant} errs {pair.ratio:.2f} times as much as {pair.other}{ends}: {pair.judgement}"
+    return f"{pair.contestant} errs {pair.ratio:.2f} times as much as {pair.other}{ends}: {pair.conclusion}"

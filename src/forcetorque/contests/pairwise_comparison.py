@@ -21,8 +21,8 @@ from forcetorque.base.noise.paired_comparison import (
     ALIKE,
     BLOCKS,
     CONFIDENCE,
+    Conclusion,
     ErrorRatio,
-    Judgement,
     independent_segments,
     ratio_over,
 )
@@ -54,9 +54,9 @@ class ContestPairRow(Row):
     """Lower end of an interval that holds for all pairs at once with 95 %."""
     ratio_high: Annotated[float | None, Shown("at most", digits=2)]
     """Upper end."""
-    stretches: Annotated[int, Shown("stretches")]
+    segments: Annotated[int, Shown("segments")]
     """Independent stretches of the motion that the interval comes from, of all loads."""
-    judgement: Annotated[Judgement, Shown("judgement")]
+    conclusion: Annotated[Conclusion, Shown("conclusion")]
     """What the interval says of the one."""
 
 
@@ -120,10 +120,10 @@ def compared_pairs(contestants: Mapping[str, FloatArray], *, scale: tuple[float,
                     ratio=ratio.ratio,
                     ratio_low=ratio.low if known else None,
                     ratio_high=ratio.high if known else None,
-                    stretches=ratio.stretches,
+                    segments=ratio.segments,
                     # a certain difference too small for any application ranks no pair
-                    judgement=(
-                        "no difference" if ALIKE[0] <= ratio.low and ratio.high <= ALIKE[1] else ratio.judgement
+                    conclusion=(
+                        "no difference" if ALIKE[0] <= ratio.low and ratio.high <= ALIKE[1] else ratio.conclusion
                     ),
                 )
             )
@@ -133,7 +133,7 @@ def compared_pairs(contestants: Mapping[str, FloatArray], *, scale: tuple[float,
 def _ratio(first: FloatArray, second: FloatArray, confidence: float) -> ErrorRatio:
     least = _LEAST * max(float(first.max()), float(second.max()))
     if least == 0.0 or np.array_equal(first, second):
-        return ErrorRatio(ratio=1.0, low=1.0, high=1.0, stretches=len(first), judgement="no difference")
+        return ErrorRatio(ratio=1.0, low=1.0, high=1.0, segments=len(first), conclusion="no difference")
     one, other = np.maximum(first, least), np.maximum(second, least)
     pooled = 0.5 * math.log(one.mean() / other.mean())
     # derivative of the log ratio of root mean squares by what a phase adds to either; its mean is zero
@@ -187,10 +187,10 @@ def ranks_and_winner(
         smaller errors, so that several may share one; and the contestant whose wrench error is significantly smaller
         than that of every other, None without such a one.
     """
-    ranked = [pair for pair in pairs if pair.judgement in ("better", "worse")]
-    lost = [(pair.error_of, pair.other if pair.judgement == "better" else pair.contestant) for pair in ranked]
+    ranked = [pair for pair in pairs if pair.conclusion in ("better", "worse")]
+    lost = [(pair.error_of, pair.other if pair.conclusion == "better" else pair.contestant) for pair in ranked]
     won = [
-        pair.contestant if pair.judgement == "better" else pair.other for pair in ranked if pair.error_of == "wrench"
+        pair.contestant if pair.conclusion == "better" else pair.other for pair in ranked if pair.error_of == "wrench"
     ]
     wrench, force, moment = ({name: 1 + lost.count((quantity, name)) for name in names} for quantity in QUANTITIES)
     return (

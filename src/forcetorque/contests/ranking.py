@@ -222,7 +222,7 @@ SAME_LOAD_KG = 0.1
 
 _RATES = (
     "intervals of all pairs hold together with 95 %: of contests without a difference at most 5 % rank anybody, and of "
-    "contests whose errors differ by a quarter or more at most 5 % call a pair equal (no difference); not told apart: "
+    "contests whose errors differ by a quarter or more at most 5 % call a pair equal (no difference); inconclusive: "
     "too few, or too unlike, stretches of the motion"
 )
 
@@ -234,7 +234,7 @@ class Contest(DrawnResult):
     drawn_fields: ClassVar[tuple[str, ...]] = ("loads",)
     answered_by: ClassVar[str | None] = "forcetorque.contests.answers:contest_answer"
 
-    schema_name: Literal["forcetorque/contest/1"] = Field(default="forcetorque/contest/1", alias="schema")
+    schema_name: Literal["forcetorque/contest/2"] = Field(default="forcetorque/contest/2", alias="schema")
     """Form of the result."""
     contest: str
     """Name of the contest."""
@@ -279,7 +279,7 @@ class Contest(DrawnResult):
         else:
             yield f"no contestant wins significantly; in the first place: {'; '.join(best)}"
         for pair in self.pairs:
-            if pair.error_of == "wrench" and pair.judgement == "no difference":
+            if pair.error_of == "wrench" and pair.conclusion == "no difference":
                 yield f"{pair.contestant} and {pair.other} are equal: {pair.ratio:.2f}, {_ends(pair)}"
 
     def records(self) -> list[dict[str, object]]:

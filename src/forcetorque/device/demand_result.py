@@ -129,9 +129,9 @@ class GradeRow(Row):
     """Unit of both."""
     rms: Annotated[WrenchValues, ShownWrench(digits=3)]
     """Root mean square over the motion, as in Table 6.3; N, N m."""
-    one_force_N: Annotated[float, Shown("one: f", "N", digits=2)]
+    single_force_N: Annotated[float, Shown("one: f", "N", digits=2)]
     """Largest error of the force by one encoder, or one axis of the inertial sensor."""
-    one_moment_Nm: Annotated[float, Shown("one: t", "N m", digits=3)]
+    single_moment_Nm: Annotated[float, Shown("one: t", "N m", digits=3)]
     """Of the moment."""
     largest: WrenchValues
     """Largest magnitude of each component with errors of all of them; N, N m."""

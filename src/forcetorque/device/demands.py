@@ -63,7 +63,7 @@ _SPACING_DEG = 5.0
 _ROUNDING_NM = 1e-9
 _GRADES = sorted((*THESIS_GRADES, *DATA_SHEETS), key=lambda grade: (grade.by_imu, grade.full_width))
 _LARGEST = (
-    *("one_force_N", "one_moment_Nm", "largest_force_N", "largest_moment_Nm"),
+    *("single_force_N", "single_moment_Nm", "largest_force_N", "largest_moment_Nm"),
     *("force_met_to_kg", "moment_met_to_kg"),
 )
 _ENDLESS_DEG = (-10.0, 1090.0)
@@ -264,8 +264,8 @@ def _grade_row(grade: Grade, errors: LoadErrors) -> GradeRow:
         plus_minus=0.5 * grade.full_width,
         unit=grade.unit,
         rms=budget.rms,
-        one_force_N=single_force,
-        one_moment_Nm=single_moment,
+        single_force_N=single_force,
+        single_moment_Nm=single_moment,
         largest=budget.largest,
         largest_force_N=float(budget.largest[:3].max()),
         largest_moment_Nm=float(budget.largest[3:].max()),

@@ -132,7 +132,7 @@ class DeviceDesign(Result):
 
     answered_by: ClassVar[str | None] = "forcetorque.device.answers:device_answer"
 
-    schema_name: Literal["forcetorque/device/1"] = Field(default="forcetorque/device/1", alias="schema")
+    schema_name: Literal["forcetorque/device/2"] = Field(default="forcetorque/device/2", alias="schema")
     """Form of the result."""
     device: str
     """Name of the device."""

@@ -141,8 +141,8 @@ def reference_error_figure(grades: Sequence[GradeRow]) -> Figure:
     ordered = sorted(grades, key=lambda row: (row.gravity_by, row.full_width))
     figure = new_figure(1.5 * ROW_INCHES[1])
     above, below = figure.subplots(2, 1, sharex=True)
-    forces = [[row.rms[:3].max(), row.one_force_N, row.largest_force_N, row.force_norm_N] for row in ordered]
-    moments = [[row.rms[3:].max(), row.one_moment_Nm, row.largest_moment_Nm, row.moment_norm_Nm] for row in ordered]
+    forces = [[row.rms[:3].max(), row.single_force_N, row.largest_force_N, row.force_norm_N] for row in ordered]
+    moments = [[row.rms[3:].max(), row.single_moment_Nm, row.largest_moment_Nm, row.moment_norm_Nm] for row in ordered]
     _draw_errors(above, np.array(forces), FORCE_LIMIT_N, "error of the force, N")
     _draw_errors(below, np.array(moments), MOMENT_LIMIT_NM, "error of the moment, N m")
     below.set_xticks(
@@ -229,7 +229,7 @@ def write_device_figures(design: DeviceDesign, output: Path) -> DeviceDesign:
     figures = {
         "motion.png": device_figure(picture.time_s, picture.motion, torques),
         "space.png": space_figure(picture.clouds),
-        "remedies.png": predicted_error_figure(design.span.directions),
+        "options.png": predicted_error_figure(design.span.directions),
         "envelope.png": envelope_figure(demands.envelope),
         "errors.png": reference_error_figure(demands.grades),
     }

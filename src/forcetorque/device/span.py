@@ -60,7 +60,7 @@ class OptionRow(Row):
 
     motion: Annotated[str, Shown("motion")]
     """Name of the option."""
-    words: Annotated[str, Shown("change")]
+    description: Annotated[str, Shown("change")]
     """What changes, as text."""
     rank: Annotated[int, Shown("rank")]
     """Directions of load that are spanned."""
@@ -186,7 +186,7 @@ class DeviceSpan(Row):
 
     sensors: tuple[SensorSpanRow, ...]
     """Excitation of every sensor by the 12 steps, without and with a swing at yaw 0."""
-    remedies: tuple[OptionRow, ...]
+    options: tuple[OptionRow, ...]
     """Options to excite more, for the innermost sensor."""
     directions: tuple[DirectionRow, ...]
     """Predicted errors in every direction of load, the workbench with its two placements among them."""
@@ -204,12 +204,12 @@ class DeviceSpan(Row):
             Tables and messages.
         """
         yield table_of(self.sensors, "excitation by static poses")
-        yield table_of(self.remedies, f"excitation options: errors predicted with {COMPARED_KG:g} kg")
+        yield table_of(self.options, f"excitation options: errors predicted with {COMPARED_KG:g} kg")
         yield table_of(self.directions, "predicted errors under 100 N or 5 N m along one axis")
         if self.motions:
             yield table_of(self.motions, "an optimised motion under the same speeds, ranges and time")
         yield from self.impossible
-        yield _nearest(self.remedies)
+        yield _nearest(self.options)
 
 
 def device_span(device: Device, *, tolerances: Tolerances | None = None, swaps: int = 1000) -> DeviceSpan:
@@ -240,7 +240,7 @@ def device_span(device: Device, *, tolerances: Tolerances | None = None, swaps: 
         rows.append(
             OptionRow(
                 motion=name,
-                words=option.description,
+                description=option.description,
                 rank=span.rank,
                 smallest=span.least_strength if span.rank == 6 else 0.0,
                 excitation=least_excitation(loads, bench[0]),
@@ -255,7 +255,7 @@ def device_span(device: Device, *, tolerances: Tolerances | None = None, swaps: 
     motions, trajectories = _motions(possible, sensor, exact, swaps)
     return DeviceSpan(
         sensors=tuple(_sensor_rows(device, heaviest["12 steps"].trajectories[0])),
-        remedies=tuple(rows),
+        options=tuple(rows),
         directions=tuple(directions),
         motions=tuple(motions),
         impossible=tuple(impossible),

@@ -26,12 +26,12 @@ def estimate_answers(summary: EstimateSummary) -> Iterator[Answer]:
         One answer each.
     """
     for recording in summary.recordings or (summary,):
-        ambiguous = [(part, group) for part in recording.parts for group in part.ambiguous]
+        ambiguous = [(part, group) for part in recording.sub_models for group in part.ambiguous]
         contacts = len({row.contact for row in recording.contacts})
         yield Answer(
             subject=recording.experiment,
             verdict=(
-                f"{contacts} CONTACT{'S' * (contacts != 1)} over {recording.rows} samples"
+                f"{contacts} CONTACT{'S' * (contacts != 1)} over {recording.samples} samples"
                 if contacts
                 else "NO CONTACT IS ESTIMATED"
             ),
@@ -58,7 +58,7 @@ def _undetermined(recording: EstimatedRecording, ambiguous: Sequence[tuple[objec
     if ambiguous:
         yield f"not separable: {', '.join(ambiguous[0][1])}"
         return
-    left = [row.residual_force_mean_N for row in recording.parts if row.residual_force_mean_N is not None]
+    left = [row.residual_force_mean_N for row in recording.sub_models if row.residual_force_mean_N is not None]
     if left:
         yield f"force that the contacts leave unexplained: at most {amount(max(left), 'N')} in the mean of an interval"
     elif recording.left_out:

@@ -25,7 +25,7 @@ from forcetorque.estimation.torque.motor import Friction
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_reading import Correction
-from forcetorque.experiment.validity import ReadingsOutside, outside_row, sentences
+from forcetorque.experiment.validity import SamplesOutside, outside_row, sentences
 from forcetorque.inspection.diagnosis import reversed_sensors
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Use
@@ -150,7 +150,7 @@ class SubModelSummary(Row):
 
     interval: Annotated[str, Shown("interval")]
     """Label of the interval."""
-    part: Annotated[str, Shown("sub-model")]
+    sub_model: Annotated[str, Shown("sub-model")]
     """Sensor at its base, or the support frame."""
     rank: Annotated[int, Shown("rank")]
     """Smallest rank over the samples."""
@@ -171,17 +171,17 @@ class EstimatedRecording(Row):
     """Name of the experiment."""
     file: str | None
     """File with every sample, where one was written."""
-    rows: int
+    samples: int
     """Number of samples, which are its rows."""
-    readings: dict[str, str]
+    wrench_sources: dict[str, str]
     """By sensor, how its reading became a wrench."""
     contacts: tuple[ContactSummary, ...]
     """One per interval and contact."""
-    parts: tuple[SubModelSummary, ...]
+    sub_models: tuple[SubModelSummary, ...]
     """One per interval and sub-model."""
     left_out: tuple[str, ...]
     """What the log does not allow to estimate."""
-    validity: tuple[ReadingsOutside, ...] = ()
+    validity: tuple[SamplesOutside, ...] = ()
     """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
     fusion: TorqueFusion | None = None
     """Joint torques of several sources; None where they were not asked for."""
@@ -200,11 +200,11 @@ class EstimatedRecording(Row):
             yield table_of(self.contacts, self.experiment)
         if self.skin:
             yield table_of(self.skin, f"{self.experiment}: contacts on skin")
-        if self.parts:
-            yield table_of(self.parts, "")
-        for row in self.parts:
+        if self.sub_models:
+            yield table_of(self.sub_models, "")
+        for row in self.sub_models:
             for group in row.ambiguous:
-                yield f"{row.part}, {row.interval}: not separable: {', '.join(group)}"
+                yield f"{row.sub_model}, {row.interval}: not separable: {', '.join(group)}"
         if self.fusion is not None:
             yield from self.fusion.blocks()
 
@@ -220,7 +220,7 @@ class EstimateSummary(EstimatedRecording, DrawnResult):
 
     interval_uses = ()
 
-    schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
+    schema_name: Literal["forcetorque/estimate/2"] = Field(default="forcetorque/estimate/2", alias="schema")
     """Form of the result."""
     answered_by: ClassVar[str | None] = "forcetorque.estimation.answers:estimate_answers"
 
@@ -265,7 +265,7 @@ class EstimateSummary(EstimatedRecording, DrawnResult):
         )
         for recording in self.recordings or (self,):
             if recording.file is not None:
-                yield f"{recording.rows} rows written to {recording.file}"
+                yield f"{recording.samples} rows written to {recording.file}"
             if recording is not self and recording.figure_file is not None:  # its own is named below
                 yield f"drawn to {recording.figure_file}"
 
@@ -304,10 +304,10 @@ def estimates_of_recordings(summaries: Mapping[str, EstimateSummary]) -> Estimat
     return EstimateSummary(
         experiment="; ".join(summary.experiment for summary in summaries.values()),
         file=None,
-        rows=sum(summary.rows for summary in summaries.values()),
-        readings={},
+        samples=sum(summary.samples for summary in summaries.values()),
+        wrench_sources={},
         contacts=(),
-        parts=(),
+        sub_models=(),
         left_out=(),
         recordings=tuple(summaries.values()),
         warnings=tuple(f"{name}: {words}" for name, summary in summaries.items() for words in summary.warnings),
@@ -348,10 +348,10 @@ def summarise_estimates(
     return EstimateSummary(
         experiment=experiment.name,
         file=None if file is None else str(file),
-        rows=sum(len(span.stamp_ns) for span in spans),
-        readings={sensor: correction.source for sensor, correction in corrections.items()},
+        samples=sum(len(span.stamp_ns) for span in spans),
+        wrench_sources={sensor: correction.source for sensor, correction in corrections.items()},
         contacts=tuple(row for span in spans for row in _contacts(span)),
-        parts=tuple(row for span in spans for row in _parts(span)),
+        sub_models=tuple(row for span in spans for row in _parts(span)),
         left_out=left_out,
         validity=validity,
         fusion=fusion,
@@ -366,7 +366,7 @@ def summarise_estimates(
     )
 
 
-def _outside(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[ReadingsOutside]:
+def _outside(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[SamplesOutside]:
     for sensor, correction in corrections.items():
         if correction.calibration is not None:
             yield outside_row(
@@ -418,7 +418,7 @@ def _parts(span: IntervalEstimates) -> Iterator[SubModelSummary]:
         condition = estimates.condition[:, k][np.isfinite(estimates.condition[:, k])]
         yield SubModelSummary(
             interval=span.interval.label,
-            part=name,
+            sub_model=name,
             rank=int(estimates.rank[whole, k].min()) if whole.any() else 0,
             condition_largest=float(condition.max()) if len(condition) else None,
             residual_force_mean_N=None if mean is None else float(mean[0]),

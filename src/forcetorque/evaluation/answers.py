@@ -14,7 +14,7 @@ from forcetorque.evaluation.load_cases.verdict import (
     LOOK_FOR_CAUSE,
     Decision,
     LoadCaseError,
-    UseVerdict,
+    LoadCaseVerdict,
 )
 from forcetorque.evaluation.next_step import to_calibrate, to_export, to_plan
 from forcetorque.experiment.validation_offset import Offset
@@ -23,7 +23,7 @@ from forcetorque.results.number_text import amount, within
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
-    from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation
+    from forcetorque.evaluation.evaluation import CalibrationErrors, Evaluation
 
 CONCERN: Final[Mapping[Decision, Concern]] = {
     "use": Concern.NONE,
@@ -42,22 +42,22 @@ def evaluation_answers(evaluation: Evaluation) -> Iterator[Answer]:
     Yields:
         One answer each.
     """
-    names = short_names([row.candidate for row in evaluation.verdicts])
+    names = short_names([row.calibration for row in evaluation.verdicts])
     for row in evaluation.verdicts:
         if row.offset is not Offset.JUDGED_MEAN:  # every candidate once
             continue
-        uses = [use for use in evaluation.uses if (use.sensor, use.candidate) == (row.sensor, row.candidate)]
-        subject = f"{row.sensor} ({row.serial}), {names[row.candidate]}"
+        uses = [use for use in evaluation.load_cases if (use.sensor, use.calibration) == (row.sensor, row.calibration)]
+        subject = f"{row.sensor} ({row.serial}), {names[row.calibration]}"
         if uses:
             compared = [
-                one for one in evaluation.comparisons if (one.sensor, one.candidate) == (row.sensor, row.candidate)
+                one for one in evaluation.comparisons if (one.sensor, one.calibration) == (row.sensor, row.calibration)
             ]
             yield _of_uses(subject, row, uses, compared)
-        elif not any(use.sensor == row.sensor for use in evaluation.uses):
+        elif not any(use.sensor == row.sensor for use in evaluation.load_cases):
             yield _of_errors(subject, row)
 
 
-def _of_errors(subject: str, row: CandidateErrors) -> Answer:
+def _of_errors(subject: str, row: CalibrationErrors) -> Answer:
     """Of a candidate without a verdict: its error."""
     step, command = to_calibrate(row.sensor)
     return Answer(
@@ -73,7 +73,7 @@ def _of_errors(subject: str, row: CandidateErrors) -> Answer:
 
 
 def _of_uses(
-    subject: str, row: CandidateErrors, uses: Sequence[UseVerdict], compared: Sequence[PriorComparison]
+    subject: str, row: CalibrationErrors, uses: Sequence[LoadCaseVerdict], compared: Sequence[PriorComparison]
 ) -> Answer:
     """Of a calibration: the verdict on its load cases, the worst first."""
     worst = max(uses, key=lambda use: CONCERN[use.decision])
@@ -82,7 +82,7 @@ def _of_uses(
     reason = worst.reasons[0]
     predicted = "; ".join(_predicted(error) for error in worst.errors)
     # what was measured speaks in the second line; other reasons, such as warnings, are said here
-    first = f"{worst.loads}: {predicted or worst.sentence}"
+    first = f"{worst.loads}: {predicted or worst.message}"
     step, command = _step(worst)
     return Answer(
         subject=subject,
@@ -94,7 +94,7 @@ def _of_uses(
     )
 
 
-def _is_predicted(use: UseVerdict) -> bool:
+def _is_predicted(use: LoadCaseVerdict) -> bool:
     """Whether the prediction is the reason, which the numbers state."""
     return bool(use.errors) and use.reasons[0].text.startswith("it errs")
 
@@ -106,14 +106,15 @@ def _predicted(error: LoadCaseError) -> str:
     return f"{error.quantity} error {after} (95 %: {most}{allowed}{prior})"
 
 
-def _measured(row: CandidateErrors, compared: Sequence[PriorComparison]) -> Iterator[str]:
+def _measured(row: CalibrationErrors, compared: Sequence[PriorComparison]) -> Iterator[str]:
     """What data that were not fitted measured, with the calibration's own offset where it has one."""
     own = [one for one in compared if one.offset is Offset.FITTED] or list(compared)
     if not own:
         yield f"{row.samples} samples not fitted: force error {amount(row.force_error_mean_N, 'N')}"
         return
     errors = ", ".join(
-        f"{one.quantity} error {amount(one.mean, one.unit)} (prior {amount(one.prior_mean, one.unit)}: {one.judgement})"
+        f"{one.quantity} error {amount(one.mean, one.unit)} "
+        f"(prior {amount(one.prior_mean, one.unit)}: {one.conclusion})"
         for one in own
     )
     still = (
@@ -123,15 +124,15 @@ def _measured(row: CandidateErrors, compared: Sequence[PriorComparison]) -> Iter
     yield f"{row.samples} samples not fitted: {errors}{still if row.hardly_moved else ''}"
 
 
-def _step(use: UseVerdict) -> tuple[str, str]:
+def _step(use: LoadCaseVerdict) -> tuple[str, str]:
     """What to do next, and the command for it."""
     remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
     if remedy is None:
-        return to_export(use.candidate, use.sensor)
+        return to_export(use.calibration, use.sensor)
     if remedy in (LOOK_FOR_CAUSE, KEEP_PRIOR, CORRECT_DATA):
         return remedy, typed("inspect", EXPERIMENT)
     records = any(ADVICE_BY_SOURCE[source] in remedy for source in ("matrix", "model"))
-    return remedy, to_plan(use.candidate) if records else ""
+    return remedy, to_plan(use.calibration) if records else ""
 
 
 def _mean(value: float, half_width: float | None, unit: str) -> str:

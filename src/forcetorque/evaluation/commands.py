@@ -70,7 +70,7 @@ def evaluate(
 
     campaign, by_name = Campaign.of(run), named(calibrations)
     errors = validation_errors(campaign, by_name)
-    return errors.model_copy(update={"uses": use_verdicts(campaign, by_name)})
+    return errors.model_copy(update={"load_cases": use_verdicts(campaign, by_name)})
 
 
 @command()

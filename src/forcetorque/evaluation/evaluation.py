@@ -19,7 +19,7 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     static_loads_text,
     validation_excitation,
 )
-from forcetorque.evaluation.load_cases.verdict import UseVerdict, verdict_texts
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, verdict_texts
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import (
     CalibrationUnderTest,
@@ -30,7 +30,7 @@ from forcetorque.experiment.calibrations_under_test import (
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import (
-    ReadingsOutside,
+    SamplesOutside,
     doubts_about_choice,
     readings_outside,
     require_unseen,
@@ -70,7 +70,7 @@ ERROR_WORDS = (
 
 
 def error_tables(
-    rows: Sequence[CandidateErrors], caption: str, *, recordings: Sequence[str] | None = None
+    rows: Sequence[CalibrationErrors], caption: str, *, recordings: Sequence[str] | None = None
 ) -> Iterator[Table]:
     """Put errors into two tables that fit a page.
 
@@ -107,7 +107,7 @@ def _named(table: Table, recordings: Sequence[str] | None) -> Table:
     return table if recordings is None else with_first_column(table, "recording", recordings)
 
 
-class CandidateErrors(EvaluatedRow):
+class CalibrationErrors(EvaluatedRow):
     """Errors of one candidate with one offset; per axis in the order fx fy fz (N) tx ty tz (N m)."""
 
     samples: int
@@ -157,7 +157,7 @@ class CandidateErrors(EvaluatedRow):
         return static_loads_text((self.excitation_N, self.load_N), (self.excitation_Nm, self.load_Nm))
 
 
-class RecordingErrors(CandidateErrors):
+class RecordingErrors(CalibrationErrors):
     """The same on one of several recordings."""
 
     recording: str
@@ -173,21 +173,21 @@ class Evaluation(Result):
 
     interval_uses = ()
 
-    schema_name: Literal["forcetorque/evaluate/1"] = Field(default="forcetorque/evaluate/1", alias="schema")
+    schema_name: Literal["forcetorque/evaluate/2"] = Field(default="forcetorque/evaluate/2", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment; of several recordings their names, apart by semicolons."""
-    verdicts: tuple[CandidateErrors, ...]
-    """One per sensor, candidate and offset, errors of all recordings pooled."""
+    verdicts: tuple[CalibrationErrors, ...]
+    """One per sensor, calibration and offset, errors of all recordings pooled."""
     recordings: tuple[RecordingErrors, ...] = ()
-    """One per sensor, candidate, offset and recording; none where there is one recording."""
+    """One per sensor, calibration, offset and recording; none where there is one recording."""
     comparisons: tuple[PriorComparison, ...] = ()
     """Calibrations against their priors, force and moment, all recordings pooled."""
     smoothing: tuple[str, ...] = ()
     """Whether measured and expected wrench were smoothed, as text; of several recordings one per way."""
-    validity: tuple[ReadingsOutside, ...] = ()
+    validity: tuple[SamplesOutside, ...] = ()
     """One per calibration: how far the validation samples lie outside what it was fitted on."""
-    uses: tuple[UseVerdict, ...] = ()
+    load_cases: tuple[LoadCaseVerdict, ...] = ()
     """One per calibration and load case: whether it may be used."""
 
     def blocks(self) -> Iterator[Table | str]:
@@ -208,15 +208,15 @@ class Evaluation(Result):
                 yield from error_tables(apart, caption, recordings=[row.recording for row in apart])
         yield f"{ERROR_WORDS}; {'; '.join(self.smoothing)}"
         yield from self._sentences()
-        yield from verdict_texts(self.uses)
+        yield from verdict_texts(self.load_cases)
 
     def _sentences(self) -> Iterator[str]:
         """Say what every calibration is worth against its prior, with either offset."""
-        names = short_names([row.candidate for row in self.verdicts])
+        names = short_names([row.calibration for row in self.verdicts])
         several = len({row.sensor for row in self.verdicts}) > 1
         pairs: dict[tuple[str, str, Offset], list[PriorComparison]] = {}
         for row in self.comparisons:
-            pairs.setdefault((row.sensor, row.candidate, row.offset), []).append(row)
+            pairs.setdefault((row.sensor, row.calibration, row.offset), []).append(row)
         for (sensor, candidate, _), rows in pairs.items():
             yield (f"{sensor}: " if several else "") + prior_comparison_text(names[candidate], rows)
 
@@ -262,7 +262,7 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
             [f"{campaign.recording(run)}: {sentence}" for sentence in doubts] if len(campaign.runs) > 1 else doubts
         )
     validity = readings_outside(campaign, calibrations)
-    verdicts: list[CandidateErrors] = []
+    verdicts: list[CalibrationErrors] = []
     recordings: list[RecordingErrors] = []
     # a single recording is not copied: the last bits of a mean depend on how its numbers lie in memory
     several = len(wrenches) > 1
@@ -286,12 +286,12 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
         comparisons=prior_comparisons(campaign.sensor.name, list(wrenches.values())),
         smoothing=tuple(dict.fromkeys(map(smoothing_text, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
-        uses=(),
+        load_cases=(),
         warnings=(*at_rest(verdicts), *sentences(validity), *warnings),
     )
 
 
-def at_rest(verdicts: Sequence[CandidateErrors]) -> tuple[str, ...]:
+def at_rest(verdicts: Sequence[CalibrationErrors]) -> tuple[str, ...]:
     """Say where the loads hardly moved while errors were measured.
 
     Args:
@@ -312,13 +312,13 @@ def _errors(
     reference: FloatArray,
     time_s: FloatArray,
     calibrations: Mapping[str, Calibration],
-) -> CandidateErrors:
+) -> CalibrationErrors:
     errors = wrench_errors(wrench, reference, time_s)
     (moved_N, load_N), (moved_Nm, load_Nm) = validation_excitation(reference, calibrations.values())
-    return CandidateErrors(
+    return CalibrationErrors(
         sensor=campaign.sensor.name,
         serial=campaign.sensor.serial,
-        candidate=candidate.name,
+        calibration=candidate.name,
         offset=offset,
         offset_source=candidate.offset_source(offset),
         prior=candidate.prior,

@@ -181,7 +181,7 @@ class EvaluatedRow(Row):
     """Sensor."""
     serial: str
     """Its serial number."""
-    candidate: Annotated[str, Shown("candidate", file=True)]
+    calibration: Annotated[str, Shown("calibration", file=True)]
     """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
     offset: Annotated[Offset, Shown("offset")]
     """Which offset it is evaluated with."""

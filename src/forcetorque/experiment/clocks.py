@@ -269,7 +269,7 @@ def aligned_clocks(
                 except RecordingError as error:
                     if must_tell:
                         raise
-                    shift = replace(shift, untold=str(error))
+                    shift = replace(shift, undetermined=str(error))
             recording = _shifted(recording, entry, shift)
         shifts.append(shift)
     return replace(recording, findings=(*recording.findings, *map(_finding, shifts)), clocks=tuple(shifts))
@@ -336,7 +336,7 @@ def _estimated(
         drift_half_width=delay.drift_half_width if asked else None,
         shown_by=shared.words,
         explained=delay.explained,
-        unasked_drift=later * delay.unasked_drift if delay.drifts and not asked else None,
+        drift_not_requested=later * delay.drift_not_requested if delay.drifts and not asked else None,
     )
 
 
@@ -381,6 +381,6 @@ def _middle_s(recording: Recording, name: str) -> float:
 
 
 def _finding(shift: ClockShift) -> Finding:
-    if shift.untold is not None:
-        return Finding(stream=shift.stream, kind="untold_clock", message=shift.untold, count=0)
+    if shift.undetermined is not None:
+        return Finding(stream=shift.stream, kind="untold_clock", message=shift.undetermined, count=0)
     return Finding(stream=shift.stream, kind="clock", message=shift.words, count=0, size=shift.delay_s, unit="s")

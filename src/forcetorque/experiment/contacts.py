@@ -69,7 +69,7 @@ def _touched_beside(
     spans: dict[str, list[str]] = {}
     for span in parsed.interval:
         own = {entry.contact.link for entry in specified if entry.intervals is None or span.label in entry.intervals}
-        for link in dict.fromkeys((span.touched or ())[1:]):
+        for link in dict.fromkeys((span.contact_links or ())[1:]):
             if link not in own:
                 spans.setdefault(link, []).append(span.label)
     names = {entry.contact.name for entry in specified}

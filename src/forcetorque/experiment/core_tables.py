@@ -137,9 +137,9 @@ class Sensor(Table):
     full_scale: FullScale | None = None
     """Full scale of fx, fy, fz, tx, ty, tz, or one number for all; N, N m; needed with the prior `identity`, which says
     nothing of sizes."""
-    reading_noise: SixPositive | None = None
+    measurement_noise: SixPositive | None = None
     """Standard deviation by which a reading differs from sample to sample; N, N m; for `estimate --fuse`."""
-    reading_deviation: SixPositive | None = None
+    measurement_offset_sd: SixPositive | None = None
     """Standard deviation of what a reading is off all along, such as by its offset; N, N m; for `estimate --fuse`."""
     amplifier_gain: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
     """Gain of the amplifier of each channel while it was recorded, for `forcetorque bench gains`."""

@@ -109,9 +109,9 @@ class ExperimentSensor:
     """Largest magnitude of a raw reading; counts."""
     full_scale: FloatArray | None = None
     """Full scale per component, as the file specifies it; shape (6,); N, N m."""
-    reading_noise: FloatArray | None = None
+    measurement_noise: FloatArray | None = None
     """Standard deviation of a reading from sample to sample, as the file specifies it; shape (6,); N, N m."""
-    reading_deviation: FloatArray | None = None
+    measurement_offset_sd: FloatArray | None = None
     """Standard deviation of what a reading is off all along, as the file specifies it; shape (6,); N, N m."""
     amplifier_gain: tuple[float, ...] | None = None
     """Gain of each channel's amplifier while it was recorded; None if it is not known."""

@@ -182,16 +182,16 @@ class Interval(Table):
     """Name of the load that hangs on the wrist sensor or on the robot; needed where there are several."""
     support: Text | None = None
     """Support frame; required unless the use is ignore, or the links that touch are named."""
-    touched: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
+    contact_links: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
     """In place of a support: links that the world touches, nobody knows how, while the IMU of the recording tells how
     the robot moves."""
 
     @model_validator(mode="after")
-    def _support_or_touched(self) -> Interval:
-        if self.support is not None and self.touched is not None:
+    def _support_or_contact_links(self) -> Interval:
+        if self.support is not None and self.contact_links is not None:
             raise PydanticCustomError(
-                "support_or_touched",
-                "expected support or touched, got both; other links than the support are [[contact]]",
+                "support_or_contact_links",
+                "expected support or contact_links, got both; other links than the support are [[contact]]",
             )
         return self
 

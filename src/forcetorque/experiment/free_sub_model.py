@@ -288,5 +288,6 @@ def possible_touch(run: SensorRun) -> str | None:
     labels = ", ".join(repr(label) for label in dict.fromkeys(label for own in places.values() for label in own))
     return (
         f"by [[contact]] {', '.join(places)} may touch the robot beyond the sensor in {labels}, and the fit takes it "
-        "that nothing did; if both feet were down, name all links that touched in touched of [[interval]], with an IMU"
+        "that nothing did; if both feet were down, name all links that touched in contact_links of [[interval]], with "
+        "an IMU"
     )

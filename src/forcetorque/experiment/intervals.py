@@ -114,20 +114,20 @@ def _support(
     if loads is not None:
         return next(iter(loads.values())) if span.load is None else loads[span.load]
     # which of several touched links stands for the support does not matter to parts that nothing touches
-    if span.touched is None or model is None:
+    if span.contact_links is None or model is None:
         return None if span.support is None else supports[span.support]
-    for link in span.touched:
+    for link in span.contact_links:
         if link not in model.links:
             raise ExperimentError(
-                f"touched: robot {model.name!r} has no link {link!r}; {known_names(link, model.links)}"
+                f"contact_links: robot {model.name!r} has no link {link!r}; {known_names(link, model.links)}"
             )
     imu = imu_streams(recording)
     if not imu:
         raise ExperimentError(
-            "touched: expected an IMU in the recording, which tells how the robot moves whatever touches it; without "
-            "one name the link that stands still as support"
+            "contact_links: expected an IMU in the recording, which tells how the robot moves whatever touches it; "
+            "without one name the link that stands still as support"
         )
-    support = MovingSupport(frame=span.touched[0], motion_streams=imu)
+    support = MovingSupport(frame=span.contact_links[0], motion_streams=imu)
     imu_frame(model, recording, support)  # of several IMUs the file must name one
     return support
 

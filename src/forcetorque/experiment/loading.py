@@ -200,13 +200,14 @@ def load_experiment(path: Path | str, purpose: Purpose = Purpose.SENSORS) -> Exp
         return _load(parsed, file, Inputs.of(file))
     if purpose is Purpose.DISPLAY:
         spans = tuple(
-            one if one.support or one.touched else one.model_copy(update={"use": Use.IGNORE}) for one in parsed.interval
+            one if one.support or one.contact_links else one.model_copy(update={"use": Use.IGNORE})
+            for one in parsed.interval
         )
         return _load(parsed.model_copy(update={"interval": spans}), file, Inputs.of(file))
     gives_forces = any(one.gives_forces(parsed.table(one)) for one in sections())
     if purpose is not Purpose.FORCES or parsed.robot is None or not gives_forces:
         raise ExperimentError(_lacks_sensors(parsed, file))
-    if not parsed.support and not any(one.touched for one in parsed.interval):
+    if not parsed.support and not any(one.contact_links for one in parsed.interval):
         raise ExperimentError(
             f"{file}: expected [[support]], the link whose motion is known, got none: at rest with gravity_direction, "
             "or moving with imu, the streams of an IMU; without it the motion of the robot is unknown, with skin too"

@@ -48,16 +48,16 @@ class VariableOutside(Row):
         )
 
 
-class ReadingsOutside(Row):
+class SamplesOutside(Row):
     """How far readings lie outside what a calibration was fitted on."""
 
     sensor: str
     """Sensor."""
     serial: str
     """Its serial number."""
-    candidate: str
+    calibration: str
     """The calibration file."""
-    readings: int
+    samples: int
     """Number of readings without a gap."""
     outside: int
     """How many of them lie outside, by load or by variable, by more than a tenth of what was fitted."""
@@ -84,18 +84,18 @@ class ReadingsOutside(Row):
     @property
     def share(self) -> float:
         """Part of the readings that lie outside."""
-        return self.outside / self.readings if self.readings else 0.0
+        return self.outside / self.samples if self.samples else 0.0
 
     @property
     def sentences(self) -> tuple[str, ...]:
         """What makes it doubtful, in words; none where all readings lie within what was fitted."""
         sentences = (*self._loads(), *(variable.sentence for variable in self.variables), *self._limits())
-        return tuple(f"{self.candidate}: {sentence}" for sentence in sentences)
+        return tuple(f"{self.calibration}: {sentence}" for sentence in sentences)
 
     def _loads(self) -> Iterator[str]:
         if not self.outside:
             return
-        start = f"{100 * self.share:.3g} % of {self.readings} readings lie outside what was fitted"
+        start = f"{100 * self.share:.3g} % of {self.samples} readings lie outside what was fitted"
         if self.force_component is not None:
             start += (
                 f", by up to {self.force_N:.3g} N (most in {self.force_component}) and {self.moment_Nm:.3g} N m "
@@ -111,7 +111,7 @@ class ReadingsOutside(Row):
     def _limits(self) -> Iterator[str]:
         if self.at_limit:
             yield (
-                f"{100 * self.at_limit / self.readings:.3g} % of the readings are of loads beyond those that its "
+                f"{100 * self.at_limit / self.samples:.3g} % of the readings are of loads beyond those that its "
                 "quadratic terms were fitted to; they are corrected as at the limit"
             )
 
@@ -166,7 +166,7 @@ def applied_readings(
     )
 
 
-def readings_outside(runs: Runs, calibrations: Mapping[str, Calibration]) -> tuple[ReadingsOutside, ...]:
+def readings_outside(runs: Runs, calibrations: Mapping[str, Calibration]) -> tuple[SamplesOutside, ...]:
     """Tell how far the judged readings of a sensor lie outside what its calibrations were fitted on.
 
     Args:
@@ -190,7 +190,7 @@ def readings_outside(runs: Runs, calibrations: Mapping[str, Calibration]) -> tup
     return tuple(outside_row(name, calibrations[name], pieces) for name, pieces in applied.items())
 
 
-def outside_row(name: str, calibration: Calibration, applied: Sequence[AppliedReadings]) -> ReadingsOutside:
+def outside_row(name: str, calibration: Calibration, applied: Sequence[AppliedReadings]) -> SamplesOutside:
     """Sum up how far readings lie outside what a calibration was fitted on.
 
     Args:
@@ -212,11 +212,11 @@ def outside_row(name: str, calibration: Calibration, applied: Sequence[AppliedRe
     error = predicted_error(calibration, load[chosen], variables[chosen]) if chosen.any() else None
     force, force_component = _largest(beyond, 0)
     moment, moment_component = _largest(beyond, 3)
-    return ReadingsOutside(
+    return SamplesOutside(
         sensor=calibration.sensor.name,
         serial=calibration.sensor.serial,
-        candidate=name,
-        readings=len(chosen),
+        calibration=name,
+        samples=len(chosen),
         outside=int(chosen.sum()),
         force_N=force,
         force_component=force_component,
@@ -230,7 +230,7 @@ def outside_row(name: str, calibration: Calibration, applied: Sequence[AppliedRe
     )
 
 
-def sentences(rows: Iterable[ReadingsOutside]) -> tuple[str, ...]:
+def sentences(rows: Iterable[SamplesOutside]) -> tuple[str, ...]:
     """Say which readings lie outside what was fitted.
 
     Args:

@@ -112,13 +112,13 @@ class ClockRow(Row):
     """Seconds by which the delay grows in a second; None where it is undetermined."""
     drift_half_width_95: float | None
     """Half of its 95 % interval; None where it was not estimated."""
-    unasked_drift: float | None
+    drift_not_requested: float | None
     """Drift that the recording shows although the file has none; None for none."""
     shown_by: str | None
     """Quantity that the delay was estimated from; None where it was specified, or is undetermined."""
     explained: float | None
     """Share of the variance of one stream that the other explains; None likewise."""
-    untold: str | None
+    undetermined: str | None
     """Why the recording does not determine the delay; None where it does, or it was specified."""
 
 
@@ -135,7 +135,7 @@ def clock_rows(clocks: Iterable[ClockShift]) -> tuple[ClockRow, ...]:
 
 
 def _clock_record(shift: ClockShift) -> ClockRow:
-    is_determined = shift.untold is None
+    is_determined = shift.undetermined is None
     return ClockRow(
         stream=shift.stream,
         to=shift.to,
@@ -144,10 +144,10 @@ def _clock_record(shift: ClockShift) -> ClockRow:
         delay_half_width_95_s=shift.delay_half_width_s,
         drift=shift.drift if is_determined else None,
         drift_half_width_95=shift.drift_half_width,
-        unasked_drift=shift.unasked_drift,
+        drift_not_requested=shift.drift_not_requested,
         shown_by=shift.shown_by,
         explained=shift.explained,
-        untold=shift.untold,
+        undetermined=shift.undetermined,
     )
 
 

@@ -84,7 +84,7 @@ class Inspection(Result):
 
     of_several: ClassVar[tuple[str, ...]] = ("clocks", "sensor")
 
-    schema_name: Literal["forcetorque/inspect/2"] = Field(default="forcetorque/inspect/2", alias="schema")
+    schema_name: Literal["forcetorque/inspect/3"] = Field(default="forcetorque/inspect/3", alias="schema")
     """Form of the result."""
     source: str
     """Name of the inspected file or folder."""
@@ -275,7 +275,7 @@ def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding,
         experiment = load_experiment(source)
     except RecordingError:
         recording = load_tried_clocks(source)
-        if all(clock.untold is None for clock in recording.clocks):
+        if all(clock.undetermined is None for clock in recording.clocks):
             raise
         return recording, inspect_recording(recording)
     return experiment.recording, _of_experiment(experiment, patches)

@@ -70,12 +70,12 @@ def coherence_answers(coherence: Coherence) -> Iterator[Answer]:
     Yields:
         One answer each, those with less error first.
     """
-    names = short_names([row.candidate for row in coherence.summary])
+    names = short_names([row.calibration for row in coherence.summary])
     rows = sorted(coherence.summary, key=lambda row: (row.force_error_mean_N is None, row.force_error_mean_N or 0.0))
     for row in rows:
         offset = row.offset.value if row.offset_interval is None else f"{row.offset}:{row.offset_interval}"
         yield Answer(
-            subject=f"{coherence.experiment}, {names[row.candidate]}, {offset} offset",
+            subject=f"{coherence.experiment}, {names[row.calibration]}, {offset} offset",
             verdict=_net_error(row),
             why=(
                 f"net contact force of {row.phases} phase{'s' * (row.phases != 1)} less the weight, "

@@ -136,13 +136,13 @@ def _refuse_output(output: Path | None, *, force: bool) -> None:
     declare_outputs(output, force=force)
 
 
-@command("the errors by phase, candidate and offset")
+@command("the errors by phase, calibration and offset")
 def coherence(
     experiment: Annotated[
         "Experiment",
         Option(
             "Experiment; every interval that is not ignored is a phase, in which its support, or the links that it "
-            "names as touched, and its contacts touch the world."
+            "names in contact_links, and its contacts touch the world."
         ),
     ],
     candidates: Annotated[

@@ -147,7 +147,7 @@ def coherence_figure(result: Coherence) -> Figure:
         MissingExtraError: If matplotlib is not installed.
     """
     offsets = list(dict.fromkeys((row.offset, row.offset_interval) for row in result.rows))
-    names = short_names([row.candidate for row in result.rows])
+    names = short_names([row.calibration for row in result.rows])
     looks = {candidate: look(k) for k, candidate in enumerate(names)}
     figure = new_figure(ROW_INCHES[1] * len(offsets))
     for line, panels in zip(offsets, figure.subplots(len(offsets), 3, squeeze=False, sharey="row"), strict=True):
@@ -171,7 +171,7 @@ def _draw_coherence(panel: Axes, rows: Sequence[PhaseForce], looks: dict[str, Lo
     phases = list(dict.fromkeys(row.phase for row in rows))
     shift = dict(zip(looks, _SPREAD * (np.linspace(0.0, 1.0, len(looks) + 2)[1:-1] - 0.5), strict=True))
     for row in rows:
-        one, x = looks[row.candidate], phases.index(row.phase) + shift[row.candidate]
+        one, x = looks[row.calibration], phases.index(row.phase) + shift[row.calibration]
         half = row.force_half_width_95_N[axis]
         panel.errorbar(
             [x],

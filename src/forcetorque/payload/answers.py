@@ -36,7 +36,7 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
     step, command = _payload_step(weighed)
     for load in weighed.loads:
         name = "" if load.load == "load" else f", {load.load}"
-        doubtful = bool(contradicted or weighed.open or load.mass_kg is None or _disagree(weighed))
+        doubtful = bool(contradicted or weighed.undetermined or load.mass_kg is None or _disagree(weighed))
         yield Answer(
             subject=f"{weighed.sensor} ({weighed.serial}){name}",
             verdict=_load_verdict(load),
@@ -63,12 +63,12 @@ def _load_verdict(load: LoadRow) -> str:
 
 def _disagree(weighed: WeighedLoad) -> bool:
     """Whether recordings, or too many samples, disagree for one load to explain them."""
-    return bool(weighed.disagreements) or len(weighed.disagreeing) > _MANY * weighed.rows
+    return bool(weighed.disagreements) or len(weighed.disagreeing) > _MANY * weighed.observations
 
 
 def _reasons(weighed: WeighedLoad) -> tuple[str, ...]:
     if _disagree(weighed):
-        count = f"{len(weighed.disagreeing)} of {weighed.rows} samples disagree with the others"
+        count = f"{len(weighed.disagreeing)} of {weighed.observations} samples disagree with the others"
         first = "; ".join((*weighed.disagreements[:1], *((count,) if weighed.disagreeing else ())))
         return (first, _bias(weighed), *_drift(weighed))
     return (_bias(weighed), *_drift(weighed), _samples(weighed))
@@ -77,7 +77,7 @@ def _reasons(weighed: WeighedLoad) -> tuple[str, ...]:
 def _worst_session(weighed: WeighedLoad) -> str | None:
     """The session of which most samples disagree; None where there is one only, or none disagree."""
     names = [row.session for row in weighed.disagreeing]
-    shares = {row.session: names.count(row.session) / row.rows for row in weighed.sessions if row.rows}
+    shares = {row.session: names.count(row.session) / row.observations for row in weighed.sessions if row.observations}
     return max(shares, key=lambda name: shares[name]) if names and len(shares) > 1 else None
 
 
@@ -111,7 +111,7 @@ def _bias(weighed: WeighedLoad) -> str:
 
 def _samples(weighed: WeighedLoad) -> str:
     disagreeing = len(weighed.disagreeing)
-    count = f"{weighed.rows} samples" + (
+    count = f"{weighed.observations} samples" + (
         f", {disagreeing} disagree with the others and count less" if disagreeing else ""
     )
     return f"{count}; the loads move {weighed.spanned_directions} of 6 directions of wrench"
@@ -120,13 +120,13 @@ def _samples(weighed: WeighedLoad) -> str:
 def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
     if weighed.hypotheses:
         first = weighed.hypotheses[0]
-        return f"check for {first.name}: {first.words}", ""
+        return f"check for {first.name}: {first.description}", ""
     if _disagree(weighed):
         worst = _worst_session(weighed)
         which = "what disagrees, in --details" if worst is None else f"{worst!r}, which disagrees"
         words = f"look at {which}: contact is the likely cause; leave that out of the fit, and repeat"
         return words, typed("inspect", EXPERIMENT)
-    if weighed.open:
+    if weighed.undetermined:
         return "record more postures, which turn the load about other axes", ""
     return "write it to a file that the robot reads", typed(
         "payload", EXPERIMENT, "--to", LoadFormat.FT_TOOLS.value, "-o", "load.yaml"
@@ -143,7 +143,7 @@ def tare_answers(tare: Tare) -> Iterator[Answer]:
         One answer each.
     """
     for row in tare.sensors:
-        name = short_names([row.reading])[row.reading]
+        name = short_names([row.wrench_source])[row.wrench_source]
         force, moment = (
             plus_minus(list(row.offset[part]), float(max(row.half_width_95[part])), unit)
             for part, unit in zip(FORCE_AND_MOMENT, ("N", "N m"), strict=True)

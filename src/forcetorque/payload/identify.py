@@ -19,7 +19,7 @@ from forcetorque.payload.identification.measurement_model import instants, load_
 from forcetorque.payload.load_on_wrist_sensor import WristLoads, wrist_loads
 from forcetorque.payload.load_warnings import load_doubts, overweight_loads, payload_doubts, reversed_sense
 from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, link_loads
-from forcetorque.payload.result import JudgedLoadRow, LoadRow, RecordingLoadRow, WeighedLoad, disagreements
+from forcetorque.payload.result import LoadRow, RecordingLoadRow, ValidationLoadRow, WeighedLoad, disagreements
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import plus_minus
 from forcetorque.robot.mounting import rotation_vector
@@ -154,7 +154,7 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         experiment=", ".join(campaign.experiments),
         sensor=first.sensor.name,
         serial=first.sensor.serial,
-        rows=len(solution.residual),
+        observations=len(solution.residual),
         left_out=sum(hanging_on(run).left_out(run.experiment) for run in campaign.runs if run.has(Use.CALIBRATION)),
         loads=tuple(LoadRow.of(load, links.get(load.name)) for load in solution.loads),
         sessions=solution.sessions,
@@ -164,10 +164,10 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         mount_rad=_vector(solution) if with_mount else None,
         mount_half_width_rad=three(solution.mount_half_width) if with_mount else None,
         tilt_rad=None if table is None or table.tilt is None else (float(solution.tilt[0]), float(solution.tilt[1])),
-        open=solution.open_directions,
+        undetermined=solution.open_directions,
         disagreeing=solution.disagreeing,
         hypotheses=solution.hypotheses,
-        judged=tuple(row for run in campaign.runs for row in _judged(campaign, run, solution)),
+        validation=tuple(row for run in campaign.runs for row in _judged(campaign, run, solution)),
         residual_rms=solution.residual_rms,
         spanned_directions=solution.spanned,
         recordings=tuple(alone),
@@ -187,7 +187,7 @@ def _require_weight(weighed: WeighedLoad) -> None:
         if load.mass_kg is None or load.mass_kg >= 0.0:
             continue
         mass = plus_minus(load.mass_kg, load.mass_half_width_95_kg, "kg")
-        accounts = "; ".join(f"{row.name}: {row.words}" for row in weighed.hypotheses)
+        accounts = "; ".join(f"{row.name}: {row.description}" for row in weighed.hypotheses)
         remedy = (
             f"{accounts}; mend that, and weigh again"
             if accounts
@@ -206,7 +206,7 @@ def _vector(solution: LoadSolution) -> tuple[float, float, float]:
     return float(x), float(y), float(z)
 
 
-def _judged(campaign: Campaign, run: SensorRun, solution: LoadSolution) -> Iterator[JudgedLoadRow]:
+def _judged(campaign: Campaign, run: SensorRun, solution: LoadSolution) -> Iterator[ValidationLoadRow]:
     """What the loads leave of validation intervals, about the middle of each: its bias is not known."""
     if not run.has(Use.VALIDATION) or not all(load.is_determined for load in solution.loads):
         return
@@ -221,11 +221,11 @@ def _judged(campaign: Campaign, run: SensorRun, solution: LoadSolution) -> Itera
         _, lasting, _ = means_over(instants(problem.rows)[mine], about, _LASTING_S)
         force, largest = (np.linalg.norm(one[:, :3], axis=1) for one in (about, lasting))
         weight = float(np.median(np.linalg.norm(wrench[mine, :3], axis=1)))
-        yield JudgedLoadRow(
+        yield ValidationLoadRow(
             interval=label,
-            rows=int(mine.sum()),
+            observations=int(mine.sum()),
             force_error_N=float(np.sqrt((force**2).mean())),
             moment_error_Nm=float(np.sqrt((about[:, 3:] ** 2).sum(axis=1).mean())),
             largest_force_N=float(largest.max()),
-            touched=bool(largest.max() > _TOUCHED * weight),
+            contact=bool(largest.max() > _TOUCHED * weight),
         )

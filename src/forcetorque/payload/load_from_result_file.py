@@ -24,7 +24,7 @@ from forcetorque.payload.identification.matrix_uncertainty import MatrixSpread, 
 from forcetorque.payload.identification.parameter_vector import six_of
 from forcetorque.payload.identification.robust_fit import fit
 
-SCHEMA = "forcetorque/payload/2"
+SCHEMA = "forcetorque/payload/3"
 """Form of the results that are read."""
 _ROUNDING = np.repeat([1e-4, 1e-5, 1e-6], [1, 3, 6])
 """kg, kg m, kg m2: nothing was weighed better. What was stated there, or follows from what was estimated as the inertia

@@ -61,7 +61,7 @@ def inertia_of_estimated(solution: LoadSolution, estimate: LoadEstimate) -> Iner
             "says what they do determine, and mass_kg with centre_of_mass_m state the load"
         )
     if not estimate.mass >= 0.0:
-        words = "; ".join(entry.words for entry in solution.hypotheses) or "see `forcetorque payload`"
+        words = "; ".join(entry.description for entry in solution.hypotheses) or "see `forcetorque payload`"
         raise ExperimentError(
             f"load {estimate.name!r}: the readings fit a mass of {estimate.mass:.3g} kg, beside the links of the URDF "
             f"where there is one; expected a positive one: {words}"

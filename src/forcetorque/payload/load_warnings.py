@@ -174,7 +174,7 @@ def contradicted_statements(run: SensorRun, *, cautions: bool = True) -> Iterato
     solution = _estimated(run)
     for hypothesis in () if solution is None else solution.hypotheses:
         if cautions or hypothesis.severity == "contradiction":
-            yield f"the load was estimated, and the readings contradict the file: {hypothesis.words}"
+            yield f"the load was estimated, and the readings contradict the file: {hypothesis.description}"
     yield from overweight_loads(run)
     yield from reversed_sense(run)
 
@@ -227,7 +227,7 @@ def payload_doubts(weighed: WeighedLoad) -> Iterator[str]:
         A sentence for each matter.
     """
     for hypothesis in weighed.hypotheses:
-        yield f"{hypothesis.name}: {hypothesis.words}"
+        yield f"{hypothesis.name}: {hypothesis.description}"
     for test in weighed.bias_tests:
         if test.of == "intervals" and test.p_value is not None and test.p_value < _RARE:
             yield (
@@ -238,11 +238,11 @@ def payload_doubts(weighed: WeighedLoad) -> Iterator[str]:
     if weighed.left_out:
         yield f"{weighed.left_out} sample(s) lack a finite reading or motion, and are left out"
     if weighed.disagreeing:
-        names = ", ".join(row.row for row in weighed.disagreeing[:5])
+        names = ", ".join(row.observation for row in weighed.disagreeing[:5])
         more = f" and {len(weighed.disagreeing) - 5} more" if len(weighed.disagreeing) > 5 else ""
-        count = f"{len(weighed.disagreeing)} of {weighed.rows}"
+        count = f"{len(weighed.disagreeing)} of {weighed.observations}"
         yield f"{count} rows disagree with the others and count less: {names}{more}"
-    for row in weighed.judged:
-        if row.touched:
+    for row in weighed.validation:
+        if row.contact:
             force = f"up to {row.largest_force_N:.3g} N"
             yield f"interval {row.interval!r}: {force} are not of the load: something touches it"

@@ -115,12 +115,12 @@ class RecordingLoadRow(LoadRow):
         return cls(recording=recording, **dict(LoadRow.of(load, link)))
 
 
-class JudgedLoadRow(Row):
+class ValidationLoadRow(Row):
     """An interval that was not fitted, held against the loads that were."""
 
     interval: Annotated[str, Shown("interval")]
     """Its label."""
-    rows: Annotated[int, Shown("rows")]
+    observations: Annotated[int, Shown("observations")]
     """Number of means or poses in it."""
     force_error_N: Annotated[float, Shown("force", "N", digits=3)]
     """Root mean square of what the loads leave of the force about its middle."""
@@ -128,7 +128,7 @@ class JudgedLoadRow(Row):
     """The same of the moment."""
     largest_force_N: Annotated[float, Shown("largest", "N", digits=2)]
     """Largest of what the loads leave of the force about its middle, in means over a quarter of a second."""
-    touched: Annotated[bool, Shown("touched")]
+    contact: Annotated[bool, Shown("contact")]
     """Whether that is over a fifth of the weight of the load: something else than the load pulls (a heuristic)."""
 
 
@@ -314,7 +314,7 @@ class WeighedLoad(Result):
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "disagreements")
     interval_uses = ()
 
-    schema_name: Literal["forcetorque/payload/2"] = Field(default="forcetorque/payload/2", alias="schema")
+    schema_name: Literal["forcetorque/payload/3"] = Field(default="forcetorque/payload/3", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment."""
@@ -322,7 +322,7 @@ class WeighedLoad(Result):
     """Sensor."""
     serial: str
     """Its serial number."""
-    rows: int
+    observations: int
     """Number of means or poses that were fitted."""
     left_out: int
     """Samples that lack a finite reading or motion."""
@@ -342,13 +342,13 @@ class WeighedLoad(Result):
     """Half-widths of 95 % intervals of small rotations about the sensor's axes; rad; None where `mount_rad` is."""
     tilt_rad: tuple[float, float] | None
     """Rotation vector of gravity about x and y of the world; none where it was not asked for."""
-    open: tuple[str, ...]
+    undetermined: tuple[str, ...]
     """What the rows leave open, in sentences."""
     disagreeing: tuple[OutlierRow, ...]
     """Rows that disagree with all others."""
     hypotheses: tuple[HypothesisRow, ...]
     """Other accounts of the rows that explain them better, the best first."""
-    judged: tuple[JudgedLoadRow, ...]
+    validation: tuple[ValidationLoadRow, ...]
     """Validation intervals, held against the loads."""
     residual_rms: WrenchValues
     """Root mean square residual; N, N m."""
@@ -365,7 +365,7 @@ class WeighedLoad(Result):
         Yields:
             Sentences and tables.
         """
-        source = f"{self.sensor} ({self.serial}), {self.rows} rows"
+        source = f"{self.sensor} ({self.serial}), {self.observations} rows"
         for load in self.loads:
             yield f"{source}: {load_words(load)}"
             if (inertia := inertia_words(load)) is not None:
@@ -378,14 +378,14 @@ class WeighedLoad(Result):
         yield drift_words(self.drift)
         yield from (text for session in self.sessions if (text := _drift_text(session)) is not None)
         yield from (bias_words(test, self.loads) for test in self.bias_tests)
-        yield from self.open
+        yield from self.undetermined
         if self.disagreeing:
             yield table_of(self.disagreeing, "rows that disagree with all others, and count less")
         if self.recordings:
             yield table_of(self.recordings, "what each recording says by itself, ± half a 95 % interval")
             yield from self.disagreements or ("the recordings agree within their intervals",)
-        if self.judged:
-            yield table_of(self.judged, "what the loads leave of intervals that were not fitted, about its middle")
+        if self.validation:
+            yield table_of(self.validation, "what the loads leave of intervals that were not fitted, about its middle")
         rms = ", ".join(f"{value:.4f}" for value in self.residual_rms)
         yield f"residual RMS {rms} N, N m; the loads move {self.spanned_directions} of 6 directions of wrench"
 

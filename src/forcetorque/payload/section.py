@@ -81,16 +81,16 @@ def _require_robot_or_load(loads: Loads | None, file: ExperimentFile) -> None:
         raise PydanticCustomError(
             "load_link", "[[load]] with link hangs on a link of a robot: expected [robot] with its URDF, got none"
         )
-    if file.robot is not None and not file.support and not any(one.touched for one in file.interval):
+    if file.robot is not None and not file.support and not any(one.contact_links for one in file.interval):
         raise PydanticCustomError(
             "no_support", "expected [[support]]: the frame that the robot stands on, or touched in [[interval]]"
         )
     alone = loads is not None and file.robot is None
     if alone and (file.support or len(file.sensor) > 1):
         raise PydanticCustomError("load_alone", "with [load] there is one [[sensor]] and no [[support]]")
-    if alone and any(one.touched for one in file.interval):
+    if alone and any(one.contact_links for one in file.interval):
         raise PydanticCustomError("load_touched", "with [load] nothing else is touched: leave out touched")
-    if loads is not None and any(one.touched and one.use is not Use.IGNORE for one in file.interval):
+    if loads is not None and any(one.contact_links and one.use is not Use.IGNORE for one in file.interval):
         raise PydanticCustomError(
             "load_touched",
             "with [[load]] on a link every interval names its support: leave out touched, or state the load in the "

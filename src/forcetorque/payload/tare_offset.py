@@ -32,7 +32,7 @@ class TaredSensor(Row):
     """Sensor."""
     serial: str
     """Its serial number."""
-    reading: Annotated[str, Shown("read by")]
+    wrench_source: Annotated[str, Shown("read by")]
     """What makes a wrench of its reading."""
     interval: Annotated[str, Shown("at rest in")]
     """Stretch at rest."""
@@ -60,7 +60,7 @@ class Tare(Result):
 
     answered_by: ClassVar[str | None] = "forcetorque.payload.answers:tare_answers"
 
-    schema_name: Literal["forcetorque/tare/1"] = Field(default="forcetorque/tare/1", alias="schema")
+    schema_name: Literal["forcetorque/tare/2"] = Field(default="forcetorque/tare/2", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment."""
@@ -79,7 +79,7 @@ class Tare(Result):
                 lines.append(("before", row.offset_before))
             lines.append(("load", row.load))
             yield Table(
-                caption=f"{row.sensor} ({row.serial}), {row.reading}, {row.samples} samples of {row.interval!r}",
+                caption=f"{row.sensor} ({row.serial}), {row.wrench_source}, {row.samples} samples of {row.interval!r}",
                 headings=("", *COMPONENTS),
                 rows=tuple((name, *(f"{value:.4f}" for value in values)) for name, values in lines),
             )
@@ -112,7 +112,7 @@ def tare(run: SensorRun, interval: str, calibration: OneCalibration | None = Non
     row = TaredSensor(
         sensor=run.sensor.name,
         serial=run.sensor.serial,
-        reading=correction.source,
+        wrench_source=correction.source,
         interval=interval,
         samples=tared.estimate.count,
         offset=tared.estimate.value,

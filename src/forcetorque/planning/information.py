@@ -71,7 +71,7 @@ def unfitted_posterior(
         drift=False,
         mean=np.zeros((len(unit), size)),
         covariance=covariance,
-        learnt_covariance=prior,
+        mean_covariance=prior,
         prior_covariance=prior,
         to_wrench=np.eye(LOADS) if in_wrench else matrix,
         noise=tuple(
@@ -110,7 +110,7 @@ def blank_posterior(noise: FloatArray, load: FloatArray) -> Posterior:
         drift=False,
         mean=np.zeros((LOADS, size)),
         covariance=covariance,
-        learnt_covariance=covariance[:, :LOADS, :LOADS].copy(),
+        mean_covariance=covariance[:, :LOADS, :LOADS].copy(),
         prior_covariance=None,
         to_wrench=np.eye(LOADS),
         noise=tuple(RowNoise(white=float(one), time_constant_s=0.0, ratio=0.0) for one in noise),
@@ -214,7 +214,7 @@ class Knowledge:
         used, terms = 6 + len(posterior.variables), 0 if nuisance is None else len(PAIRS[0])
         together = np.zeros((len(posterior.mean), used + terms, used + terms))
         together[:, :used, :used] = posterior.covariance[:, :used, :used]
-        together[:, :6, :6] = posterior.learnt_covariance
+        together[:, :6, :6] = posterior.mean_covariance
         if nuisance is not None:
             together[:, used:, used:] = nuisance.deviation[:, None, None] ** 2 * np.eye(terms)
         return cls(
@@ -241,7 +241,7 @@ class Knowledge:
             columns = np.hstack([columns, self.nuisance.columns(loads.wrench, centre)])
         mean = columns.mean(axis=0)
         products = {shape: _product(line, columns - mean, shape) for shape in set(map(_shape, posterior.noise))}
-        repeated = posterior.covariance[:, :6, :6] - posterior.learnt_covariance
+        repeated = posterior.covariance[:, :6, :6] - posterior.mean_covariance
         together = np.empty_like(self.together)
         covariance = np.zeros((len(together), used + 1, used + 1))
         moved = np.zeros((used + 1, 6))
@@ -260,7 +260,7 @@ class Knowledge:
             "drift": False,
             "mean": np.zeros((len(together), used + 1)),
             "covariance": covariance,
-            "learnt_covariance": together[:, :6, :6].copy(),
+            "mean_covariance": together[:, :6, :6].copy(),
             "model_covariance": None,
             "load_centre": (self.seconds * posterior.load_centre + len(line) * mean[:6]) / seconds,
         }

@@ -107,7 +107,7 @@ class Criterion:
             Parts of the value that come from loads along fx to tz alone; shape (6,).
         """
         moment = np.diag(load_second_moment(posterior, self.case))[:6]
-        own = np.diagonal(posterior.learnt_covariance, axis1=1, axis2=2)
+        own = np.diagonal(posterior.mean_covariance, axis1=1, axis2=2)
         return (self.row_weights(posterior) @ own) * moment
 
     def gains(self, posterior: Posterior, centre: FloatArray, readings: Readings) -> FloatArray:
@@ -179,7 +179,7 @@ def pick(posterior: Posterior, aim: Aim, choices: Choices, *, haste: float) -> I
     )
     known = np.zeros((len(noise), size + 1, size + 1))
     known[:, :size, :size] = posterior.covariance[:, :size, :size]
-    known[:, :6, :6] = posterior.learnt_covariance
+    known[:, :6, :6] = posterior.mean_covariance
     known[:, size, size] = _OPEN**2 * noise
     centre = choices.columns.mean(axis=0)
     design = np.column_stack([choices.columns - centre, np.ones(n)])

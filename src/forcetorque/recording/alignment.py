@@ -198,9 +198,9 @@ class ClockShift:
     """What both show, by which it was estimated; None where it was specified."""
     explained: float | None = None
     """Share of its movement that the one explains of the other; None where it was specified."""
-    unasked_drift: float | None = None
+    drift_not_requested: float | None = None
     """Drift of an estimated delay that was not requested; None where it was requested, or the interval holds none."""
-    untold: str | None = None
+    undetermined: str | None = None
     """Why the delay that was to be estimated is not identifiable; None where it is, or it was specified."""
 
     @property
@@ -217,9 +217,9 @@ class ClockShift:
         if self.drift_half_width is not None:
             within = f"{within}, growing by {1e6 * self.drift:.4g} ± {1e6 * self.drift_half_width:.2g} us a second"
         unasked = ""
-        if self.unasked_drift is not None:
+        if self.drift_not_requested is not None:
             unasked = (
-                f"; the delay grows by {1e6 * self.unasked_drift:.4g} us a second, which the interval leaves "
+                f"; the delay grows by {1e6 * self.drift_not_requested:.4g} us a second, which the interval leaves "
                 'out: specify drift = "estimate"'
             )
         return (

@@ -111,7 +111,7 @@ class Delay:
     """Half of its interval; s."""
     drift: float
     """Seconds by which it grows in a second; 0 where it was not requested."""
-    unasked_drift: float
+    drift_not_requested: float
     """Drift of the solution with drift."""
     drift_half_width: float
     """Half of the interval of that."""
@@ -123,7 +123,7 @@ class Delay:
     @property
     def drifts(self) -> bool:
         """Whether the recording shows that the delay changes."""
-        return abs(self.unasked_drift) > self.drift_half_width
+        return abs(self.drift_not_requested) > self.drift_half_width
 
 
 def estimate_delay(
@@ -203,7 +203,7 @@ def estimate_delay(
         delay_s=around_s + float(delay),
         delay_half_width_s=float(half[0]),
         drift=float(root.values[1]) if with_drift else 0.0,
-        unasked_drift=float(drifting.values[1]),
+        drift_not_requested=float(drifting.values[1]),
         drift_half_width=float(own[1]),
         explained=root.explained,
         seconds=seconds,

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 from forcetorque.evaluation.answers import CONCERN
-from forcetorque.evaluation.load_cases.verdict import TONES, Decision, LoadCaseError, UseVerdict
+from forcetorque.evaluation.load_cases.verdict import TONES, Decision, LoadCaseError, LoadCaseVerdict
 from forcetorque.report.decision import NextSteps, Undecided
 from forcetorque.results.document.content import Place, Section, Tone, Verdict
 from forcetorque.results.number_text import amount
@@ -18,7 +18,9 @@ _ORDER: Final[Sequence[Decision]] = sorted(CONCERN, key=CONCERN.__getitem__, rev
 _HEADINGS = ("sensor", "calibration", "may it be used?", "for", "force error", "moment error", "do next, or why not")
 
 
-def all_sensors_page(uses: Sequence[UseVerdict], undecided: Sequence[Undecided], steps: Sequence[NextSteps]) -> Section:
+def all_sensors_page(
+    uses: Sequence[LoadCaseVerdict], undecided: Sequence[Undecided], steps: Sequence[NextSteps]
+) -> Section:
     """Put all sensors on one page.
 
     Args:
@@ -29,24 +31,24 @@ def all_sensors_page(uses: Sequence[UseVerdict], undecided: Sequence[Undecided],
     Returns:
         A section with a page of its own: how many may be used, and a line per verdict.
     """
-    unjudged = [row.candidate for row in undecided if row.candidate is not None]
-    names = short_names([*(use.candidate for use in uses), *unjudged])
+    unjudged = [row.calibration for row in undecided if row.calibration is not None]
+    names = short_names([*(use.calibration for use in uses), *unjudged])
     first = {(row.sensor, row.serial): next(iter(row.steps), "") for row in steps}
     rows = [_row(use, names, first) for use in sorted(uses, key=lambda use: _ORDER.index(use.decision))]
     for row in undecided:
-        name = "" if row.candidate is None else names[row.candidate]
+        name = "" if row.calibration is None else names[row.calibration]
         rows.append((f"{row.sensor} ({row.serial})", name, "no verdict", "", "", "", row.reason))
     caption = "Predicted errors: prior → calibration (at most with 95 %; allowed)"
     table = Table(caption=caption, headings=_HEADINGS, rows=tuple(rows))
     return Section(title="All sensors", blocks=(*_counts(uses, undecided), table), place=Place.PAGE)
 
 
-def _row(use: UseVerdict, names: Mapping[str, str], first: Mapping[tuple[str, str], str]) -> tuple[str, ...]:
+def _row(use: LoadCaseVerdict, names: Mapping[str, str], first: Mapping[tuple[str, str], str]) -> tuple[str, ...]:
     errors = {error.quantity: _error(error) for error in use.errors}
     remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
     return (
         f"{use.sensor} ({use.serial})",
-        names[use.candidate],
+        names[use.calibration],
         use.decision,
         use.loads,
         errors.get("force", ""),
@@ -61,7 +63,7 @@ def _error(error: LoadCaseError) -> str:
     return f"{before}{amount(error.after, error.unit)} ({amount(error.after_at_most, '')}{allowed})"
 
 
-def _counts(uses: Sequence[UseVerdict], undecided: Sequence[Undecided]) -> Iterator[Verdict]:
+def _counts(uses: Sequence[LoadCaseVerdict], undecided: Sequence[Undecided]) -> Iterator[Verdict]:
     """Name the sensors by their worst verdict."""
     worst: dict[tuple[str, str], Decision] = {}
     for use in uses:

@@ -13,12 +13,12 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.calibration.summary import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words
+from forcetorque.calibration.summary import LITTLE_LEARNT, InformationGain, information_gains, learnt_words
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import Criterion
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks, check
-from forcetorque.evaluation.evaluation import CandidateErrors, Evaluation, at_rest, validation_errors
+from forcetorque.evaluation.evaluation import CalibrationErrors, Evaluation, at_rest, validation_errors
 from forcetorque.evaluation.load_cases.validation_evidence import (
     OFFSET_WORDS,
     Independence,
@@ -30,13 +30,13 @@ from forcetorque.evaluation.load_cases.verdict import Tone
 from forcetorque.evaluation.sphere.result import SphereRow
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
 from forcetorque.evaluation.sphere.sphere import spheres
-from forcetorque.evaluation.validation.contact_forces import BestCandidate, ContactForceErrors, contact_forces
+from forcetorque.evaluation.validation.contact_forces import BestCalibration, ContactForceErrors, contact_forces
 from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR, EvaluatedWrenches
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.experiment.validity import ReadingsOutside, doubts_about_choice, require_unseen, sentences
+from forcetorque.experiment.validity import SamplesOutside, doubts_about_choice, require_unseen, sentences
 from forcetorque.recording.recording import Recording
 from forcetorque.results.number_text import with_error
 from forcetorque.results.table import Row, Shown, short_names
@@ -58,7 +58,7 @@ _Outcome = TypeVar("_Outcome")
 
 
 class Assessment(Row):
-    """Everything about one sensor; what could not be evaluated is empty and named in `not_judged`."""
+    """Everything about one sensor; what could not be evaluated is empty and named in `not_evaluated`."""
 
     sensor: str
     """Sensor."""
@@ -66,7 +66,7 @@ class Assessment(Row):
     """Its serial number."""
     verdict: tuple[VerdictLine, ...] = ()
     """What the rest comes to."""
-    evaluation: tuple[CandidateErrors, ...]
+    evaluation: tuple[CalibrationErrors, ...]
     """Errors on data that was not fitted."""
     comparisons: tuple[PriorComparison, ...]
     """Calibrations against their priors."""
@@ -74,7 +74,7 @@ class Assessment(Row):
     """What these errors are worth."""
     contact_forces: tuple[ContactForceErrors, ...]
     """Contact wrenches where nothing touches."""
-    best: tuple[BestCandidate, ...]
+    best: tuple[BestCalibration, ...]
     """Best candidates by these."""
     joint_torques: tuple[JointTorqueErrors, ...]
     """Errors of the joint torques that are estimated from the sensor."""
@@ -86,19 +86,19 @@ class Assessment(Row):
     """Criteria of the acceptance file."""
     calibrations: dict[str, Calibration]
     """Calibrations of the sensor, with their uncertainty, excitation and choice of lambda, by file."""
-    learnt: dict[str, tuple[LearntDirection, ...]] = Field(default_factory=dict)
+    information_gain: dict[str, tuple[InformationGain, ...]] = Field(default_factory=dict)
     """Information gained by those that are fitted by the generative model towards a prior, by file."""
     smoothing: tuple[str, ...] = ()
     """Whether measured and expected wrench were smoothed, as text."""
-    validity: tuple[ReadingsOutside, ...] = ()
+    validity: tuple[SamplesOutside, ...] = ()
     """How far the evaluated readings lie outside what each calibration was fitted on."""
     warnings: tuple[str, ...]
     """Warnings about the verdict."""
-    not_judged: dict[str, str]
+    not_evaluated: dict[str, str]
     """Reason by what could not be evaluated."""
     left_out: tuple[str, ...] = ()
     """What gaps, short intervals and missing joints leave out of contact forces and joint torques, in words."""
-    judged: EvaluatedWrenches | None = Field(default=None, exclude=True, repr=False)
+    evaluated: EvaluatedWrenches | None = Field(default=None, exclude=True, repr=False)
     """Wrenches on data that was not fitted, for figures."""
     clouds: tuple[SensorSphere, ...] = Field(default=(), exclude=True, repr=False)
     """Forces of the spheres, for figures."""
@@ -180,7 +180,9 @@ def assess(
         static=static,
         criteria=criteria,
         calibrations=dict(calibrations),
-        learnt={file: rows for file, one in calibrations.items() if (rows := learnt_directions(one)) is not None},
+        information_gain={
+            file: rows for file, one in calibrations.items() if (rows := information_gains(one)) is not None
+        },
         smoothing=evaluation.smoothing if evaluation else (),
         validity=evaluation.validity if evaluation else (),
         warnings=(
@@ -188,11 +190,11 @@ def assess(
             *_outside(evaluation, names),
             *_warnings(run, unseen, names, tried),
         ),
-        not_judged=tried.reasons,
+        not_evaluated=tried.reasons,
         left_out=tuple(
             dict.fromkeys([*(contacts.left_out if contacts else ()), *(torques.left_out if torques else ())])
         ),
-        judged=judged,
+        evaluated=judged,
         clouds=clouds.analyses if clouds else (),
     )
     return assessment.model_copy(update={"verdict": verdict(assessment)})
@@ -229,7 +231,7 @@ def _checked(
 
 def _outside(evaluation: Evaluation | None, names: Mapping[str, str]) -> tuple[str, ...]:
     rows = evaluation.validity if evaluation else ()
-    return sentences(row.model_copy(update={"candidate": names[row.candidate]}) for row in rows)
+    return sentences(row.model_copy(update={"calibration": names[row.calibration]}) for row in rows)
 
 
 def _warnings(
@@ -335,16 +337,16 @@ def _lines(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     yield from _learnt(assessment)
     yield from _saturation(assessment)
     yield from _sphere(assessment)
-    for what, reason in assessment.not_judged.items():
+    for what, reason in assessment.not_evaluated.items():
         yield "unknown", f"not evaluated: {what}: {reason}"
     for words in assessment.left_out:
         yield "unknown", f"left out: {words}"
 
 
 def _acceptance(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
-    names = short_names([row.candidate for row in assessment.criteria])
+    names = short_names([row.calibration for row in assessment.criteria])
     for candidate, name in names.items():
-        rows = [row for row in assessment.criteria if row.candidate == candidate]
+        rows = [row for row in assessment.criteria if row.calibration == candidate]
         failed = [row.criterion for row in rows if not row.passed]
         if failed:
             yield "bad", f"{name} is not accepted: {len(failed)} of {len(rows)} criteria fail: {', '.join(failed)}"
@@ -353,14 +355,16 @@ def _acceptance(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
 
 
 def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
-    names = short_names([row.candidate for row in assessment.evaluation])
+    names = short_names([row.calibration for row in assessment.evaluation])
     for row in assessment.evaluation:
-        name = names[row.candidate]
+        name = names[row.calibration]
         start = f"{name} with {OFFSET_WORDS[row.offset]}, {row.samples} samples that were not fitted: "
-        compared = [one for one in assessment.comparisons if (one.candidate, one.offset) == (row.candidate, row.offset)]
+        compared = [
+            one for one in assessment.comparisons if (one.calibration, one.offset) == (row.calibration, row.offset)
+        ]
         if compared:
-            yield _unless_warned(_tone(compared), assessment, row.candidate), prior_comparison_text(name, compared)
-        elif row.candidate in assessment.calibrations:
+            yield _unless_warned(_tone(compared), assessment, row.calibration), prior_comparison_text(name, compared)
+        elif row.calibration in assessment.calibrations:
             yield "unknown", f"{start}{_plain(row)}; it has no prior to compare it with"
         elif not assessment.calibrations:
             yield "unknown", f"{start}{_plain(row)}; no calibration was given to compare it with"
@@ -375,17 +379,17 @@ def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
 def _fit_warnings(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     names = short_names(list(assessment.calibrations))
     for file, calibration in assessment.calibrations.items():
-        for warning in calibration.doubts:
+        for warning in calibration.warnings:
             yield "caution", f"{names[file]} has a warning from before it was fitted: {warning}"
 
 
 def _unless_warned(tone: Tone, assessment: Assessment, candidate: str) -> Tone:
     """A reference that is wrong flatters the calibration that was fitted to it."""
     calibration = assessment.calibrations.get(candidate)
-    return "caution" if tone == "good" and calibration is not None and calibration.doubts else tone
+    return "caution" if tone == "good" and calibration is not None and calibration.warnings else tone
 
 
-def _plain(row: CandidateErrors) -> str:
+def _plain(row: CalibrationErrors) -> str:
     force = with_error(row.force_error_mean_N, row.force_error_half_width_95_N, digits=2)
     moment = with_error(row.moment_error_mean_Nm, row.moment_error_half_width_95_Nm, digits=3)
     return f"force error {force} N, moment error {moment} N m"
@@ -393,7 +397,7 @@ def _plain(row: CandidateErrors) -> str:
 
 def _tone(rows: Sequence[PriorComparison]) -> Tone:
     """Good needs neither of force and moment worse, and one better."""
-    judgements = {row.judgement for row in rows}
+    judgements = {row.conclusion for row in rows}
     if "worse" in judgements:
         return "bad"
     return "good" if "better" in judgements else "caution"
@@ -423,8 +427,8 @@ def _excitation(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
 
 def _learnt(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     names = short_names(list(assessment.calibrations))
-    for file, rows in assessment.learnt.items():
-        if any(row.learnt < LITTLE_LEARNT for row in rows):
+    for file, rows in assessment.information_gain.items():
+        if any(row.uncertainty_reduction < LITTLE_LEARNT for row in rows):
             yield "caution", f"{names[file]}: {learnt_words(rows)}"
 
 
@@ -438,13 +442,13 @@ def _saturation(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
 
 
 def _sphere(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
-    names = short_names([row.candidate for row in assessment.spheres])
+    names = short_names([row.calibration for row in assessment.spheres])
     for row in assessment.spheres:
-        fit = row.with_reference
+        fit = row.with_model
         if fit is None or not fit.identifiable or fit.index_kg is None:
             continue
         high = "" if fit.index_high_kg is None else f" ({fit.index_low_kg:.3f} to {fit.index_high_kg:.3f})"
-        text = f"{names[row.candidate]}: the three axes weigh the limb {fit.index_kg:.3f} kg apart{high}"
+        text = f"{names[row.calibration]}: the three axes weigh the limb {fit.index_kg:.3f} kg apart{high}"
         if row.fitted_on:
             labels = ", ".join(map(repr, row.fitted_on))
             yield "caution", f"{text}, which flatters: it was fitted on {labels}"

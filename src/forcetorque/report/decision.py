@@ -9,9 +9,9 @@ from functools import partial
 from typing import TypeVar
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.calibration.summary import LITTLE_LEARNT, learnt_directions, to_learn
+from forcetorque.calibration.summary import LITTLE_LEARNT, information_gains, to_learn
 from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
-from forcetorque.evaluation.load_cases.verdict import KEEP_PRIOR, UseVerdict, use_verdicts
+from forcetorque.evaluation.load_cases.verdict import KEEP_PRIOR, LoadCaseVerdict, use_verdicts
 from forcetorque.evaluation.section import LOAD_CASES
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
@@ -33,7 +33,7 @@ class Undecided(Row):
     """Sensor."""
     serial: str
     """Its serial number."""
-    candidate: str | None
+    calibration: str | None
     """The calibration file; None where the sensor has none."""
     reason: str
     """Why, and what was expected."""
@@ -43,7 +43,7 @@ def decide_uses(
     runs: Sequence[Mapping[str, SensorRun]],
     calibrations: Sequence[Mapping[str, Mapping[str, Calibration]]],
     demands: Demands,
-) -> tuple[tuple[UseVerdict, ...], tuple[Undecided, ...]]:
+) -> tuple[tuple[LoadCaseVerdict, ...], tuple[Undecided, ...]]:
     """Decide on every calibration over all recordings whose validation intervals were not fitted.
 
     Args:
@@ -55,11 +55,11 @@ def decide_uses(
         Verdicts, and calibrations and sensors on which there is none.
     """
     more = demands.acceptance.load_case if demands.acceptance is not None else ()
-    verdicts: list[UseVerdict] = []
+    verdicts: list[LoadCaseVerdict] = []
     undecided: list[Undecided] = []
 
     def refuse(key: SensorKey, file: str | None, reason: object) -> None:
-        undecided.append(Undecided(sensor=key[0], serial=key[1], candidate=file, reason=str(reason)))
+        undecided.append(Undecided(sensor=key[0], serial=key[1], calibration=file, reason=str(reason)))
 
     for key, own in _by_sensor(runs).items():
         files = {
@@ -80,7 +80,7 @@ def decide_uses(
     return tuple(verdicts), tuple(undecided)
 
 
-def sensor_keys(uses: Sequence[UseVerdict], undecided: Sequence[Undecided]) -> list[SensorKey]:
+def sensor_keys(uses: Sequence[LoadCaseVerdict], undecided: Sequence[Undecided]) -> list[SensorKey]:
     """List the sensors that have a verdict or a reason for none.
 
     Args:
@@ -178,7 +178,7 @@ class NextSteps(Row):
 
 def next_steps(
     key: SensorKey,
-    uses: Sequence[UseVerdict],
+    uses: Sequence[LoadCaseVerdict],
     undecided: Sequence[Undecided],
     calibrations: Mapping[str, Calibration],
     runs: Mapping[str, SensorRun],
@@ -199,7 +199,7 @@ def next_steps(
     steps = [
         *_today(uses, names),
         *texts_with_names(
-            ((names[verdict.candidate], step) for verdict in uses for step in _remedies(verdict)), names.values()
+            ((names[verdict.calibration], step) for verdict in uses for step in _remedies(verdict)), names.values()
         ),
         *texts_with_names(_to_record(uses, calibrations, names), names.values()),
         *_plan(_to_plan(uses, [*runs.values()]), calibrations, runs, names),
@@ -209,17 +209,17 @@ def next_steps(
     return NextSteps(sensor=key[0], serial=key[1], steps=tuple(dict.fromkeys(steps)))
 
 
-def _today(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[str]:
+def _today(uses: Sequence[LoadCaseVerdict], names: Mapping[str, str]) -> Iterator[str]:
     """What to do with the calibrations as they are, those and those uses together of which it is the same."""
     by_calibration = grouped_by_text(
-        (f"“{verdict.load_case}”", (names[verdict.candidate], _as_it_is(verdict))) for verdict in uses
+        (f"“{verdict.load_case}”", (names[verdict.calibration], _as_it_is(verdict))) for verdict in uses
     )
     by_cases = ((name, (cases, words)) for cases, (name, words) in by_calibration)
     for calibrations, (cases, words) in grouped_by_text(by_cases):
         yield words.format(calibration=" and ".join(calibrations), use=" and ".join(cases))
 
 
-def _as_it_is(verdict: UseVerdict) -> str:
+def _as_it_is(verdict: LoadCaseVerdict) -> str:
     """What to do with a calibration, with places for its name and for that of the use."""
     if verdict.decision == "use":
         offset = (
@@ -234,7 +234,7 @@ def _as_it_is(verdict: UseVerdict) -> str:
     return "Do not rely on {calibration} for {use} yet." + instead
 
 
-def _instead(verdict: UseVerdict) -> str:
+def _instead(verdict: LoadCaseVerdict) -> str:
     """Whether the prior is any better."""
     pairs = [(row, row.before_at_most) for row in verdict.errors if row.before_at_most is not None]
     if not pairs:
@@ -250,7 +250,7 @@ def _instead(verdict: UseVerdict) -> str:
     return f" The matrix that it came from (the prior) {more}, so do not go back to it either."
 
 
-def _remedies(verdict: UseVerdict) -> Iterator[str]:
+def _remedies(verdict: LoadCaseVerdict) -> Iterator[str]:
     for reason in verdict.reasons:
         if reason.against is not None:
             yield reason.remedy or _sentence(reason.text)
@@ -261,36 +261,39 @@ def _sentence(text: str) -> str:
 
 
 def _to_record(
-    uses: Sequence[UseVerdict], calibrations: Mapping[str, Calibration], names: Mapping[str, str]
+    uses: Sequence[LoadCaseVerdict], calibrations: Mapping[str, Calibration], names: Mapping[str, str]
 ) -> Iterator[tuple[str, str]]:
     """By name of a calibration what its recordings hardly taught, where its predicted error is too large."""
     for verdict in uses:
-        rows = learnt_directions(calibrations[verdict.candidate]) if _predicts_too_much(verdict) else None
+        rows = information_gains(calibrations[verdict.calibration]) if _predicts_too_much(verdict) else None
         advice = None if rows is None else to_learn(rows)
         if advice is not None:
-            little = ", ".join(row.direction for row in rows or () if row.learnt < LITTLE_LEARNT)
-            yield names[verdict.candidate], f"The recordings gave little information on loads along {little}: {advice}."
+            little = ", ".join(row.direction for row in rows or () if row.uncertainty_reduction < LITTLE_LEARNT)
+            yield (
+                names[verdict.calibration],
+                f"The recordings gave little information on loads along {little}: {advice}.",
+            )
 
 
-def _predicts_too_much(verdict: UseVerdict) -> bool:
+def _predicts_too_much(verdict: LoadCaseVerdict) -> bool:
     return verdict.within is not None and verdict.within < CONFIDENCE
 
 
-def _to_plan(uses: Sequence[UseVerdict], runs: Sequence[SensorRun]) -> dict[str, list[UseVerdict]]:
+def _to_plan(uses: Sequence[LoadCaseVerdict], runs: Sequence[SensorRun]) -> dict[str, list[LoadCaseVerdict]]:
     """By file of a calibration the verdicts for which a plan can say what to record."""
     if not all(run.experiment.stands for run in runs):
         return {}
     known = {table.name for run in runs for table in run.experiment.section(LOAD_CASES)}
-    wanted: dict[str, list[UseVerdict]] = {}
+    wanted: dict[str, list[LoadCaseVerdict]] = {}
     for verdict in uses:
         # no plan reads the uses of an acceptance file
-        if _predicts_too_much(verdict) and (not verdict.stated or verdict.load_case in known):
-            wanted.setdefault(verdict.candidate, []).append(verdict)
+        if _predicts_too_much(verdict) and (not verdict.specified or verdict.load_case in known):
+            wanted.setdefault(verdict.calibration, []).append(verdict)
     return wanted
 
 
 def _plan(
-    wanted: Mapping[str, Sequence[UseVerdict]],
+    wanted: Mapping[str, Sequence[LoadCaseVerdict]],
     calibrations: Mapping[str, Calibration],
     runs: Mapping[str, SensorRun],
     names: Mapping[str, str],
@@ -312,7 +315,7 @@ def _plan(
         yield f"`{command}` lists what to record next, and the error to expect after each recording{kept}."
 
 
-def _first_recording(calibration: Calibration, verdict: UseVerdict, runs: Sequence[SensorRun]) -> str:
+def _first_recording(calibration: Calibration, verdict: LoadCaseVerdict, runs: Sequence[SensorRun]) -> str:
     try:
         words = plan_sentence(runs, calibration, load_case=verdict.load_case)
     except ForceTorqueError as error:
@@ -320,7 +323,7 @@ def _first_recording(calibration: Calibration, verdict: UseVerdict, runs: Sequen
     return f"For “{verdict.load_case}”, {words}."
 
 
-def _chance(verdict: UseVerdict) -> float:
+def _chance(verdict: LoadCaseVerdict) -> float:
     """Predicted probability of an error within what is allowed."""
     return 1.0 if verdict.within is None else verdict.within
 
@@ -329,7 +332,7 @@ def _begin(
     undecided: Sequence[Undecided], sensor: str, files: Sequence[str], names: Mapping[str, str]
 ) -> Iterator[str]:
     """What comes before there can be a verdict."""
-    unjudged = [names[row.candidate] for row in undecided if row.candidate is not None]
+    unjudged = [names[row.calibration] for row in undecided if row.calibration is not None]
     if unjudged:
         names_of = " and ".join(unjudged)
         yield f"Remove what prevents a verdict on {names_of}, as listed above, and write this report again."
@@ -338,9 +341,9 @@ def _begin(
         yield f"Calibrate it, `{command}`, and write this report again with the calibration."
 
 
-def _state_use(uses: Sequence[UseVerdict]) -> Iterator[str]:
+def _state_use(uses: Sequence[LoadCaseVerdict]) -> Iterator[str]:
     """Ask for the load case where the default is used."""
-    for loads in dict.fromkeys(verdict.loads for verdict in uses if not verdict.stated):
+    for loads in dict.fromkeys(verdict.loads for verdict in uses if not verdict.specified):
         yield (
             f"Check that this is your use. The experiment file specifies none, so {loads}, was assumed; specify your "
             "loads, and the error that you allow, as [[load_case]] in the experiment file, and write this report again."

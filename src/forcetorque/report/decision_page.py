@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from forcetorque.calibration.report_blocks import origin_words
 from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
-from forcetorque.evaluation.load_cases.verdict import UseVerdict
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.report.assessment import Assessment, VerdictLine
 from forcetorque.report.decision import NextSteps, Undecided, grouped_by_text, texts_with_names
@@ -30,7 +30,7 @@ _MOST_SENTENCES = 4
 
 def decision_page(
     steps: NextSteps,
-    uses: Sequence[UseVerdict],
+    uses: Sequence[LoadCaseVerdict],
     undecided: Sequence[Undecided],
     calibrations: Mapping[str, Calibration],
     assessed: Sequence[VerdictLine],
@@ -73,19 +73,19 @@ def decision_page(
 
 
 def _verdicts(
-    uses: Sequence[UseVerdict], undecided: Sequence[Undecided], names: Mapping[str, str]
+    uses: Sequence[LoadCaseVerdict], undecided: Sequence[Undecided], names: Mapping[str, str]
 ) -> Iterator[Verdict]:
     whole = len(uses) <= _MOST_SENTENCES
     for verdict in uses:
-        sentence = verdict.sentence.removeprefix(verdict.decision).strip() if whole else _briefly(verdict)
-        yield Verdict(tone=Tone(verdict.tone), word=verdict.decision, text=f"{names[verdict.candidate]}, {sentence}.")
+        sentence = verdict.message.removeprefix(verdict.decision).strip() if whole else _briefly(verdict)
+        yield Verdict(tone=Tone(verdict.tone), word=verdict.decision, text=f"{names[verdict.calibration]}, {sentence}.")
     for row in undecided:
-        name = "" if row.candidate is None else f"{names[row.candidate]}: "
+        name = "" if row.calibration is None else f"{names[row.calibration]}: "
         yield Verdict(tone=Tone.UNKNOWN, word="no verdict", text=f"{name}{row.reason}.")
 
 
 def _against(
-    uses: Sequence[UseVerdict],
+    uses: Sequence[LoadCaseVerdict],
     names: Mapping[str, str],
     calibrations: Mapping[str, Calibration],
     assessed: Sequence[VerdictLine],
@@ -94,13 +94,13 @@ def _against(
     for text in texts_with_names(_beyond_predicted(uses, names), names.values()):
         yield Verdict(tone=Tone.CAUTION, word="measured", text=f"{text}.")
     # doubts about fitted data are reasons of every verdict
-    reasoned = [doubt for one in calibrations.values() for doubt in one.doubts] if uses else []
+    reasoned = [doubt for one in calibrations.values() for doubt in one.warnings] if uses else []
     lines = [line for line in assessed if not any(doubt in line.text for doubt in reasoned)]
     for text in dict.fromkeys(line.text for line in lines if line.tone == "bad"):
         yield Verdict(tone=Tone.BAD, word="warning", text=f"{text}.")
     first = 1 if len(uses) <= _MOST_SENTENCES else 0
     reasons = [
-        (names[verdict.candidate], reason.text)
+        (names[verdict.calibration], reason.text)
         for verdict in uses
         for reason in verdict.reasons[first:]
         if reason.against is not None and reason.remedy is not None
@@ -110,7 +110,7 @@ def _against(
         yield List(points=tuple(dict.fromkeys(f"warning: {text}" for text in warnings)))
 
 
-def _beyond_predicted(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+def _beyond_predicted(uses: Sequence[LoadCaseVerdict], names: Mapping[str, str]) -> Iterator[tuple[str, str]]:
     """Calibrations that err by more on other data than is predicted for a use, with both."""
     beyond: dict[tuple[str, str], list[str]] = {}
     for verdict in uses:
@@ -118,7 +118,7 @@ def _beyond_predicted(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> I
         if rows:
             errors = " and ".join(f"{two_digits(row.measured or 0.0)} {row.unit}" for row in rows)
             most = ", ".join(f"{two_digits(row.after_at_most)} {row.unit}" for row in rows)
-            beyond.setdefault((verdict.candidate, errors), []).append(f"“{verdict.load_case}” ({most})")
+            beyond.setdefault((verdict.calibration, errors), []).append(f"“{verdict.load_case}” ({most})")
     for (candidate, errors), cases in beyond.items():
         yield (
             names[candidate],
@@ -127,12 +127,12 @@ def _beyond_predicted(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> I
         )
 
 
-def _briefly(verdict: UseVerdict) -> str:
+def _briefly(verdict: LoadCaseVerdict) -> str:
     """The use alone; how much error there is shows the figure."""
     return f"for “{verdict.load_case}”"
 
 
-def _figure(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[Block]:
+def _figure(uses: Sequence[LoadCaseVerdict], names: Mapping[str, str]) -> Iterator[Block]:
     from forcetorque.evaluation.figures.load_cases import use_figure
 
     drawn = [verdict for verdict in uses if verdict.errors]
@@ -140,7 +140,7 @@ def _figure(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[Bl
         return
     cases = "; “".join(dict.fromkeys(f"{verdict.load_case}”: {verdict.loads}" for verdict in drawn))
     sizes = ", ".join(
-        f"{names[verdict.candidate]} for {verdict.load_case} "
+        f"{names[verdict.calibration]} for {verdict.load_case} "
         + " and ".join(f"{row.after:.2g} {row.unit}" for row in verdict.errors)
         for verdict in drawn
     )
@@ -154,21 +154,21 @@ def _figure(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[Bl
     )
 
 
-def _measured_words(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> str:
+def _measured_words(uses: Sequence[LoadCaseVerdict], names: Mapping[str, str]) -> str:
     sizes = [
-        f"{names[verdict.candidate]} {' and '.join(f'{row.measured:.2g} {row.unit}' for row in verdict.errors)}"
+        f"{names[verdict.calibration]} {' and '.join(f'{row.measured:.2g} {row.unit}' for row in verdict.errors)}"
         for verdict in uses
         if all(row.measured is not None for row in verdict.errors)
     ]
     return f" Measured on data that were not fitted: {', '.join(dict.fromkeys(sizes))}." if sizes else ""
 
 
-def _other_reasons(uses: Sequence[UseVerdict], names: Mapping[str, str], against: Sequence[Block]) -> list[Block]:
+def _other_reasons(uses: Sequence[LoadCaseVerdict], names: Mapping[str, str], against: Sequence[Block]) -> list[Block]:
     """Reasons for it, and what only informs, that stand nowhere else."""
     shown = [point for block in against if isinstance(block, List) for point in block.points]
     first = 1 if len(uses) <= _MOST_SENTENCES else 0
     reasons = (
-        (names[verdict.candidate], reason.text)
+        (names[verdict.calibration], reason.text)
         for verdict in uses
         for reason in verdict.reasons[first:]
         if reason.against is None and not any(reason.text in text for text in shown)
@@ -177,7 +177,7 @@ def _other_reasons(uses: Sequence[UseVerdict], names: Mapping[str, str], against
     return [List(points=tuple(points))] if points else []
 
 
-def _beside(uses: Sequence[UseVerdict]) -> str:
+def _beside(uses: Sequence[LoadCaseVerdict]) -> str:
     """That a picture of what is predicted does not show what was measured, where that decides."""
     decided = any(
         verdict.decision != "use" and verdict.within is not None and verdict.within >= CONFIDENCE for verdict in uses
@@ -191,7 +191,7 @@ def _basis(calibrations: Mapping[str, Calibration], names: Mapping[str, str]) ->
     return [List(points=tuple(points))] if points else []
 
 
-def _numbers(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> list[Block]:
+def _numbers(uses: Sequence[LoadCaseVerdict], names: Mapping[str, str]) -> list[Block]:
     rows = [row for verdict in uses for row in verdict.errors]
     if not rows:
         return []
@@ -202,7 +202,7 @@ def _numbers(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> list[Block
     )
     for heading, cells in (
         ("use", [verdict.load_case for verdict in uses for _ in verdict.errors]),
-        ("calibration", [names[verdict.candidate] for verdict in uses for _ in verdict.errors]),
+        ("calibration", [names[verdict.calibration] for verdict in uses for _ in verdict.errors]),
     ):
         if len(set(cells)) > 1:
             table = with_first_column(table, heading, cells)

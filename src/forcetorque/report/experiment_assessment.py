@@ -10,7 +10,7 @@ from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.calibration.joint.interval import part_residuals
-from forcetorque.calibration.joint.outcome import PartRow
+from forcetorque.calibration.joint.outcome import SubModelRow
 from forcetorque.calibration.joint.robust_fit import PartResidual
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.section import FUSION
@@ -119,7 +119,7 @@ class ExperimentAssessment(Row):
     """What is wrong with the recording."""
     sensors: tuple[Assessment, ...]
     """Its sensors."""
-    parts: tuple[PartRow, ...] = ()
+    sub_models: tuple[SubModelRow, ...] = ()
     """What the first calibration of every sensor leaves of parts that nothing touches, on data that was not fitted."""
     part_residuals: tuple[PartResidual, ...] = Field(default=(), exclude=True, repr=False)
     """The same window by window."""
@@ -193,7 +193,7 @@ def assess_experiment(
         intervals=interval_overviews(experiment.recording),
         findings=finding_rows(start, inspect_experiment(experiment)),
         sensors=tuple(sensors),
-        parts=tuple(map(PartRow.of, residuals)),
+        sub_models=tuple(map(SubModelRow.of, residuals)),
         part_residuals=tuple(residuals),
         skin=skin,
         skin_left_out=skin_left_out,

@@ -93,7 +93,7 @@ def static_table(rows: Sequence[StaticChecks]) -> Table:
         A row per candidate and quantity.
     """
     shown: list[tuple[str, ...]] = []
-    names = short_names([row.candidate for row in rows])
+    names = short_names([row.calibration for row in rows])
     for row in rows:
         for label, values in (
             ("resolution, one count rms", row.resolution_rms),
@@ -103,11 +103,11 @@ def static_table(rows: Sequence[StaticChecks]) -> Table:
             ("offset per °C", row.offset_per_degC),
         ):
             if values is not None:
-                shown.append((names[row.candidate], label, *(f"{value:.3g}" for value in values)))
+                shown.append((names[row.calibration], label, *(f"{value:.3g}" for value in values)))
         if row.condition is not None:
-            shown.append((names[row.candidate], "condition of the matrix", f"{row.condition:.3g}", *[""] * 5))
+            shown.append((names[row.calibration], "condition of the matrix", f"{row.condition:.3g}", *[""] * 5))
     return Table(
-        caption="What the sensor and its matrix can do", headings=("candidate", "", *COMPONENTS), rows=tuple(shown)
+        caption="What the sensor and its matrix can do", headings=("calibration", "", *COMPONENTS), rows=tuple(shown)
     )
 
 

@@ -12,7 +12,7 @@ from pydantic import Field
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import refuse_output, refuse_unwritable, write_bytes_atomically
 from forcetorque.evaluation.answers import CONCERN
-from forcetorque.evaluation.load_cases.verdict import Tone, UseVerdict
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, Tone
 from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
@@ -47,7 +47,7 @@ class _Line(Row):
 class Report(Result):
     """Everything about the sensors of experiments, what to do first."""
 
-    schema_name: Literal["forcetorque/report/1"] = Field(default="forcetorque/report/1", alias="schema")
+    schema_name: Literal["forcetorque/report/2"] = Field(default="forcetorque/report/2", alias="schema")
     """Form of the result."""
     title: str
     """Title of the document."""
@@ -55,7 +55,7 @@ class Report(Result):
     """When it was made, ISO 8601 with time zone."""
     code_version: str
     """Version of forcetorque."""
-    uses: tuple[UseVerdict, ...] = ()
+    load_cases: tuple[LoadCaseVerdict, ...] = ()
     """Whether every calibration may be used, by load case; pooled over the recordings that it has not seen."""
     undecided: tuple[Undecided, ...] = ()
     """Calibrations on which there is no such verdict, and sensors without a calibration."""
@@ -74,19 +74,19 @@ class Report(Result):
         Yields:
             One per verdict.
         """
-        unjudged = [row.candidate for row in self.undecided if row.candidate is not None]
-        names = short_names([*(row.candidate for row in self.uses), *unjudged])
+        unjudged = [row.calibration for row in self.undecided if row.calibration is not None]
+        names = short_names([*(row.calibration for row in self.load_cases), *unjudged])
         steps = {(row.sensor, row.serial): next(iter(row.steps), "") for row in self.next_steps}
-        for use in self.uses:
+        for use in self.load_cases:
             yield Answer(
-                subject=f"{use.sensor} ({use.serial}), {names[use.candidate]}, {use.load_case}",
+                subject=f"{use.sensor} ({use.serial}), {names[use.calibration]}, {use.load_case}",
                 verdict=use.decision.upper(),
                 why=(use.reasons[0].text,),
                 step=steps.get((use.sensor, use.serial), ""),
                 concern=CONCERN[use.decision],
             )
         for row in self.undecided:
-            name = "no calibration" if row.candidate is None else names[row.candidate]
+            name = "no calibration" if row.calibration is None else names[row.calibration]
             yield Answer(
                 subject=f"{row.sensor} ({row.serial}), {name}",
                 verdict="NO VERDICT",
@@ -131,23 +131,23 @@ class Report(Result):
         ]
 
     def _lines(self) -> list[_Line]:
-        unjudged = [row.candidate for row in self.undecided if row.candidate is not None]
-        names = short_names([*(row.candidate for row in self.uses), *unjudged])
+        unjudged = [row.calibration for row in self.undecided if row.calibration is not None]
+        names = short_names([*(row.calibration for row in self.load_cases), *unjudged])
         decided = [
             _Line(
                 sensor=row.sensor,
                 serial=row.serial,
                 tone=row.tone,
-                text=f"{names[row.candidate]}: {row.sentence}",
+                text=f"{names[row.calibration]}: {row.message}",
             )
-            for row in self.uses
+            for row in self.load_cases
         ]
         return decided + [
             _Line(
                 sensor=row.sensor,
                 serial=row.serial,
                 tone="unknown",
-                text=row.reason if row.candidate is None else f"{names[row.candidate]}: {row.reason}",
+                text=row.reason if row.calibration is None else f"{names[row.calibration]}: {row.reason}",
             )
             for row in self.undecided
         ]
@@ -167,10 +167,10 @@ class Report(Result):
 
     def _first_page(self) -> Iterator[Section]:
         if len(self.next_steps) > 1:
-            yield all_sensors_page(self.uses, self.undecided, self.next_steps)
+            yield all_sensors_page(self.load_cases, self.undecided, self.next_steps)
 
     def _page(self, steps: NextSteps) -> Section:
-        def own(row: UseVerdict | Undecided) -> bool:
+        def own(row: LoadCaseVerdict | Undecided) -> bool:
             return (row.sensor, row.serial) == (steps.sensor, steps.serial)
 
         sensors = [
@@ -182,8 +182,8 @@ class Report(Result):
         calibrations = {file: one for sensor in sensors for file, one in sensor.calibrations.items()}
         return decision_page(
             steps,
-            [*filter(own, self.uses)],
-            [*filter(own, self.undecided)],
+            [verdict for verdict in self.load_cases if own(verdict)],
+            [undecided for undecided in self.undecided if own(undecided)],
             calibrations,
             [line for sensor in sensors for line in sensor.verdict],
             explained=steps is self.next_steps[0],
@@ -280,7 +280,7 @@ def report(
         title=title or f"{_subject(assessments)}: {names}",
         created=created,
         code_version=code_version,
-        uses=uses,
+        load_cases=uses,
         undecided=undecided,
         next_steps=tuple(
             next_steps(

@@ -52,7 +52,7 @@ def _errors(sensor: Assessment) -> Iterator[Block]:
         yield Text(text=f"Numbers of these tables: {words}. The verdict goes by root mean squares.")
     if sensor.independence:
         yield table_of(sensor.independence, "How many independent samples the errors are worth")
-    judged = sensor.judged
+    judged = sensor.evaluated
     if judged is None:
         return
     names = short_names([name for name, _ in judged.measured])
@@ -84,11 +84,11 @@ def _space(sensor: Assessment) -> Iterator[Block]:
         moments = moment_table(sensor.spheres)
         if moments is not None:
             yield moments
-        names = short_names([row.candidate for row in sensor.spheres])
+        names = short_names([row.calibration for row in sensor.spheres])
         reasons = {
-            f"{names[row.candidate]}, {label}: not identifiable: {'; '.join(fit.why)}"
+            f"{names[row.calibration]}, {label}: not identifiable: {'; '.join(fit.why)}"
             for row in sensor.spheres
-            for label, fit in (("with the model", row.with_reference), ("without", row.without_reference))
+            for label, fit in (("with the model", row.with_model), ("without", row.without_model))
             if fit is not None and fit.why
         }
         if reasons:
@@ -98,8 +98,8 @@ def _space(sensor: Assessment) -> Iterator[Block]:
             caption="Forces, the ellipsoid through them and the sphere of the weight; dotted: not identifiable.",
             description="Clouds of forces seen along the three axes, with ellipsoids and a circle of the weight.",
         )
-    if sensor.judged is not None:
-        judged = sensor.judged
+    if sensor.evaluated is not None:
+        judged = sensor.evaluated
         names = short_names([name for name, _ in judged.measured])
         read = [*((names[name], wrench) for name, wrench in judged.measured), ("reference", judged.reference)]
         clouds = [(name, wrench[:, 3:]) for name, wrench in read]
@@ -121,7 +121,7 @@ def _contacts(sensor: Assessment) -> Iterator[Block]:
     )
     yield without_vague(contacts)
     yield constant_contact_table(sensor.contact_forces)
-    names = short_names([row.candidate for row in sensor.contact_forces])
+    names = short_names([row.calibration for row in sensor.contact_forces])
     if len(names) > 1:
         yield List(points=tuple(best.sentence for best in sensor.best))
 
@@ -140,9 +140,9 @@ def _static(sensor: Assessment) -> Iterator[Block]:
 
 def _acceptance(sensor: Assessment) -> Iterator[Block]:
     if sensor.criteria:
-        names = short_names([criterion.candidate for criterion in sensor.criteria])
+        names = short_names([criterion.calibration for criterion in sensor.criteria])
         for candidate, name in names.items():
-            criteria = [criterion for criterion in sensor.criteria if criterion.candidate == candidate]
+            criteria = [criterion for criterion in sensor.criteria if criterion.calibration == candidate]
             yield criteria_table(criteria, f"Criteria of the acceptance file: {name}")
 
 
@@ -277,7 +277,7 @@ def _parts(experiment: ExperimentAssessment) -> Section:
         caption="What is left of every part over time, by the prior matrices and by the calibrations.",
         description="For every part two plots over time, force and moment, each before and after.",
     )
-    return Section(title=title, blocks=(Text(text=words), table_of(experiment.parts, "Parts"), figure))
+    return Section(title=title, blocks=(Text(text=words), table_of(experiment.sub_models, "Parts"), figure))
 
 
 def _recording(experiment: ExperimentAssessment) -> Section:

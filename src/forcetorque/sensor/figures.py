@@ -117,7 +117,7 @@ def _draw_drift(panel: Axes, sensor: SensorThermal, j: int) -> None:
         branch = curve.heating == sign
         if not branch.any():
             continue
-        degrees, values = curve.temperature_degC[branch], curve.reading[branch, j]
+        degrees, values = curve.temperature_degC[branch], curve.measurement[branch, j]
         cloud = thinned_cloud(np.column_stack([degrees, values]), _POINTS)
         panel.plot(cloud[:, 0], cloud[:, 1], linestyle="none", **_dots(style))
         ends = np.array([degrees.min(), degrees.max()])
@@ -204,7 +204,7 @@ def _bode(panels: list[Axes], curve: ResponseCurve, response: Response) -> None:
 
 def _decay(panel: Axes, decay: DecayCurve, *, first: bool, signal: str) -> None:
     time = 1e3 * decay.time_s
-    panel.plot(time, decay.reading, color=_MEASURED.colour, linestyle=_MEASURED.dashes, linewidth=1.0)
+    panel.plot(time, decay.measurement, color=_MEASURED.colour, linestyle=_MEASURED.dashes, linewidth=1.0)
     panel.plot(time, decay.fitted, color=_FITTED.colour, linestyle=_FITTED.dashes, linewidth=1.2)
     panel.set_title(_short(decay.title), loc="left")
     panel.set_xlabel("behind the event, ms")

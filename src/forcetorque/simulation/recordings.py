@@ -81,7 +81,7 @@ def _phase_interval_text(simulated: SimulatedRecording, phase: Phase) -> str:
     if phase.kind is PhaseKind.LANDING:
         use, support = Use.IGNORE, ""
     elif phase.kind is PhaseKind.DOUBLE_SUPPORT:
-        support = f"touched = {json.dumps(phase.touched)}\n"
+        support = f"contact_links = {json.dumps(phase.touched)}\n"
     return (
         f'\n[[interval]]\nlabel = "{phase.label}"\nstart_s = {start_s:.3f}\nend_s = {end_s:.3f}\n'
         f'use = "{use.value}"\n{support}'

@@ -235,7 +235,7 @@ def mounted_with_error(
         if have < _LEAST_SHARE * want:
             raise FormatError(
                 f"workbench_error: expected an error of {want:g} {unit} in {name}, but mounting as drawn gives none "
-                "that could be scaled; set mounting_spread or uneven screws, and recordings that load the sensor"
+                "that could be scaled; set mounting_sd or uneven screws, and recordings that load the sensor"
             )
     scale = np.divide(wanted, drawn, out=np.zeros(6), where=wanted > 0.0)
     error = scale[:, None] * matrix_error(workbench, mounted)
@@ -302,7 +302,7 @@ def draw_specimen(
             sensitivity, screws, arm_angle_rad=CHANNEL_ANGLES, in_plane=IN_PLANE, strength=described.mounting_strength
         )
         matrix = distorted_by_mounting(
-            np.asarray(np.linalg.inv(bent), dtype=np.float64), relative=described.mounting_spread, rng=rng
+            np.asarray(np.linalg.inv(bent), dtype=np.float64), relative=described.mounting_sd, rng=rng
         )
     else:
         share, lever_m = described.matrix_error.share, described.matrix_error.lever_m

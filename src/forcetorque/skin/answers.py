@@ -34,7 +34,7 @@ def skin_calibration_answer(result: SkinCalibration) -> Answer:
     written = (result.file, result.figure_file)
     return Answer(
         subject=f"{result.patch}{serial}, curve {result.curve}",
-        verdict=f"{result.sound} OF {len(result.taxels)} TAXELS HAVE A CURVE",
+        verdict=f"{result.valid_taxels} OF {len(result.taxels)} TAXELS HAVE A CURVE",
         why=(
             "no recording was kept back, so no error is known where it was not fitted"
             if kept is None or kept.inside_kPa is None
@@ -83,7 +83,9 @@ def skin_wrench_answer(result: SkinWrench) -> Answer:
     offered = any(row.re_tare == OFFERED for row in result.releases)
     return Answer(
         subject=f"{result.patch} on {result.link}, {result.taxels - left_out} of {result.taxels} taxels",
-        verdict=f"TOUCHED in {result.touched} of {result.frames} frames" if result.touched else "NOT TOUCHED",
+        verdict=f"TOUCHED in {result.frames_with_contact} of {result.frames} frames"
+        if result.frames_with_contact
+        else "NOT TOUCHED",
         why=()
         if largest is None
         else (

@@ -333,7 +333,7 @@ class _Experiment(BaseModel):
 class _Numbers(BaseModel):
     """Of the numbers of a report, those that say what it was made from."""
 
-    schema_name: Literal["forcetorque/report/1"] = Field(alias="schema")
+    schema_name: Literal["forcetorque/report/2"] = Field(alias="schema")
     experiments: tuple[_Experiment, ...]
 
 

@@ -157,12 +157,12 @@ def _spheres(
         if _force_fit(sphere) is None:
             fit = sphere.analysis.free if sphere.analysis.mapped is None else sphere.analysis.mapped.fit
             reason = "; ".join(fit.why)
-            draft.notes.append(f"sensor {sensor.name!r}, {sphere.candidate}: no ellipsoid of forces: {reason}")
+            draft.notes.append(f"sensor {sensor.name!r}, {sphere.calibration}: no ellipsoid of forces: {reason}")
     labels = ", ".join(map(repr, analyses[0].intervals))
     draft.sources.append(
         f"{sensor.name}: sphere of the weight and ellipsoids as by `forcetorque study sphere` over {labels}{every}"
     )
-    return {sphere.candidate: sphere for sphere in analyses}
+    return {sphere.calibration: sphere for sphere in analyses}
 
 
 def _thinned(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Experiment, str]:

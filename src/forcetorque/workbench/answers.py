@@ -63,7 +63,7 @@ def _verdict(workbench: Workbench, row: BenchSensorRow) -> tuple[str, Concern]:
 def _reasons(workbench: Workbench, row: BenchSensorRow) -> Iterator[str]:
     if row.reason:
         yield row.reason
-    faults = [fault.sentence for fault in workbench.faults if fault.serial == row.serial]
+    faults = [fault.message for fault in workbench.faults if fault.serial == row.serial]
     failed = [one for one in workbench.criteria if one.serial == row.serial and not one.passed]
     if faults:
         yield "; ".join(faults[:2]) + (f"; {len(faults) - 2} more" if len(faults) > 2 else "")

@@ -80,12 +80,12 @@ def bench_subject(
     checks = StaticChecks(
         sensor=calibration.sensor.name,
         serial=calibration.sensor.serial,
-        candidate=row.file,
+        calibration=row.file,
         limit_counts=limit_counts,
         condition=matrix.condition,
         resolution_worst=matrix.resolution.worst,
         resolution_rms=matrix.resolution.rms,
-        full_scale_stated=matrix.stated_full_scale,
+        full_scale_specified=matrix.stated_full_scale,
         full_scale_positive=None if full_scale is None else full_scale.positive,
         full_scale_negative=None if full_scale is None else full_scale.negative,
         population_count=None if position is None else len(others),
@@ -134,7 +134,7 @@ def _workbench(subject: BenchSubject, bounds: limits.WorkbenchLimits) -> Iterato
     yield from subject.at_limits("workbench.held_out", row.held_out, bounds.held_out, count=n)
     yield from subject.at_limit("workbench.rank", row.rank, bounds.rank, bound=Bound.AT_LEAST, count=n)
     yield from subject.at_limit("workbench.faults", subject.faults, bounds.faults, count=n)
-    yield from subject.at_limit("workbench.unsound_blocks", subject.invalid_blocks, bounds.unsound_blocks, count=n)
+    yield from subject.at_limit("workbench.invalid_blocks", subject.invalid_blocks, bounds.invalid_blocks, count=n)
 
 
 def next_step(recording: BenchRecording, blocks: Sequence[BlockRow]) -> str | None:
@@ -153,9 +153,9 @@ def next_step(recording: BenchRecording, blocks: Sequence[BlockRow]) -> str | No
     wanted = [name for name in recording.loads.names if name not in recording.left_out]
     for name in wanted:
         if name not in last:
-            done = sum(row.sound for row in last.values())
+            done = sum(row.valid for row in last.values())
             return f"next: {_setup(recording.loads, name)}; {done} of {len(wanted)} positions are valid"
-    again = [row for row in last.values() if not row.sound]
+    again = [row for row in last.values() if not row.valid]
     if again:
         return f"again: {_setup(recording.loads, again[0].position)}: {again[0].findings[0]}"
     return f"all {len(wanted)} positions are valid"
@@ -226,7 +226,7 @@ def workbench(
             created=created,
             warnings=(
                 *_block_warnings(blocks, fit.row.serial),
-                *(row.sentence for row in faults if row.serial == fit.row.serial),
+                *(row.message for row in faults if row.serial == fit.row.serial),
                 *fit.warnings,
             ),
         )
@@ -290,14 +290,14 @@ def _criteria(
             _others(calibrations, serial),
             limit_counts=float(fit.bench.full_scale.min()),
             faults=sum(row.serial == serial for row in faults),
-            invalid_blocks=sum(row.serial == serial and not row.sound for row in blocks),
+            invalid_blocks=sum(row.serial == serial and not row.valid for row in blocks),
         )
         yield from bench_criteria(subject, spec)
 
 
 def _block_warnings(blocks: Sequence[BlockRow], serial: str) -> Iterator[str]:
     for row in blocks:
-        if row.serial == serial and not row.sound:
+        if row.serial == serial and not row.valid:
             yield f"{serial}: position {row.position}: {row.findings[0]}"
 
 
@@ -321,8 +321,8 @@ def _warnings(fits: Sequence[SensorFit], searches: Sequence[FaultSearch]) -> Ite
             kept = "the prior matrix is kept" if row.fitted else "there is no matrix"
             directions = "; ".join(row.unmoved)
             yield f"{row.serial}: the loads excite {row.rank} of 6 directions, not {directions}: {kept} there"
-        if row.unseen:
-            yield f"{row.serial}: raw directions that no load excites: {row.unseen}"
+        if row.unexcited_raw:
+            yield f"{row.serial}: raw directions that no load excites: {row.unexcited_raw}"
         if not row.fitted and (fit.bench.prior is not None or not row.unmoved):
             yield f"{row.serial}: {row.reason}"
         yield from (f"{row.serial}: {warning}" for warning in fit.warnings)

@@ -366,7 +366,7 @@ class FaultRow(Row):
     """Unit of the amount."""
     probability: float
     """Share of undamaged sensors for which as much would be reported."""
-    sentence: str
+    message: str
     """The fault as text."""
 
 
@@ -462,7 +462,7 @@ def _fault_row(fault: DetectedFault, loads: BenchLoads, serial: str) -> FaultRow
         standard_error=error,
         unit=unit,
         probability=max(math.exp(max(fault.log_probability, -690.0)), _LEAST_PROBABILITY),
-        sentence=f"{serial}: {_message(fault, names, component, amount, unit)}",
+        message=f"{serial}: {_message(fault, names, component, amount, unit)}",
     )
 
 

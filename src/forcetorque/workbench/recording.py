@@ -84,13 +84,13 @@ def _blocks_of_log(
     for interval in readings.block:
         if interval.position not in (BIAS, *names):
             raise ExperimentError(
-                f"readings.block: no position is called {interval.position!r}; "
+                f"measurements.block: no position is called {interval.position!r}; "
                 f"{known_names(interval.position, (BIAS, *names))}"
             )
         within = (time >= interval.start_s) & (time < interval.end_s)
         source = f"{readings.file}, {interval.start_s:g}-{interval.end_s:g} s"
         if not within.any():
-            raise ExperimentError(f"readings.block: {source}: expected rows of the log, there is none")
+            raise ExperimentError(f"measurements.block: {source}: expected rows of the log, there is none")
         is_bias = interval.position == BIAS
         block = Block.of(
             interval.position,
@@ -216,14 +216,16 @@ def read_bench(path: Path | str) -> BenchRecording:
 
 
 def _recording(file: str, content: BenchFile, inputs: Inputs) -> BenchRecording:
-    sensor, readings = content.sensor, content.readings
+    sensor, readings = content.sensor, content.measurements
     full_scale = _full_scale(sensor, len(readings.channels))
     blocks: list[Block] = []
     if isinstance(readings, RowReadings):
         raw, known = _table_of_means(readings, inputs)
         loads = known or _loads(content, inputs)
         if len(raw) > len(loads):
-            raise ExperimentError(f"readings.file: expected a row for each of {len(loads)} positions, got {len(raw)}")
+            raise ExperimentError(
+                f"measurements.file: expected a row for each of {len(loads)} positions, got {len(raw)}"
+            )
         names, error, bias, time = loads.names[: len(raw)], None, None, None
     else:
         loads = _loads(content, inputs)

@@ -43,7 +43,7 @@ class BenchSensorRow(Row):
     """Number of directions of load that the positions excite."""
     unmoved: Annotated[tuple[str, ...], Shown("loads not excited")]
     """The other directions: there the matrix is the prior matrix, or undetermined."""
-    unseen: str
+    unexcited_raw: str
     """Directions of the raw samples that no load excites; empty for none."""
     fitted: Annotated[bool, Shown("fitted")]
     """Whether there is a matrix."""
@@ -78,7 +78,7 @@ class BlockRow(Row):
     """Largest standard error of the mean over the channels."""
     movement_counts: Annotated[float, Shown("moves by", "counts", digits=1)]
     """Largest less smallest mean of a tenth of the block, of the channel that moves most."""
-    sound: Annotated[bool, Shown("valid")]
+    valid: Annotated[bool, Shown("valid")]
     """Whether there are no findings."""
     findings: tuple[str, ...]
     """Messages about the block."""
@@ -110,7 +110,7 @@ class PositionRow(Row):
     """Mass of weight and structure; None where wrenches were specified."""
     error_median: Annotated[WrenchValues, ShownWrench(digits=3)]
     """Median over the sensors of the measured less the known wrench; N, N m."""
-    error_spread: WrenchValues
+    error_robust_sd: WrenchValues
     """1.4826 times the median absolute deviation from the median; N, N m."""
     suspected: Annotated[int, Shown("sensors with a fault there")]
     """Number of sensors with a fault at this position."""
@@ -125,9 +125,9 @@ class SphereRow(Row):
     """Positions with this load."""
     radius_N: Annotated[float, Shown("weight", "N", digits=3)]
     """Weight of the load."""
-    read_N: Annotated[float, Shown("measured", "N", digits=3, error="spread_N")]
+    read_N: Annotated[float, Shown("measured", "N", digits=3, error="robust_sd_N")]
     """Median over sensors and positions of the measured force."""
-    spread_N: float
+    robust_sd_N: float
     """1.4826 times the median absolute deviation from the median."""
     farthest: Annotated[str, Shown("farthest")]
     """Position whose force is farthest from the sphere, in the median over sensors."""
@@ -174,7 +174,7 @@ def block_rows(recording: BenchRecording) -> tuple[BlockRow, ...]:
             samples=block.samples,
             standard_error_counts=float(block.standard_error.max()),
             movement_counts=float(block.movement.max()),
-            sound=not findings,
+            valid=not findings,
             findings=findings,
         )
         for block, findings in zip(
@@ -202,7 +202,7 @@ def position_rows(searches: Sequence[FaultSearch]) -> tuple[PositionRow, ...]:
             position=name,
             load_kg=None if kilograms is None else float(kilograms[k]),
             error_median=median[k],
-            error_spread=spread[k],
+            error_robust_sd=spread[k],
             suspected=sum(any(k in fault.positions for fault in search.detected) for search in searches),
         )
         for k, name in enumerate(loads.names)
@@ -234,7 +234,7 @@ def sphere_rows(searches: Sequence[FaultSearch]) -> tuple[SphereRow, ...]:
                 positions=len(positions),
                 radius_N=radius,
                 read_N=median,
-                spread_N=MAD_TO_DEVIATION * float(np.median(np.abs(lengths[:, positions] - median))),
+                robust_sd_N=MAD_TO_DEVIATION * float(np.median(np.abs(lengths[:, positions] - median))),
                 farthest=loads.names[positions[int(np.argmax(distance))]],
             )
         )
@@ -281,7 +281,7 @@ class Workbench(DrawnResult):
     drawn_fields: ClassVar[tuple[str, ...]] = ("picture",)
     answered_by: ClassVar[str | None] = "forcetorque.workbench.answers:workbench_answers"
 
-    schema_name: Literal["forcetorque/workbench/1"] = Field(default="forcetorque/workbench/1", alias="schema")
+    schema_name: Literal["forcetorque/workbench/2"] = Field(default="forcetorque/workbench/2", alias="schema")
     """Form of the result."""
     sensors: tuple[BenchSensorRow, ...]
     """One per file with readings."""
@@ -319,7 +319,7 @@ class Workbench(DrawnResult):
         Yields:
             Tables and messages.
         """
-        invalid = [row for row in self.blocks_checked if not row.sound]
+        invalid = [row for row in self.blocks_checked if not row.valid]
         if invalid:
             yield table_of(invalid, "blocks with findings")
             yield from (f"{row.serial}, position {row.position}: {text}" for row in invalid for text in row.findings)
@@ -336,7 +336,7 @@ class Workbench(DrawnResult):
         ):
             if rows:
                 yield table_of(rows, caption)
-        yield from (f"{row.sentence} ({_chance(row.probability)})" for row in self.faults)
+        yield from (f"{row.message} ({_chance(row.probability)})" for row in self.faults)
         if self.sensors and not self.faults:
             yield "no fault of the bench is detected"
         if self.criteria:

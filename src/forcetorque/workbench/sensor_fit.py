@@ -206,7 +206,7 @@ def fit_sensor(recording: BenchRecording, rng: np.random.Generator, *, with_seri
         without_load=tuple(_unused_positions(recording.bench)),
         rank=6 - len(unmoved),
         unmoved=unmoved,
-        unseen=excitation.describe_unexcited(channel_names=channels) if len(channels) > 6 else "",
+        unexcited_raw=excitation.describe_unexcited(channel_names=channels) if len(channels) > 6 else "",
         fitted=fitted is not None,
         reason=reason,
         held_out=held_out,
@@ -335,7 +335,7 @@ def _require_force_first(bench: Bench, file: str) -> None:
     if exchanged < _PERMUTED**2 * as_specified:
         raise ExperimentError(
             f"{file}: expected known wrenches as force, then moment, got what the prior matrix measures as moment, "
-            "then force; exchange the columns of readings.known, or of readings.channels"
+            "then force; exchange the columns of measurements.known, or of measurements.channels"
         )
 
 
@@ -393,7 +393,7 @@ def bench_calibration(
             [fit.model.wrench(bench.raw)],
         ),
         selection=Selection(rule=_RULE),
-        doubts=warnings,
+        warnings=warnings,
         provenance=_provenance(recording, bench, code_version=code_version, created=created),
     )
 

@@ -145,5 +145,5 @@ class BenchFile(Table):
     """The loads."""
     placement: PlacementTable | None = None
     """Uncertainty of the loads."""
-    readings: Annotated[BlockReadings | LogReadings | RowReadings, Field(discriminator="format")]
+    measurements: Annotated[BlockReadings | LogReadings | RowReadings, Field(discriminator="format")]
     """The measurements."""

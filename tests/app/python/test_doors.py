@@ -110,7 +110,7 @@ def test_contacts_are_estimated_without_a_file(experiment: Experiment, arm: Path
     command = json.loads(_said("estimate", arm / PARQUET, *words))
     mine = json.loads(summary.json_text())
     assert mine["contacts"] == command["contacts"] != []
-    assert sum(len(span.stamp_ns) for span in summary.intervals) == summary.rows == command["rows"]
+    assert sum(len(span.stamp_ns) for span in summary.intervals) == summary.samples == command["samples"]
     assert summary.file is None
     assert experiment.estimate(calibration, output=tmp_path / "mine.csv").file == str(tmp_path / "mine.csv")
     assert (tmp_path / "mine.csv").is_file()
@@ -128,7 +128,7 @@ def test_a_sensor_is_accepted_by_limits(experiment: Experiment, arm: Path, tmp_p
     command = json.loads(_said("accept", arm / PARQUET, "--spec", spec, "-c", tmp_path / "calibration"))
     mine = json.loads(acceptance.json_text())
     assert mine["accepted"] == command["accepted"]
-    assert mine["criteria"] == [row | {"candidate": "calibration"} for row in command["criteria"]] != []
+    assert mine["criteria"] == [row | {"calibration": "calibration"} for row in command["criteria"]] != []
     assert run.accept(read_acceptance(spec), calibration).criteria == acceptance.criteria
 
 

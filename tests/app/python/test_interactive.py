@@ -19,7 +19,7 @@ from forcetorque.app.python.experiment import Experiment, load_experiment
 from forcetorque.app.python.run import Run
 from forcetorque.base.errors import ExperimentError, FitError, RecordingError, ShapeError
 from forcetorque.calibration.calibrate import data_doubts
-from forcetorque.calibration.summary import learnt_directions
+from forcetorque.calibration.summary import information_gains
 from forcetorque.evaluation.commands import evaluate, validate
 from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.evaluation.sphere.sphere import spheres
@@ -52,7 +52,7 @@ def test_a_sensor_is_chosen_by_name_and_asked_by_method(experiment: Experiment, 
     evaluation = run.evaluate(calibration)
     asked = evaluate(SensorRun(experiment, "arm_ft"), {"calibration": calibration})
     assert evaluation.json_text() == asked.json_text()
-    assert run.verdicts(calibration) == evaluation.uses
+    assert run.verdicts(calibration) == evaluation.load_cases
     calibration.save(tmp_path / "arm.json")
     np.testing.assert_array_equal(read_calibration(tmp_path / "arm.json").matrix, calibration.matrix)
     run.report({"mine": calibration}).save(tmp_path / "a.html")
@@ -335,11 +335,11 @@ def test_the_page_of_an_experiment_says_what_was_found_while_reading(experiment:
 def test_the_page_of_a_calibration_says_what_was_learnt_and_what_is_doubtful(experiment: Experiment) -> None:
     """The share of every load that the recording decided, and doubts before the matrix."""
     calibration = experiment["arm_ft"].calibrate()
-    rows = learnt_directions(calibration)
+    rows = information_gains(calibration)
     assert rows is not None
-    page = calibration.model_copy(update={"doubts": ("a < b",)})._repr_html_()
+    page = calibration.model_copy(update={"warnings": ("a < b",)})._repr_html_()
     assert page.startswith("<p><b>warning:</b> a &lt; b</p><table>")
-    assert all(f"{row.direction} {100.0 * row.learnt:.0f} %" in page for row in rows)
+    assert all(f"{row.direction} {100.0 * row.uncertainty_reduction:.0f} %" in page for row in rows)
 
 
 def test_what_a_notebook_shows_is_short(experiment: Experiment) -> None:
@@ -383,9 +383,9 @@ def test_verdicts_show_themselves_as_a_table(experiment: Experiment) -> None:
     page, text = verdicts._repr_html_(), " ".join(str(verdicts).split())
     assert page.count("<tr>") == len(verdicts) + 1
     for verdict in verdicts:
-        assert all(f">{cell}</td>" in page for cell in (verdict.candidate, verdict.load_case, verdict.decision))
-        assert f"{verdict.candidate} {verdict.load_case} {verdict.decision}" in text
-    assert "UseVerdict(" not in text
+        assert all(f">{cell}</td>" in page for cell in (verdict.calibration, verdict.load_case, verdict.decision))
+        assert f"{verdict.calibration} {verdict.load_case} {verdict.decision}" in text
+    assert "LoadCaseVerdict(" not in text
 
 
 def test_one_calibration_needs_no_name(experiment: Experiment) -> None:
@@ -395,7 +395,7 @@ def test_one_calibration_needs_no_name(experiment: Experiment) -> None:
     assert evaluate(run, calibration).json_text() == run.evaluate(calibration).json_text()
     assert validate(run, calibration).json_text() == run.validate(calibration).json_text()
     assert use_verdicts(run, calibration) == run.verdicts(calibration)
-    assert [row.candidate for row in spheres(run, calibration).rows] == ["prior", "calibration"]
+    assert [row.calibration for row in spheres(run, calibration).rows] == ["prior", "calibration"]
 
 
 def test_an_estimation_type_is_given_by_its_name(experiment: Experiment) -> None:

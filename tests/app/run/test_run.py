@@ -58,8 +58,8 @@ def test_a_good_log_goes_the_whole_way(run: Run) -> None:
     ]
     assert {stage["outcome"] for stage in result["stages"]} == {"done"}
     assert all(Path(file).is_file() for file in result["files"])
-    uses = run("evaluate", PARQUET, "-c", FITTED, "--format", "json").result()["uses"]
-    assert [use["decision"] for use in result["uses"]] == [use["decision"] for use in uses]
+    uses = run("evaluate", PARQUET, "-c", FITTED, "--format", "json").result()["load_cases"]
+    assert [use["decision"] for use in result["load_cases"]] == [use["decision"] for use in uses]
     assert outcome.code == (0 if all(use["decision"] == "use" for use in uses) else 1)
 
 
@@ -94,7 +94,7 @@ def test_a_contact_in_the_fitted_interval_stops_it(folder: Path, run: Run) -> No
     result = json.loads(went_on.out)
     assert [stage["outcome"] for stage in result["stages"] if stage["name"] == "inspect"] == ["overridden"]
     assert result["override"] == "the table is part of the test"
-    assert any("the table is part of the test" in doubt for doubt in read_calibration(Path(FITTED)).doubts)
+    assert any("the table is part of the test" in doubt for doubt in read_calibration(Path(FITTED)).warnings)
     assert "the table is part of the test" in Path("results/report.html").read_text(encoding="utf-8")
 
 
@@ -255,7 +255,7 @@ def test_sensors_of_a_standing_leg_are_fitted_all_at_once(run: Run, tmp_path: Pa
     assert outcome.code == 1
     assert "4 of 4 sensors, all at once" in result["stages"][2]["text"]
     assert {Path(name).name for name in result["files"]} >= {"l_leg_ft_sensor_SN217.json", "r_leg_ft_sensor_SN026.json"}
-    assert {use["sensor"] for use in result["uses"]} == {"r_leg_ft_sensor", "r_foot_ft_sensor"}
+    assert {use["sensor"] for use in result["load_cases"]} == {"r_leg_ft_sensor", "r_foot_ft_sensor"}
     assert result["stages"][3]["text"].count("no verdict") == 2
 
 
@@ -267,6 +267,6 @@ def test_from_python() -> None:
     assert Path(FITTED).is_file()
     again = forcetorque.load_experiment(PARQUET).run("again", with_report=False)
     assert [stage.name for stage in again.stages] == [stage.name for stage in result.stages]
-    assert [use.sentence for use in again.uses] == [use.sentence for use in result.uses]
+    assert [use.message for use in again.load_cases] == [use.message for use in result.load_cases]
     with pytest.raises(ExperimentError, match="expected the reason to go on"):
         forcetorque.run(PARQUET, "results", override=" ")

@@ -76,8 +76,8 @@ def _judged(recordings: Recordings) -> ErrorRatio:
 def _shares(draw: Draw, campaigns: int, seed: int = 1) -> dict[str, float]:
     """Share of campaigns by what is said of the first candidate."""
     rng = np.random.default_rng(seed)
-    said = Counter(_judged(draw(rng)).judgement for _ in range(campaigns))
-    return {judgement: count / campaigns for judgement, count in said.items()}
+    said = Counter(_judged(draw(rng)).conclusion for _ in range(campaigns))
+    return {conclusion: count / campaigns for conclusion, count in said.items()}
 
 
 def _most(share: float, campaigns: int) -> float:
@@ -100,8 +100,8 @@ QUICK = ("white", "slow 0.05", "slow 0.2", "slow 0.2 and 1.0 white", "slow 0.2 a
 
 def _require_seldom_wrong(name: str, campaigns: int) -> None:
     shares = _shares(NULLS[name], campaigns)
-    for judgement in ("better", "worse"):
-        assert shares.get(judgement, 0.0) <= _most(0.05, campaigns), (name, shares)
+    for conclusion in ("better", "worse"):
+        assert shares.get(conclusion, 0.0) <= _most(0.05, campaigns), (name, shares)
 
 
 @pytest.mark.parametrize("name", QUICK)
@@ -137,7 +137,7 @@ def test_an_improvement_by_a_third_is_mostly_found() -> None:
     """Ten stretches whose log ratio scatters by .4, given or as recordings, and errors that soon forget themselves."""
     rng = np.random.default_rng(3)
     logs = math.log(2.0 / 3.0) + 0.4 * rng.normal(size=(2000, 10))
-    better = [ratio_over([ten], [0.0], pooled=-1.0).judgement == "better" for ten in logs]
+    better = [ratio_over([ten], [0.0], pooled=-1.0).conclusion == "better" for ten in logs]
     assert np.mean(better) >= 0.8
     assert _shares(_motions(2.0 / 3.0, 10), 200)["better"] >= 0.8
     for part in (0.02, 0.03):
@@ -149,8 +149,8 @@ def test_a_large_improvement_is_found_in_few_stretches(stretches: int) -> None:
     """By a factor of 3, with a scatter of .4; never the wrong way round."""
     rng = np.random.default_rng(stretches)
     logs = -math.log(3.0) + 0.4 * rng.normal(size=(1000, stretches))
-    judgements = [ratio_over([few], [0.0], pooled=-1.0).judgement for few in logs]
-    assert np.mean([judgement == "better" for judgement in judgements]) > 0.85
+    judgements = [ratio_over([few], [0.0], pooled=-1.0).conclusion for few in logs]
+    assert np.mean([conclusion == "better" for conclusion in judgements]) > 0.85
     assert "worse" not in judgements
     assert _shares(_motions(1.0 / 3.0, stretches), 100)["better"] > 0.85
 
@@ -164,7 +164,7 @@ def test_slow_errors_that_are_much_smaller_are_found() -> None:
 def test_equal_candidates_that_are_known_well_are_no_different() -> None:
     """White errors are; of slow ones the recording does not tell; a third less is neither."""
     assert _shares(NULLS["white"], 100)["no difference"] > 0.9
-    assert _shares(NULLS["slow 0.2"], 100)["not told apart"] > 0.85
+    assert _shares(NULLS["slow 0.2"], 100)["inconclusive"] > 0.85
     assert _shares(_by(2.0 / 3.0, _alike(0.0)), 100)["better"] == 1.0
 
 
@@ -178,7 +178,7 @@ def test_by_hand() -> None:
     for axes, ratio, inverse in ((slice(0, 3), one.force, other.force), (slice(3, 6), one.moment, other.moment)):
         squares = [(errors[:, axes] ** 2).sum(axis=1).reshape(10, 100).mean(axis=1) for errors in (first, second)]
         logs = 0.5 * np.log(squares[0] / squares[1])
-        assert ratio.stretches == 10
+        assert ratio.segments == 10
         assert ratio.ratio == pytest.approx(math.exp(logs.mean()), abs=EXACT)
         half = math.log(ratio.high / ratio.ratio)
         assert half >= stdtrit(9, 0.975) * logs.std(ddof=1) / math.sqrt(10) - EXACT
@@ -187,14 +187,18 @@ def test_by_hand() -> None:
             (ratio.low, ratio.ratio, ratio.high), abs=EXACT
         )
     assert one.count == COUNT
-    assert (one.force.judgement, one.moment.judgement, other.moment.judgement) == ("no difference", "worse", "better")
+    assert (one.force.conclusion, one.moment.conclusion, other.moment.conclusion) == (
+        "no difference",
+        "worse",
+        "better",
+    )
 
 
 def test_a_better_mean_ratio_does_not_outvote_larger_errors() -> None:
     """Smaller in every stretch but one in which it is far larger: the root mean square is larger, so not better."""
     logs = np.array([-1.0, -1.1, -0.9, -1.05, -0.95, -1.0, -1.1, -0.9, -1.0, -0.6])
-    assert ratio_over([logs], [0.0], pooled=-0.5).judgement == "better"
-    assert ratio_over([logs], [0.0], pooled=0.1).judgement == "not told apart"
+    assert ratio_over([logs], [0.0], pooled=-0.5).conclusion == "better"
+    assert ratio_over([logs], [0.0], pooled=0.1).conclusion == "inconclusive"
 
 
 def test_samples_with_a_gap_in_either_are_left_out() -> None:
@@ -215,30 +219,30 @@ def test_what_never_changes_is_seen_once(count: int) -> None:
     """A single sample, and constant errors: the ratio, and no interval; the same errors are no different."""
     ratio = _judged([(np.full((count, 3), 1.0), np.full((count, 3), 3.0))])
     assert ratio.ratio == pytest.approx(1.0 / 3.0, abs=EXACT)
-    assert (ratio.low, ratio.high, ratio.stretches) == (0.0, math.inf, 1)
-    assert ratio.judgement == "not told apart"
+    assert (ratio.low, ratio.high, ratio.segments) == (0.0, math.inf, 1)
+    assert ratio.conclusion == "inconclusive"
     for level in (0.0, 2.0):
         same = _judged([(np.full((count, 3), level), np.full((count, 3), -level))])
-        assert (same.ratio, same.low, same.high, same.judgement) == (1.0, 1.0, 1.0, "no difference")
+        assert (same.ratio, same.low, same.high, same.conclusion) == (1.0, 1.0, 1.0, "no difference")
 
 
 def test_identical_candidates_are_exactly_no_different() -> None:
     """Whatever their errors are."""
     errors = _process(0.2, np.random.default_rng(7))
     same = _judged([(errors, errors.copy())])
-    assert (same.ratio, same.low, same.high, same.judgement) == (1.0, 1.0, 1.0, "no difference")
+    assert (same.ratio, same.low, same.high, same.conclusion) == (1.0, 1.0, 1.0, "no difference")
 
 
 def test_errors_of_zero_have_a_ratio() -> None:
     """Throughout, in some samples, and in a half; nothing is divided by zero."""
     errors = _process(0.0, np.random.default_rng(8))
-    assert _judged([(np.zeros_like(errors), errors)]).judgement == "better"
-    assert _judged([(errors, np.zeros_like(errors))]).judgement == "worse"
+    assert _judged([(np.zeros_like(errors), errors)]).conclusion == "better"
+    assert _judged([(errors, np.zeros_like(errors))]).conclusion == "worse"
     some, half = errors.copy(), errors.copy()
     some[::2] = half[: COUNT // 2] = 0.0
-    assert _judged([(some, errors)]).judgement == "better"
+    assert _judged([(some, errors)]).conclusion == "better"
     ratio = _judged([(half, errors)])
-    assert ratio.judgement == "not told apart"
+    assert ratio.conclusion == "inconclusive"
     assert math.isfinite(ratio.ratio)
 
 
@@ -246,9 +250,9 @@ def test_a_level_of_a_recording_counts_once_however_long_it_is() -> None:
     """Four recordings, two better and two worse by as much: not told apart, though each is clear in itself."""
     rng = np.random.default_rng(9)
     pairs = [(factor * _process(0.0, rng), _process(0.0, rng)) for factor in (0.5, 0.6, 1.4, 1.6)]
-    assert {_judged([pair]).judgement for pair in pairs} == {"better", "worse"}
+    assert {_judged([pair]).conclusion for pair in pairs} == {"better", "worse"}
     together = _judged(pairs)
-    assert (together.judgement, together.stretches) == ("not told apart", 40)
+    assert (together.conclusion, together.segments) == ("inconclusive", 40)
     assert together.high / together.low > 2.0
 
 

@@ -11,23 +11,23 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.figures.information import learnt_figure
-from forcetorque.calibration.summary import LearntDirection
+from forcetorque.calibration.summary import InformationGain
 from forcetorque.results.figures import look
 from tests.report.drawing import learnt_of, legend_of, panels
 
 SHARES = (0.97, 0.5, 0.04, 0.9, 0.9, 0.0)
 
 
-def _directions(*shares: float, after: float | None = None) -> list[LearntDirection]:
+def _directions(*shares: float, after: float | None = None) -> list[InformationGain]:
     """Before the recordings 0.04 N per unit, and 0.002 N m; after them the share less."""
     return [
-        LearntDirection(
+        InformationGain(
             direction=name,
             force_error_before_N=0.04,
             force_error_after_N=0.04 * (1.0 - share) + 0.0002 if after is None else after,
             moment_error_before_Nm=0.002,
             moment_error_after_Nm=0.002 * (1.0 - share) + 0.00001,
-            learnt=share,
+            uncertainty_reduction=share,
         )
         for name, share in zip(WRENCH_COMPONENTS, shares, strict=True)
     ]

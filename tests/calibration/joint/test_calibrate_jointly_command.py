@@ -45,7 +45,7 @@ def test_other_questions_take_the_calibration(arm: Path, run: Run) -> None:
     run("calibrate", PARQUET, "--jointly", "-o", "joint")
     (file,) = Path("joint").glob("arm_ft*")
     judged = run("evaluate", PARQUET, "-c", str(file), "--format", "json").result()
-    errors = {row["candidate"]: row["force_error_mean_N"] for row in judged["verdicts"] if row["offset"] == "fitted"}
+    errors = {row["calibration"]: row["force_error_mean_N"] for row in judged["verdicts"] if row["offset"] == "fitted"}
     assert errors[str(file)] < 0.5 * errors["prior"]
 
 

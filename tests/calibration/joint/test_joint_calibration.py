@@ -19,7 +19,7 @@ from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.calibration.calibrate import calibrate_sensor, data_doubts
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
 from forcetorque.calibration.joint.interval import joint_interval, part_residuals
-from forcetorque.calibration.joint.outcome import JointOutcome, PartRow
+from forcetorque.calibration.joint.outcome import JointOutcome, SubModelRow
 from forcetorque.calibration.joint.robust_fit import residuals
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.calibration.joint.windows import PartWindows, part_windows
@@ -102,7 +102,7 @@ def test_the_shank_of_a_robot_that_stands_on_it(
     fit = joint.fit
     # nothing is known of the foot on the ground
     assert fit.places.sensors == ("l_foot_ft_sensor", "l_leg_ft_sensor")
-    assert {row.part for row in joint.parts} == {"l_foot_ft_sensor", "weight on l_leg_ft_sensor"}
+    assert {row.sub_model for row in joint.sub_models} == {"l_foot_ft_sensor", "weight on l_leg_ft_sensor"}
     (interval,) = experiment.intervals(Use.VALIDATION)
     one = joint_interval(experiment, interval, SHANK, session="yoga").untouched
     (windows,) = part_windows(one.stretch, one.parts, fit.places.terms)
@@ -202,18 +202,18 @@ def test_parts_of_another_day_are_closed_by_the_calibrations(stance: Path) -> No
     result = calibrate_jointly([load_experiment(stance / "sway_day1.toml")], "out", code_version="1", created="2020")
     calibrations = {entry.calibration.sensor.name: entry.calibration for entry in result.calibrations}
     rows = [
-        PartRow.of(one)
+        SubModelRow.of(one)
         for one in part_residuals(load_experiment(stance / "sway_day2.toml"), calibrations, Use.VALIDATION)
     ]
-    assert {row.part for row in rows} == {"chest", "l_leg_ft", "r_leg_ft", "l_arm_ft", "r_arm_ft"}
+    assert {row.sub_model for row in rows} == {"chest", "l_leg_ft", "r_leg_ft", "l_arm_ft", "r_arm_ft"}
     for row in rows:
         assert row.force_after_N < 0.1 * row.force_before_N
     # negative control: the calibration of the other leg does not close a part
     swapped = {**calibrations, "l_leg_ft": calibrations["r_leg_ft"]}
     (leg,) = (
-        PartRow.of(one)
+        SubModelRow.of(one)
         for one in part_residuals(load_experiment(stance / "sway_day2.toml"), swapped, Use.VALIDATION)
-        if one.part == "l_leg_ft"
+        if one.sub_model == "l_leg_ft"
     )
     assert leg.force_after_N > 0.5 * leg.force_before_N
 

@@ -68,7 +68,7 @@ def test_the_predicted_error_is_that_of_draws_of_the_fit(session: str | None) ->
 def test_repeatability_widens_but_teaches_nothing() -> None:
     """What a sensor does not repeat stands in its error, not in what was learnt."""
     exact, creeping = _posterior(), _posterior(0.003)
-    np.testing.assert_array_equal(exact.learnt_covariance, creeping.learnt_covariance)
+    np.testing.assert_array_equal(exact.mean_covariance, creeping.mean_covariance)
     added = creeping.error_covariance(LOADS[0]) - exact.error_covariance(LOADS[0])
     assert np.sqrt(added[2, 2]) == pytest.approx(0.003 * 200.0, rel=0.1)
 

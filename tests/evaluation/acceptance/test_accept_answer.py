@@ -7,7 +7,7 @@ import pytest
 
 from forcetorque.evaluation.acceptance.acceptance import Acceptance
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
-from forcetorque.evaluation.load_cases.verdict import UseVerdict
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
 from forcetorque.results.answer import EXPERIMENT, Concern
 
 
@@ -15,7 +15,7 @@ def _criterion(name: str, measured: float, limit: float, bound: Bound = Bound.AT
     return Criterion(
         sensor=given.get("sensor", "leg"),
         serial="SN1",
-        candidate=given.get("candidate", "old/leg.json"),
+        calibration=given.get("calibration", "old/leg.json"),
         criterion=name,
         measured=measured,
         bound=bound,
@@ -26,8 +26,8 @@ def _criterion(name: str, measured: float, limit: float, bound: Bound = Bound.AT
     )
 
 
-def _accepted(*criteria: Criterion, uses: tuple[UseVerdict, ...] = ()) -> Acceptance:
-    return Acceptance(experiment="walk", specification="feet", criteria=criteria, measured=(), uses=uses)
+def _accepted(*criteria: Criterion, load_cases: tuple[LoadCaseVerdict, ...] = ()) -> Acceptance:
+    return Acceptance(experiment="walk", specification="feet", criteria=criteria, measured=(), load_cases=load_cases)
 
 
 GOOD = _criterion("evaluate.force_error_mean_N", 0.9, 1.0)
@@ -47,23 +47,23 @@ def test_an_accepted_sensor_is_exported() -> None:
 
 def test_an_accepted_sensor_without_enough_data_says_so() -> None:
     """The verdict of `evaluate` stands beside that of the limits, and the next step is to record."""
-    use = UseVerdict(
+    use = LoadCaseVerdict(
         sensor="leg",
         serial="SN1",
-        candidate="old/leg.json",
+        calibration="old/leg.json",
         load_case="push",
         loads="pushes of 50 N",
         offset="fitted",
-        stated=False,
+        specified=False,
         decision="not enough data",
-        sentence="not enough data for pushes of 50 N: it errs by 9 N",
+        message="not enough data for pushes of 50 N: it errs by 9 N",
         reasons=(),
         within=None,
         errors=(),
     )
-    (answer,) = _accepted(GOOD, uses=(use,)).answers()
+    (answer,) = _accepted(GOOD, load_cases=(use,)).answers()
     assert (answer.verdict, answer.concern) == ("ACCEPTED", Concern.UNCERTAIN)
-    assert answer.why[1:] == (use.sentence,)
+    assert answer.why[1:] == (use.message,)
     assert answer.command == f"plan {EXPERIMENT} -c old/leg.json --clearance-deg 10"
 
 
@@ -89,7 +89,7 @@ def test_the_worst_criterion_is_the_reason_of_a_rejection() -> None:
 )
 def test_the_next_command_is_by_the_table_that_failed(name: str, candidate: str, command: str) -> None:
     """A recording is inspected, information is planned, errors are evaluated, and a prior is calibrated."""
-    (answer,) = _accepted(_criterion(name, 2.0, 1.0, candidate=candidate)).answers()
+    (answer,) = _accepted(_criterion(name, 2.0, 1.0, calibration=candidate)).answers()
     assert answer.command == command
 
 

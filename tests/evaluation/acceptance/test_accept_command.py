@@ -103,7 +103,7 @@ def test_the_forms_hold_the_same_and_fit_the_schema(arm: Path, run: Run) -> None
     schema = run("schema", "accept").result()
     assert faults(result, schema) == []
     assert faults({**result, "accepted": "yes"}, schema) != []
-    assert (result["schema"], result["specification"]) == ("forcetorque/accept/1", "limits")
+    assert (result["schema"], result["specification"]) == ("forcetorque/accept/2", "limits")
     rows = run(*words, "csv").rows()
     assert list(rows[0]) == [*Criterion.model_fields, "passed"]
     assert [(row["criterion"], float(row["measured"])) for row in rows] == [
@@ -126,7 +126,7 @@ def test_static_checks_are_there_without_limits(arm: Path, run: Run) -> None:
         "json",
     )
     (measured,) = _parsed(run(*words), 0)["measured"]
-    for key in ("full_scale_positive", "full_scale_negative", "full_scale_stated", "resolution_worst"):
+    for key in ("full_scale_positive", "full_scale_negative", "full_scale_specified", "resolution_worst"):
         assert len(measured[key]) == 6
     assert measured["condition"] < 5.0
     assert [each["label"] for each in measured["offsets"]] == [each["label"] for each in measured["recording"]]
@@ -152,12 +152,12 @@ def test_all_priors_or_the_calibrated_sensors_are_judged(arm: Path, run: Run) ->
     """Without -c every sensor of the file by its prior, with it only the calibrated one; one calibration each."""
     spec = _write("[matrix]\ncondition = 5.0\n")
     both = run("accept", TWO, "--spec", spec, "--format", "csv").rows()
-    assert [(row["sensor"], row["candidate"]) for row in both] == [
+    assert [(row["sensor"], row["calibration"]) for row in both] == [
         ("arm_ft", "prior matrix_SIM001.txt"),
         ("tool_ft", "prior matrix_SIM002.txt"),
     ]
     one = run("accept", TWO, "--spec", spec, "-c", "fitted.json", "--format", "csv").rows()
-    assert [(row["sensor"], row["candidate"]) for row in one] == [("arm_ft", "fitted.json")]
+    assert [(row["sensor"], row["calibration"]) for row in one] == [("arm_ft", "fitted.json")]
     Path("again.json").write_bytes(Path("fitted.json").read_bytes())
     twice = run("accept", TWO, "--spec", spec, "-c", "fitted.json", "-c", "again.json").error()
     assert "again.json: fitted.json calibrates 'arm_ft' too; give one" in twice

@@ -56,7 +56,7 @@ LIMITS: dict[str, dict[str, Any]] = {
     "offset": {"change": ANY, "force_change_N": 1e9, "per_degree": ANY},
     "uncertainty": {"matrix_relative": 1e9, "offset": ANY},
     "excitation": {"directions": 1, "condition": 1e9},
-    "learnt": dict.fromkeys(WRENCH_COMPONENTS, 0.0),
+    "information_gain": dict.fromkeys(WRENCH_COMPONENTS, 0.0),
 }
 """Every key of every table with a limit that holds."""
 OTHERS = {f"SN{k}": MOUNTED * np.random.default_rng(k).uniform(0.9, 1.1, (6, 6)) for k in range(9)}
@@ -154,7 +154,7 @@ def test_the_numbers_are_those_of_the_other_commands(drifting: Experiment) -> No
     run = _run(drifting)
     found = {key: each.measured for key, each in _criteria(drifting, _spec(**LIMITS), (name, calibration)).items()}
     counts = {key: each.count for key, each in _criteria(drifting, _spec(**LIMITS), (name, calibration)).items()}
-    verdicts = {(v.candidate, v.offset): v for v in evaluate(run, {name: calibration}).verdicts}
+    verdicts = {(v.calibration, v.offset): v for v in evaluate(run, {name: calibration}).verdicts}
     new, prior = verdicts["new", Offset.FITTED], verdicts["prior", Offset.FITTED]
     assert found["evaluate.force_error_mean_N"] == new.force_error_mean_N
     assert found["evaluate.rmse.tz"] == new.rmse[5]
@@ -164,7 +164,7 @@ def test_the_numbers_are_those_of_the_other_commands(drifting: Experiment) -> No
     (contact,) = [
         v
         for v in contact_forces(run, {name: calibration}).verdicts
-        if (v.candidate, v.offset) == ("new", Offset.FIRST_SECOND)
+        if (v.calibration, v.offset) == ("new", Offset.FIRST_SECOND)
     ]
     assert found["validate.mean_absolute.fz"] == contact.mean_absolute[2]
     checks = check(run, (name, calibration), population=OTHERS)
@@ -181,7 +181,7 @@ def test_the_numbers_are_those_of_the_other_commands(drifting: Experiment) -> No
     assert calibration.posterior is not None
     shares = calibration.posterior.learnt_shares()
     assert shares is not None
-    assert [found[f"learnt.{component}"] for component in WRENCH_COMPONENTS] == shares.tolist()
+    assert [found[f"information_gain.{component}"] for component in WRENCH_COMPONENTS] == shares.tolist()
 
 
 def test_what_was_learnt_is_judged_of_generative_fits_alone(drifting: Experiment) -> None:
@@ -191,12 +191,12 @@ def test_what_was_learnt_is_judged_of_generative_fits_alone(drifting: Experiment
     shares = calibration.posterior.learnt_shares()
     assert shares is not None
     for factor, passed in ((1.0 - JUST, True), (1.0 + JUST, False)):
-        (row,) = _criteria(drifting, _spec(learnt={"tz": shares[5] * factor}), (name, calibration)).values()
-        assert (row.criterion, row.passed) == ("learnt.tz", passed)
+        (row,) = _criteria(drifting, _spec(information_gain={"tz": shares[5] * factor}), (name, calibration)).values()
+        assert (row.criterion, row.passed) == ("information_gain.tz", passed)
     by_thesis = _fitted(drifting, regularisation=5.0)
-    message = r"\[learnt\] cannot be evaluated: calibration 'new' is not a generative"
+    message = r"\[information_gain\] cannot be evaluated: calibration 'new' is not a generative"
     with pytest.raises(ForceTorqueError, match=message):
-        accept(_run(drifting), _spec(learnt={"tz": 0.1}), by_thesis)
+        accept(_run(drifting), _spec(information_gain={"tz": 0.1}), by_thesis)
 
 
 def test_a_calibration_may_be_called_prior(drifting: Experiment) -> None:
@@ -291,9 +291,9 @@ def test_what_evaluate_forbids_is_not_accepted(arm: Path) -> None:
     spec = _spec(evaluate={"force_error_mean_N": 1e9})
     for calibration, decision in ((good, None), (wrong, "do not use")):
         accepted = accept(_run(experiment), spec, (name, calibration))
-        assert accepted.uses == evaluate(_run(experiment), {name: calibration}).uses
+        assert accepted.load_cases == evaluate(_run(experiment), {name: calibration}).load_cases
         forbidden = [row for row in accepted.criteria if row.criterion.startswith("verdict.")]
-        assert [use.load_case for use in accepted.uses if use.decision == "do not use"] == [
+        assert [use.load_case for use in accepted.load_cases if use.decision == "do not use"] == [
             row.criterion.removeprefix("verdict.") for row in forbidden
         ]
         assert accepted.accepted is (decision is None) is not bool(forbidden)
@@ -309,7 +309,7 @@ def test_limits_of_the_matrix_need_no_verdict(arm: Path) -> None:
     fitted = good.model_copy(update={"provenance": provenance})
     accepted = accept(_run(experiment), _spec(matrix={"condition": 1e9}), (name, fitted))
     assert accepted.accepted
-    assert accepted.uses == ()
+    assert accepted.load_cases == ()
     assert ["no verdict on its use" in words for words in accepted.warnings] == [True]
 
 
@@ -346,7 +346,7 @@ def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
     assert len(repr(result)) < 600
     assert result.records()[0]["passed"] is True
     assert list(json.loads(result.json_text())) == [
-        "schema", "experiment", "specification", "accepted", "criteria", "measured", "validity", "uses"
+        "schema", "experiment", "specification", "accepted", "criteria", "measured", "validity", "load_cases"
     ]  # fmt: skip
 
 
@@ -357,7 +357,7 @@ def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
         ("improvement", "force_error_ratio", "evaluates a calibration"),
         ("uncertainty", "offset", "evaluates a calibration"),
         ("excitation", "directions", "evaluates a calibration"),
-        ("learnt", "fz", "evaluates a calibration"),
+        ("information_gain", "fz", "evaluates a calibration"),
         ("population", "robust_z", "no matrices of other sensors were given; name them by --population"),
         ("recording", "lost_share", "stream 'arm_ft' has no sequence numbers"),
         ("offset", "per_degree", "expected a variable of the sensor in degC"),
@@ -435,7 +435,7 @@ HEAD = 'schema = "forcetorque/acceptance/1"\nname = "limits"\n'
         (HEAD + "[population]\nquantiles = [0.1]\n", r"population.quantiles: expected 2 values, got \[0\.1\]$"),
         (HEAD + "[population]\nquantiles = [-0.1]\n", r"population.quantiles\[0\]: .* equal to 0, got -0\.1$"),
         (HEAD + "[excitation]\ndirections = 5.5\n", "excitation.directions"),
-        (HEAD + "[learnt]\nfz = 97.0\n", "learnt.fz: .*less than or equal to 1"),
+        (HEAD + "[information_gain]\nfz = 97.0\n", "information_gain.fz: .*less than or equal to 1"),
         (HEAD.replace("/1", "/2") + "[matrix]\ncondition = 3.0\n", "schema: .*'forcetorque/acceptance/1'"),
         ('name = "limits"\n[matrix]\ncondition = 3.0\n', "schema: Field required"),
         ("[evaluate", "expected TOML"),

@@ -133,7 +133,7 @@ def test_offsets_by_hand(arm: Path) -> None:
     assert prior.offset_force_change_N is not None
     assert new.offset_force_change_N is not None
     assert new.offset_force_change_N < 0.1 * prior.offset_force_change_N
-    assert (prior.candidate, new.candidate) == ("prior matrix_SIM001.txt", "new")
+    assert (prior.calibration, new.calibration) == ("prior matrix_SIM001.txt", "new")
     assert prior.full_scale_positive is not None
     unloaded = -np.linalg.solve(sensor.prior, prior.offsets[0].offset)
     at_limit = np.linalg.solve(sensor.prior, prior.full_scale_positive[2] * np.eye(6)[2]) + unloaded

@@ -35,12 +35,12 @@ def test_a_point_for_every_trial_mean_and_pooled_fit() -> None:
         if line.get_marker() in {look(k).marker for k in range(3)}
     }
     (group,) = groups
-    mean, _, _ = mean_of_trials(group.identifiable_indices(with_reference=True))
-    pooled = group.pooled_fit(with_reference=True)
+    mean, _, _ = mean_of_trials(group.identifiable_indices(with_model=True))
+    pooled = group.pooled_fit(with_model=True)
     assert pooled is not None
     expected = {(look(1).marker, round(mean, 9)), (look(2).marker, round(pooled.index / 9.81, 9))}
     for trial in group.trials:
-        fit = trial.fit(with_reference=True)
+        fit = trial.fit(with_model=True)
         assert fit is not None
         expected.add((look(0).marker, round(fit.index / 9.81, 9)))
     assert points == expected
@@ -49,12 +49,12 @@ def test_a_point_for_every_trial_mean_and_pooled_fit() -> None:
 
 def test_the_smallest_index_is_on_top_and_what_is_unknown_below() -> None:
     """Names from top to bottom follow the pooled index; the caps come last, hollow and named in the legend."""
-    groups = trial_groups(np.random.default_rng(2), sensors=5, caps=2, with_reference=False)
+    groups = trial_groups(np.random.default_rng(2), sensors=5, caps=2, with_model=False)
     with recorded_figures() as figures:
         index_figure(groups)
     (figure,) = figures
     names = [text.get_text() for text in panels(figure)[0].get_yticklabels()]
-    index = {group.first.sphere.serial: group.index(with_reference=False) for group in groups}
+    index = {group.first.sphere.serial: group.index(with_model=False) for group in groups}
     known = sorted((value, name) for name, value in index.items() if value is not None)
     assert len(known) == 3
     assert names[:3] == [name for _, name in known]
@@ -68,7 +68,7 @@ def test_the_smallest_index_is_on_top_and_what_is_unknown_below() -> None:
 def test_a_panel_that_has_nothing_is_left_out() -> None:
     """Without any reference there is only the fit without the model."""
     with recorded_figures() as figures:
-        index_figure(trial_groups(np.random.default_rng(3), sensors=1, with_reference=False))
+        index_figure(trial_groups(np.random.default_rng(3), sensors=1, with_model=False))
     (panel,) = panels(figures[0])
     assert "without the model" in panel.get_title(loc="left")
 
@@ -78,7 +78,7 @@ def test_files_of_one_name_have_their_folders_in_the_figures() -> None:
     (group,) = trial_groups(np.random.default_rng(5), sensors=1, trials=1)
     files = [f"/{'somewhere/' * 5}{folder}/leg.json" for folder in ("old", "new")]
     groups = [
-        replace(group, trials=(replace(group.first, sphere=replace(group.first.sphere, candidate=file)),))
+        replace(group, trials=(replace(group.first, sphere=replace(group.first.sphere, calibration=file)),))
         for file in files
     ]
     with recorded_figures() as figures:

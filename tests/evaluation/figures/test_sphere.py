@@ -39,10 +39,10 @@ def test_outlines_reach_to_the_half_widths() -> None:
     np.testing.assert_allclose(np.linalg.norm(ball, axis=1), 2.0)
 
 
-def _lines(count: int, part: float, *, with_reference: bool) -> tuple[dict[str, list[object]], str]:
+def _lines(count: int, part: float, *, with_model: bool) -> tuple[dict[str, list[object]], str]:
     """Dashes of the outlines of the first panel by colour, and all words."""
     force, reference = _clouds(count, part)
-    found = sphere_of(force, reference if with_reference else None, mass=WEIGHT / 9.81)
+    found = sphere_of(force, reference if with_model else None, mass=WEIGHT / 9.81)
     with recorded_figures() as figures:
         sphere_figure([found])
     (figure,) = figures
@@ -54,7 +54,7 @@ def _lines(count: int, part: float, *, with_reference: bool) -> tuple[dict[str, 
 
 def test_what_is_known_is_drawn_in_full() -> None:
     """Cloud, both ellipsoids and the weight, each with its own colour; nothing is dotted."""
-    dashes, text = _lines(600, 0.9, with_reference=True)
+    dashes, text = _lines(600, 0.9, with_model=True)
     assert set(dashes) == {look(0).colour, look(1).colour, look(2).colour, REFERENCE_COLOUR}
     assert all(":" not in styles for styles in dashes.values())
     assert "not identifiable" not in text
@@ -64,7 +64,7 @@ def test_what_is_known_is_drawn_in_full() -> None:
 
 def test_what_is_not_known_is_dotted_or_left_out() -> None:
     """On a cap the ellipsoid without the model is dotted; without a reference there is none with the model."""
-    dashes, text = _lines(600, 0.03, with_reference=False)
+    dashes, text = _lines(600, 0.03, with_model=False)
     assert look(1).colour not in dashes
     assert "with the model" not in text
     assert dashes.get(look(2).colour, [":"]) == [":"]
@@ -86,7 +86,7 @@ def test_a_row_per_analysis_and_three_views() -> None:
     """Titles name sensor, serial number and candidate; axes name component and unit."""
     force, reference = _clouds(600, 0.9)
     with recorded_figures() as figures:
-        sphere_figure([sphere_of(force, reference, candidate=name) for name in ("prior", "new_$1.json")])
+        sphere_figure([sphere_of(force, reference, calibration=name) for name in ("prior", "new_$1.json")])
     (figure,) = figures
     assert len(panels(figure)) == 6
     assert [panel.get_xlabel() for panel in panels(figure)[:3]] == ["fx, N", "fy, N", "fx, N"]

@@ -106,9 +106,9 @@ def outcome_of(case: Case, fit: GenerativeFit, use: LoadCase, judged: list[DataS
             posterior=fit.posterior,
             prior=SimpleNamespace(matrix=case.prior, offset=np.zeros(6)),
             validity=SimpleNamespace(
-                reference_deviation=np.concatenate([data.reference for data in case.data]).std(axis=0)
+                expected_wrench_sd=np.concatenate([data.reference for data in case.data]).std(axis=0)
             ),
-            doubts=(),
+            warnings=(),
         ),
     )
     judge = LoadCaseAssessment(use, calibration, measured)

@@ -88,7 +88,7 @@ def test_a_weighed_tool_weighs_the_other(weighed: WeighedLoad) -> None:
     alone = next(row for row in weighed.recordings if row.load == "gripper")
     assert (alone.mass_half_width_95_kg or 0.0) > 5.0 * (gripper.mass_half_width_95_kg or 0.0)
     assert any("beside 'weight', which is stated" in words for words in weighed.warnings)
-    assert not any(row.touched for row in weighed.judged)
+    assert not any(row.contact for row in weighed.validation)
 
 
 @pytest.mark.long
@@ -169,10 +169,10 @@ def test_calibration_and_verdict_from_python_name_a_circular_load(
         calibration = written.calibrations[0].calibration
         (verdict,) = use_verdicts(run, {"new": calibration})
         reasons = [reason.text for reason in verdict.reasons]
-        for words in (calibration.doubts, reasons, written.warnings):
+        for words in (calibration.warnings, reasons, written.warnings):
             assert sum("weighed before by this sensor itself" in sentence for sentence in words) == named
         assert (verdict.decision == "use") <= (not named)
-        unaware = calibration.model_copy(update={"doubts": ()})  # fitted elsewhere, and judged by the circular load
+        unaware = calibration.model_copy(update={"warnings": ()})  # fitted elsewhere, and judged by the circular load
         (verdict,) = use_verdicts(run, {"new": unaware})
         informing = [reason.text for reason in verdict.reasons if reason.against is None]
         assert sum("weighed before by this sensor itself" in sentence for sentence in informing) == named

@@ -38,7 +38,7 @@ def _posterior() -> Posterior:
         drift=False,
         mean=rng.normal(size=(6, 9)),
         covariance=covariance,
-        learnt_covariance=covariance[:, :6, :6],
+        mean_covariance=covariance[:, :6, :6],
         prior_covariance=None,
         to_wrench=np.diag([1.0, 1.5, 2.0, 0.1, 0.2, 0.1]) + 0.05 * rng.normal(size=(6, 6)),
         noise=tuple(RowNoise(white=0.05 * (k + 1), time_constant_s=0.0, ratio=0.0) for k in range(6)),

@@ -22,7 +22,7 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     static_loads_text,
     validation_excitation,
 )
-from forcetorque.evaluation.load_cases.verdict import LoadCaseAssessment, UseVerdict, use_verdicts
+from forcetorque.evaluation.load_cases.verdict import LoadCaseAssessment, LoadCaseVerdict, use_verdicts
 from forcetorque.evaluation.section import LOAD_CASES
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
@@ -44,7 +44,7 @@ def _fit(run: SensorRun) -> Calibration:
     return calibrate_sensor(run, code_version="test", created="2026-01-01T00:00:00+00:00")
 
 
-def _verdict(run: SensorRun, calibration: Calibration) -> UseVerdict:
+def _verdict(run: SensorRun, calibration: Calibration) -> LoadCaseVerdict:
     (verdict,) = use_verdicts(run, {"new": calibration})
     return verdict
 
@@ -55,7 +55,7 @@ def test_a_fit_of_an_arm_that_moves_may_be_used_for_pushes(arm: Path) -> None:
     verdict = _verdict(run, _fit(run))
     force, moment = verdict.errors
     assert verdict.decision == "use"
-    assert verdict.sentence.startswith("use for pushes of 20 N anywhere within 0.2 m of the sensor: it errs by some ")
+    assert verdict.message.startswith("use for pushes of 20 N anywhere within 0.2 m of the sensor: it errs by some ")
     assert force.allowed == pytest.approx(1.0)
     assert force.after < force.after_at_most < force.allowed < (force.before or 0.0)
     assert moment.after_at_most < (moment.allowed or 0.0)
@@ -80,7 +80,7 @@ def test_between_the_two_there_are_not_enough_data(arm: Path) -> None:
     verdict = _verdict(fresh, calibration)
     assert verdict.decision == "not enough data"
     assert verdict.within == pytest.approx(0.5, abs=0.1)
-    assert "the chance that it is within that is" in verdict.sentence
+    assert "the chance that it is within that is" in verdict.message
 
 
 def test_a_constant_error_is_red_unless_the_use_allows_it(arm: Path) -> None:
@@ -92,8 +92,8 @@ def test_a_constant_error_is_red_unless_the_use_allows_it(arm: Path) -> None:
     shifted = calibration.model_copy(update={"offset": offset, "sessions": sessions})
     tared, kept = use_verdicts(run, {"new": shifted})
     assert (tared.decision, kept.decision) == ("use", "do not use")
-    assert re.search(r"6(\.\d)? N of its force error are constant, 0.2 N allowed", kept.sentence)
-    assert 'state offset = "tared"' in kept.sentence
+    assert re.search(r"6(\.\d)? N of its force error are constant, 0.2 N allowed", kept.message)
+    assert 'state offset = "tared"' in kept.message
     # negative control: as it was fitted
     assert "do not use" not in [one.decision for one in use_verdicts(run, {"new": calibration})]
 
@@ -115,14 +115,14 @@ def test_a_thesis_type_knows_no_error_at_other_loads(arm: Path) -> None:
     calibration = calibrate_sensor(run, code_version="test", created="2026-01-01T00:00:00+00:00", regularisation=100.0)
     verdict = _verdict(run, calibration)
     assert (verdict.decision, verdict.errors, verdict.within) == ("not enough data", (), None)
-    assert "fit it by the generative model" in verdict.sentence
+    assert "fit it by the generative model" in verdict.message
 
 
 def test_doubts_about_the_fitted_data_forbid_a_plain_use(arm: Path) -> None:
     """A calibration that carries a doubt is never called good."""
     run = _run(arm)
     calibration = _fit(run)
-    doubted = calibration.model_copy(update={"doubts": ("gains of 12 %",)})
+    doubted = calibration.model_copy(update={"warnings": ("gains of 12 %",)})
     assert _verdict(run, calibration).decision == "use"
     assert _verdict(run, doubted).decision == "not enough data"
 
@@ -134,8 +134,8 @@ def test_without_a_load_case_the_default_is_stated(arm: Path) -> None:
     assert not case.is_stated
     assert "the weight of the distal links" in case.words
     verdict = _verdict(run, _fit(run))
-    assert case.words in verdict.sentence
-    assert not verdict.stated
+    assert case.words in verdict.message
+    assert not verdict.specified
 
 
 @pytest.mark.parametrize("gravity", [9.81, 0.02])

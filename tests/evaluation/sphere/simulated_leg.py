@@ -88,7 +88,7 @@ def screwed(seed: int, screws: str) -> Leg:
     return leg(
         seed,
         workbench_error=None,
-        mounting_spread=0.0,
+        mounting_sd=0.0,
         mounting_strength=0.3,
         screw_torque_Nm=SCREWS[screws],
     )

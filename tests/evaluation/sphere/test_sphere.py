@@ -47,7 +47,7 @@ def _analysed(experiment: Experiment, names: list[str] | None, **calibrations: C
 def test_every_candidate_is_analysed_on_the_same_samples(experiment: Experiment, fitted: Calibration) -> None:
     """The prior comes first; its analysis is that of the samples read with the prior matrix."""
     prior, new = _analysed(experiment, ["judge"], new=fitted)
-    assert [sphere.candidate for sphere in (prior, new)] == ["prior", "new"]
+    assert [sphere.calibration for sphere in (prior, new)] == ["prior", "new"]
     assert prior.sensor == new.sensor == "arm_ft"
     (part,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.VALIDATION)
     matrix = experiment.sensors[0].prior
@@ -59,7 +59,7 @@ def test_every_candidate_is_analysed_on_the_same_samples(experiment: Experiment,
     np.testing.assert_allclose(prior.analysis.mapped.matrix, by_hand.mapped.matrix, atol=1e-12)
     np.testing.assert_allclose(prior.force, (part.raw @ matrix.T)[:, :3], atol=1e-12)
     np.testing.assert_allclose(prior.reference, part.samples.reference[:, :3])
-    assert prior.no_reference is None
+    assert prior.no_model is None
 
 
 def test_calibration_mends_the_index(experiment: Experiment, fitted: Calibration) -> None:
@@ -96,7 +96,7 @@ def test_the_result_shows_itself(experiment: Experiment, fitted: Calibration) ->
     result = _answered(experiment, ["judge"], new=fitted)
     text = result.text(60)
     for row in result.rows:
-        for fit in (row.with_reference, row.without_reference):
+        for fit in (row.with_model, row.without_model):
             assert fit is not None
             assert fit.mass_kg is not None
             for mass, low, high in zip(fit.mass_kg, fit.mass_low_kg, fit.mass_high_kg, strict=True):
@@ -113,7 +113,7 @@ def test_the_result_shows_itself(experiment: Experiment, fitted: Calibration) ->
 def test_masses_that_have_no_upper_end_are_empty_columns(experiment: Experiment) -> None:
     """Not words: three columns of a table of numbers, as where they have one."""
     (row,) = _answered(experiment, ["judge"]).rows
-    assert row.without_reference.mass_high_kg == (None, None, None)
+    assert row.without_model.mass_high_kg == (None, None, None)
     flat = row.flat()
     assert [flat[f"without_reference_mass_high_{axis}_kg"] for axis in "xyz"] == [None] * 3
     assert "without_reference_mass_high_kg" not in flat
@@ -185,7 +185,7 @@ def test_without_joints_there_is_no_reference_and_still_a_mass(arm: Path) -> Non
         "",
     )
     (without,) = _analysed(load_experiment(path), ["judge"])
-    assert without.no_reference == (
+    assert without.no_model == (
         "no stream holds the position of shoulder_yaw, shoulder_pitch, shoulder_roll, elbow, wrist"
     )
     assert (without.reference, without.analysis.mapped, without.analysis.moment) == (None, None, None)
@@ -214,7 +214,7 @@ def test_raw_counts_need_a_matrix(arm: Path, fitted: Calibration) -> None:
     with pytest.raises(ExperimentError, match="raw counts become forces by a calibration or a prior matrix"):
         _analysed(experiment, None)
     (sphere,) = _analysed(experiment, ["judge"], new=fitted)
-    assert sphere.candidate == "new"
+    assert sphere.calibration == "new"
 
 
 def test_a_calibration_of_another_sensor_is_refused(arm: Path, fitted: Calibration) -> None:

@@ -29,7 +29,7 @@ GRAVITY = 9.80665
 
 
 def _row(result: Any, candidate: str) -> Any:
-    (row,) = [row for row in result["rows"] if row["candidate"] == candidate]
+    (row,) = [row for row in result["rows"] if row["calibration"] == candidate]
     return row
 
 
@@ -38,16 +38,16 @@ def test_the_result_is_what_the_library_finds(arm: Path, run: Run) -> None:
     ended = run("study", "sphere", PARQUET, "-c", "fitted.json", "--interval", "judge", "--format", "json")
     result = ended.result()
     assert faults(result, run("schema", "sphere").result()) == []
-    assert (result["schema"], result["experiment"]) == ("forcetorque/sphere/1", "small arm")
+    assert (result["schema"], result["experiment"]) == ("forcetorque/sphere/2", "small arm")
     assert (result["rule"], result["tolerance"], result["gravity_m_s2"]) == (RULE, TOLERANCE, GRAVITY)
     experiment = load_experiment(PARQUET)
     (sphere,) = spheres(SensorRun(experiment, "arm_ft"), {}, ["judge"]).analyses
     row, analysis = _row(result, "prior"), sphere.analysis
     assert (row["sensor"], row["serial"], row["samples"]) == ("arm_ft", "SIM001", analysis.samples)
     assert row["model_mass_kg"] == analysis.mass
-    assert (row["form"], row["intervals"], row["no_reference"]) == (analysis.form, ["judge"], None)
+    assert (row["form"], row["intervals"], row["no_model"]) == (analysis.form, ["judge"], None)
     assert analysis.mapped is not None
-    for name, fit in (("with_reference", analysis.mapped.fit), ("without_reference", analysis.free)):
+    for name, fit in (("with_model", analysis.mapped.fit), ("without_model", analysis.free)):
         assert fit.ellipsoid is not None
         shown = row[name]
         assert (shown["identifiable"], shown["why"]) == (fit.identifiable, list(fit.why))
@@ -58,18 +58,18 @@ def test_the_result_is_what_the_library_finds(arm: Path, run: Run) -> None:
         assert shown["index_kg"] == pytest.approx(np.std(shown["mass_kg"], ddof=1), rel=1e-12)
         np.testing.assert_allclose(shown["centre_N"], fit.ellipsoid.centre)
     assert analysis.moment is not None
-    np.testing.assert_allclose(row["moment_with_reference"]["error_Nm"], analysis.moment.error_Nm)
+    np.testing.assert_allclose(row["moment_with_model"]["error_Nm"], analysis.moment.error_Nm)
 
 
 def test_calibration_is_seen_to_mend(arm: Path, run: Run) -> None:
     """The three kinds of length have names of their own; what is unbounded is null."""
     result = run("study", "sphere", PARQUET, "-c", "fitted.json", "--interval", "judge", "--format", "json").result()
     prior, new = _row(result, "prior"), _row(result, "fitted.json")
-    assert new["with_reference"]["index_kg"] < 0.1 * prior["with_reference"]["index_kg"]
-    assert prior["without_reference"]["identifiable"] is False
-    assert prior["without_reference"]["index_high_kg"] is None
-    assert prior["without_reference"]["mass_high_kg"] == [None] * 3
-    assert any("the force has no one size" in reason for reason in prior["without_reference"]["why"])
+    assert new["with_model"]["index_kg"] < 0.1 * prior["with_model"]["index_kg"]
+    assert prior["without_model"]["identifiable"] is False
+    assert prior["without_model"]["index_high_kg"] is None
+    assert prior["without_model"]["mass_high_kg"] == [None] * 3
+    assert any("the force has no one size" in reason for reason in prior["without_model"]["why"])
 
 
 def test_what_was_fitted_is_warned_of(arm: Path, run: Run) -> None:
@@ -85,17 +85,17 @@ def test_a_line_per_sensor_and_candidate_as_csv(arm: Path, run: Run) -> None:
     """Triples become columns x, y and z, or 1 to 3 where they are no axes; reasons stay words."""
     words = ("study", "sphere", TWO, "-c", "fitted.json", "--interval", "judge", "--format")
     rows, result = run(*words, "csv").rows(), run(*words, "json").result()
-    assert [(row["sensor"], row["candidate"]) for row in rows] == [
+    assert [(row["sensor"], row["calibration"]) for row in rows] == [
         ("arm_ft", "prior"),
         ("arm_ft", "fitted.json"),
         ("tool_ft", "prior"),
     ]
-    shown = result["rows"][0]["with_reference"]
+    shown = result["rows"][0]["with_model"]
     for end, mass, radius in zip("xyz", shown["mass_kg"], shown["principal_radius_N"], strict=True):
         assert float(rows[0][f"with_reference_mass_{end}_kg"]) == mass
         assert float(rows[0][f"with_reference_principal_radius_{'xyz'.index(end) + 1}_N"]) == radius
     assert rows[0]["without_reference_mass_high_x_kg"] == ""
-    assert rows[0]["without_reference_why"] == "; ".join(result["rows"][0]["without_reference"]["why"])
+    assert rows[0]["without_reference_why"] == "; ".join(result["rows"][0]["without_model"]["why"])
     assert rows[0]["intervals"] == "judge"
 
 
@@ -186,8 +186,8 @@ def test_two_calibrations_of_one_sensor_are_compared(arm: Path, run: Run) -> Non
         "json",
     )
     result = run(*words).result()
-    assert [row["candidate"] for row in result["rows"]] == ["prior", "fitted.json", "copy.json"]
-    first, second = (_row(result, name)["with_reference"] for name in ("fitted.json", "copy.json"))
+    assert [row["calibration"] for row in result["rows"]] == ["prior", "fitted.json", "copy.json"]
+    first, second = (_row(result, name)["with_model"] for name in ("fitted.json", "copy.json"))
     assert first == second
 
 
@@ -272,9 +272,9 @@ def test_the_yoga_example(run: Run, data_dir: Path, tmp_path: Path) -> None:
     result = run("study", "sphere", path, "--figure", tmp_path / "yoga.png", "--format", "json").result()
     assert [row["form"] for row in result["rows"]] == ["cap", "cap", "plane"]
     for row in result["rows"]:
-        assert row["without_reference"]["identifiable"] is False
+        assert row["without_model"]["identifiable"] is False
         assert row["one_radius"]["identifiable"] is False
         assert row["one_radius"]["mass_low_kg"] < row["model_mass_kg"]
         assert row["directions_covered"] < 0.12
-    assert [row["with_reference"] is None for row in result["rows"]] == [True, True, False]
-    assert "no stream holds the position of torso_pitch" in result["rows"][0]["no_reference"]
+    assert [row["with_model"] is None for row in result["rows"]] == [True, True, False]
+    assert "no stream holds the position of torso_pitch" in result["rows"][0]["no_model"]

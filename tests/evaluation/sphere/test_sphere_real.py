@@ -74,7 +74,7 @@ def test_arms_are_caps_and_not_identifiable(yoga: Yoga, run: str, start_s: float
     for name in ARMS:
         sphere = yoga(run, start_s, end_s, name)
         analysis, one = sphere.analysis, sphere.analysis.radius
-        assert sphere.no_reference is not None
+        assert sphere.no_model is not None
         assert analysis.mass == pytest.approx(ARM_KG, abs=0.01)
         assert analysis.form is not CloudForm.SURFACE
         assert not one.identifiable
@@ -116,7 +116,7 @@ def test_the_free_leg_is_nearly_a_plane(yoga: Yoga, start_s: float, end_s: float
     """Its radius has no upper end; the weight of the model is not excluded; with the model it is not known either."""
     sphere = yoga("dumperLeftLegNoIMU", start_s, end_s, "r_leg_ft_sensor")
     analysis = sphere.analysis
-    assert sphere.no_reference is None
+    assert sphere.no_model is None
     assert analysis.mass == pytest.approx(LEG_KG, abs=0.01)
     assert analysis.form is CloudForm.PLANE
     assert not analysis.radius.identifiable

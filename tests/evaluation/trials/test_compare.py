@@ -64,14 +64,14 @@ def test_three_trials_of_which_one_drifts() -> None:
     assert group.pooled.mapped_centres is not None
     np.testing.assert_allclose(group.pooled.mapped_centres, np.outer([0.0, 40.0, -20.0], np.ones(3)), atol=0.5)
     for mode in (True, False):
-        mean, _, _ = mean_of_trials(group.identifiable_indices(with_reference=mode))
-        drift, fit = group.drift(with_reference=mode), group.pooled_fit(with_reference=mode)
+        mean, _, _ = mean_of_trials(group.identifiable_indices(with_model=mode))
+        drift, fit = group.drift(with_model=mode), group.pooled_fit(with_model=mode)
         assert drift is not None
         assert fit is not None
-        singles = [trial.fit(with_reference=mode) for trial in group.trials]
+        singles = [trial.fit(with_model=mode) for trial in group.trials]
         assert mean == pytest.approx(np.mean([one.index for one in singles if one is not None]) / GRAVITY)
         assert mean != fit.index / GRAVITY
-        assert group.index(with_reference=mode) == fit.index / GRAVITY
+        assert group.index(with_model=mode) == fit.index / GRAVITY
         assert drift.exceeds is not None
         assert [name for name in drift.exceeds if name.startswith("mass")] == ["mass y"]
         assert GRAVITY * drift.mass_kg[1] == pytest.approx(0.06 * DEFORMED.axis_intersections[1], abs=0.3)
@@ -84,13 +84,13 @@ def test_only_the_direction_of_drift_depends_on_the_order() -> None:
     trials = [_trial(rng, 0.0), _trial(rng, 10.0), _trial(rng, 5.0, stretch=1.03)]
     there, back = _group(trials), _group(trials[::-1])
     for mode in (True, False):
-        ours, theirs = there.pooled_fit(with_reference=mode), back.pooled_fit(with_reference=mode)
+        ours, theirs = there.pooled_fit(with_model=mode), back.pooled_fit(with_model=mode)
         assert ours is not None
         assert theirs is not None
         assert (ours.index, ours.index_low, ours.index_high) == (theirs.index, theirs.index_low, theirs.index_high)
-        means = [mean_of_trials(group.identifiable_indices(with_reference=mode))[0] for group in (there, back)]
+        means = [mean_of_trials(group.identifiable_indices(with_model=mode))[0] for group in (there, back)]
         assert means[0] == pytest.approx(means[1], rel=1e-14)
-        drifts = [group.drift(with_reference=mode) for group in (there, back)]
+        drifts = [group.drift(with_model=mode) for group in (there, back)]
         assert drifts[0] is not None
         assert drifts[1] is not None
         assert drifts[0].index_kg == -drifts[1].index_kg != 0.0
@@ -116,28 +116,28 @@ def test_conditions_sensors_and_candidates_are_kept_apart() -> None:
     others = [
         replace(one, condition=None),
         replace(one, sphere=replace(one.sphere, serial="SN2")),
-        replace(one, sphere=replace(one.sphere, candidate="new.json")),
+        replace(one, sphere=replace(one.sphere, calibration="new.json")),
     ]
     groups, _ = group_trials([one, *others, _trial(rng, 2.0)])
     assert [len(group.trials) for group in groups] == [2, 1, 1, 1]
     assert [group.pooled is None for group in groups] == [False, True, True, True]
     for group in groups[1:]:
-        assert group.drift(with_reference=True) is None
-        fit = group.first.fit(with_reference=True)
+        assert group.drift(with_model=True) is None
+        fit = group.first.fit(with_model=True)
         assert fit is not None
-        assert group.index(with_reference=True) == fit.index / GRAVITY
+        assert group.index(with_model=True) == fit.index / GRAVITY
 
 
 def test_what_is_not_known_is_not_averaged_nor_ranked() -> None:
     """A cap among the trials is left out of the mean without the model; alone it has neither mean nor rank."""
     rng = np.random.default_rng(5)
     whole, cap = _trial(rng, 1.0), _trial(rng, 2.0, half_deg=15.0)
-    indices = _group([whole, cap]).identifiable_indices(with_reference=False)
+    indices = _group([whole, cap]).identifiable_indices(with_model=False)
     assert indices == [whole.sphere.analysis.free.index / GRAVITY]
     alone = _group([cap])
-    assert alone.identifiable_indices(with_reference=False) == []
-    assert alone.index(with_reference=False) is None
-    drift = _group([whole, cap]).drift(with_reference=False)
+    assert alone.identifiable_indices(with_model=False) == []
+    assert alone.index(with_model=False) is None
+    drift = _group([whole, cap]).drift(with_model=False)
     assert drift is None or not drift.identifiable
 
 
@@ -152,7 +152,7 @@ def test_what_does_not_belong_together_is_not_pooled(changes: dict[str, float], 
     assert group.pooled is None
     assert group.not_pooled is not None
     assert reason in group.not_pooled
-    assert len(group.identifiable_indices(with_reference=True)) == 2
+    assert len(group.identifiable_indices(with_model=True)) == 2
 
 
 def test_every_trial_has_its_own_gravity() -> None:
@@ -164,12 +164,12 @@ def test_every_trial_has_its_own_gravity() -> None:
     )
     group = _group([here, strong])
     for mode in (True, False):
-        fits = [trial.fit(with_reference=mode) for trial in (here, strong)]
-        mean, _, _ = mean_of_trials(group.identifiable_indices(with_reference=mode))
+        fits = [trial.fit(with_model=mode) for trial in (here, strong)]
+        mean, _, _ = mean_of_trials(group.identifiable_indices(with_model=mode))
         indices = [fit.index / (k * GRAVITY) for k, fit in enumerate(fits, 1) if fit is not None]
         assert mean == pytest.approx(np.mean(indices), rel=1e-14)
-        assert group.drift(with_reference=mode) is None
-        assert group.index(with_reference=mode) is None
+        assert group.drift(with_model=mode) is None
+        assert group.index(with_model=mode) is None
     assert (group.pooled, group.not_pooled) == (None, "the files state different gravity (9.81, 19.62 m/s2)")
 
 
@@ -210,7 +210,7 @@ def test_a_calibration_goes_where_its_serial_number_is(arm: Path) -> None:
     )
     trials, failures = read_trials([arm / PARQUET, arm / TWO], calibrations={"new.json": fitted})
     assert failures == []
-    assert [(trial.sphere.sensor, trial.sphere.candidate) for trial in trials] == [
+    assert [(trial.sphere.sensor, trial.sphere.calibration) for trial in trials] == [
         ("arm_ft", "prior"),
         ("arm_ft", "new.json"),
         ("arm_ft", "prior"),
@@ -268,13 +268,13 @@ def test_the_comparison_shows_itself(arm: Path) -> None:
     text = result.text(60)
     assert [row.intervals for row in result.trials] == [("fit",), ("judge",)]
     (group,) = result.groups
-    assert group.with_reference is not None
-    fits = [row.with_reference for row in result.trials] + [group.with_reference.pooled]
+    assert group.with_model is not None
+    fits = [row.with_model for row in result.trials] + [group.with_model.pooled]
     for fit in fits:
         assert fit is not None
         assert f"{fit.index_kg:.4f}" in text
-    assert group.with_reference.drift is not None
-    assert " ".join(f"{change:+.2f}" for change in group.with_reference.drift.mass_kg) in text
+    assert group.with_model.drift is not None
+    assert " ".join(f"{change:+.2f}" for change in group.with_model.drift.mass_kg) in text
     assert max(map(len, text.splitlines())) <= 60
     assert result._repr_html_().count("<table>") == 4
     assert len(repr(result)) < 600

@@ -66,7 +66,7 @@ def _ended_with_failures(ended: Outcome) -> Any:
 
 def _group(result: Any, condition: str | None, candidate: str = "prior") -> Any:
     (group,) = [
-        group for group in result["groups"] if (group["condition"], group["candidate"]) == (condition, candidate)
+        group for group in result["groups"] if (group["condition"], group["calibration"]) == (condition, candidate)
     ]
     return group
 
@@ -76,32 +76,34 @@ def test_every_trial_is_what_sphere_finds(trials: Path, compared: Run, run: Run)
     """Row by row the numbers of `sphere`, means of them, and the result fits its own schema."""
     result = compared("-c", "fitted.json", "--format", "json").result()
     assert faults(result, run("schema", "compare").result()) == []
-    assert (result["schema"], result["rule"], result["tolerance"]) == ("forcetorque/compare/1", RULE, TOLERANCE)
+    assert (result["schema"], result["rule"], result["tolerance"]) == ("forcetorque/compare/2", RULE, TOLERANCE)
     assert result["failures"] == []
     seen = 0
     for name in (FIRST, SECOND, LOOSE):
         for row in run("study", "sphere", name, "-c", "fitted.json", "--format", "json").result()["rows"]:
             (mine,) = [
-                trial for trial in result["trials"] if (trial["file"], trial["candidate"]) == (name, row["candidate"])
+                trial
+                for trial in result["trials"]
+                if (trial["file"], trial["calibration"]) == (name, row["calibration"])
             ]
-            for key in ("with_reference", "without_reference", "samples", "form", "model_mass_kg", "fitted_on"):
+            for key in ("with_model", "without_model", "samples", "form", "model_mass_kg", "fitted_on"):
                 assert mine[key] == row[key]
             seen += 1
     assert seen == 6
     tight, loose = _group(result, "2 N m"), _group(result, "0.5 N m")
     indices = [
-        trial["with_reference"]["index_kg"]
+        trial["with_model"]["index_kg"]
         for trial in result["trials"]
-        if (trial["condition"], trial["candidate"]) == ("2 N m", "prior")
+        if (trial["condition"], trial["calibration"]) == ("2 N m", "prior")
     ]
     assert len(indices) == 2
-    by = tight["with_reference"]
+    by = tight["with_model"]
     assert by["mean_index_kg"] == pytest.approx(np.mean(indices), rel=1e-14)
     assert min(indices) < by["pooled"]["index_kg"] < max(indices)
     assert by["pooled"]["centre_N"] is None
     assert len(by["pooled_centre_N"]) == 2
     assert by["drift"]["index_kg"] == pytest.approx(indices[1] - indices[0], rel=1e-9)
-    assert (loose["trials"], loose["with_reference"]["pooled"], loose["with_reference"]["drift"]) == (1, None, None)
+    assert (loose["trials"], loose["with_model"]["pooled"], loose["with_model"]["drift"]) == (1, None, None)
 
 
 def test_ranks_are_of_intervals(compared: Run) -> None:
@@ -109,10 +111,10 @@ def test_ranks_are_of_intervals(compared: Run) -> None:
     result = compared("-c", "fitted.json", "--format", "json").result()
     ends = []
     for group in result["groups"]:
-        by = group["with_reference"]
-        (only, *_) = [row for row in result["trials"] if all(row[k] == group[k] for k in ("condition", "candidate"))]
-        fit = by["pooled"] or only["with_reference"]
-        ends.append((fit["index_low_kg"], fit["index_high_kg"], by["rank"], group["candidate"]))
+        by = group["with_model"]
+        (only, *_) = [row for row in result["trials"] if all(row[k] == group[k] for k in ("condition", "calibration"))]
+        fit = by["pooled"] or only["with_model"]
+        ends.append((fit["index_low_kg"], fit["index_high_kg"], by["rank"], group["calibration"]))
     assert len(ends) == 4
     for low, high, rank, candidate in ends:
         below = [other for other in ends if other[1] < low]
@@ -123,10 +125,10 @@ def test_ranks_are_of_intervals(compared: Run) -> None:
     out = compared("-c", "fitted.json", "--details").out
     assert "what overlaps is in no order" in out
     for group in result["groups"]:
-        free = group["without_reference"]
+        free = group["without_model"]
         if free["rank"] is not None:
             assert free["pooled"] is None or free["pooled"]["identifiable"]
-    unknown = _group(result, "2 N m")["without_reference"]
+    unknown = _group(result, "2 N m")["without_model"]
     assert (unknown["known"], unknown["mean_index_kg"], unknown["rank"]) == (0, None, None)
     assert unknown["drift"] is None or unknown["drift"]["exceeds"] is None
 
@@ -138,10 +140,10 @@ def test_the_table_has_the_forms_of_the_thesis(compared: Run) -> None:
     lines = [line.split() for line in ended.out.splitlines()]
     result = compared("--format", "json").result()
     first = result["trials"][0]
-    errors = [f"{error:.4f}" for error in first["with_reference"]["error_N"]]
-    index, free = first["with_reference"]["index_kg"], first["without_reference"]["index_kg"]
+    errors = [f"{error:.4f}" for error in first["with_model"]["error_N"]]
+    index, free = first["with_model"]["index_kg"], first["without_model"]["index_kg"]
     assert ["arm_ft", "SIM001", "2", "N", "m", "1", *errors, f"{index:.4f}", f"({free:.4f})"] in lines
-    tight, loose = (_group(result, condition)["with_reference"] for condition in ("2 N m", "0.5 N m"))
+    tight, loose = (_group(result, condition)["with_model"] for condition in ("2 N m", "0.5 N m"))
     assert ["mean", "of", "trials", f"{tight['mean_index_kg']:.4f}", f"{loose['mean_index_kg']:.4f}"] in lines
     assert ["pooled", "fit", f"{tight['pooled']['index_kg']:.4f}", "-"] in lines
     assert "drift: last trial minus first" in ended.out
@@ -175,7 +177,7 @@ def test_the_order_of_files_is_that_of_the_trials(trials: Path, run: Run) -> Non
     there, back = (
         run("study", "compare", *names, "--format", "json").result() for names in ((FIRST, SECOND), (SECOND, FIRST))
     )
-    one, other = (_group(result, "2 N m")["with_reference"] for result in (there, back))
+    one, other = (_group(result, "2 N m")["with_model"] for result in (there, back))
     assert one["pooled"] == other["pooled"]
     assert one["mean_index_kg"] == pytest.approx(other["mean_index_kg"], rel=1e-14)
     assert one["drift"]["index_kg"] == -other["drift"]["index_kg"] != 0.0
@@ -235,10 +237,10 @@ def test_lines_of_numbers(compared: Run) -> None:
     """Trials, then mean, pooled fit and drift of each group, by both fits; the same numbers as JSON."""
     rows = compared("--format", "csv").rows()
     result = compared("--format", "json").result()
-    mapped = [row for row in rows if row["fit"] == "with_reference"]
+    mapped = [row for row in rows if row["fit"] == "with_model"]
     assert [row["row"] for row in mapped] == ["trial", "trial", "trial", "mean", "pooled", "drift", "mean"]
-    assert float(mapped[0]["error_x_N"]) == result["trials"][0]["with_reference"]["error_N"][0]
-    group = _group(result, "2 N m")["with_reference"]
+    assert float(mapped[0]["error_x_N"]) == result["trials"][0]["with_model"]["error_N"][0]
+    group = _group(result, "2 N m")["with_model"]
     assert float(mapped[3]["index_kg"]) == group["mean_index_kg"]
     assert float(mapped[4]["index_kg"]) == group["pooled"]["index_kg"]
     assert float(mapped[5]["mass_x_kg"]) == group["drift"]["mass_kg"][0]
@@ -322,7 +324,7 @@ def test_the_arms_and_the_leg_of_the_yoga(run: Run, data_dir: Path, tmp_path: Pa
     assert len(result["groups"]) == 3
     fits = 0
     for group in result["groups"]:
-        for by in (group["with_reference"], group["without_reference"]):
+        for by in (group["with_model"], group["without_model"]):
             if by is not None:
                 fits += 1
                 assert (by["known"], by["mean_index_kg"], by["rank"]) == (0, None, None)
@@ -343,11 +345,11 @@ def test_a_wrist_of_100_poses_and_of_7(run: Run, data_dir: Path, tmp_path: Path)
     result = _ended_with_failures(run("study", "compare", *paths, "--format", "json"))
     (trial,), (failure,) = result["trials"], result["failures"]
     assert trial["samples"] == 100
-    assert trial["with_reference"]["identifiable"]
-    assert not trial["without_reference"]["identifiable"]
+    assert trial["with_model"]["identifiable"]
+    assert not trial["without_model"]["identifiable"]
     assert "expected at least 10 points, got 7" in failure["message"]
     (group,) = result["groups"]
-    assert (group["with_reference"]["rank"], group["without_reference"]["rank"]) == (1, None)
+    assert (group["with_model"]["rank"], group["without_model"]["rank"]) == (1, None)
 
 
 @pytest.mark.real_data
@@ -357,16 +359,16 @@ def test_halves_of_a_hundred_poses(run: Run, data_dir: Path, tmp_path: Path) -> 
     Its interval holds the index of all poses with one offset.
     """
     path = write_axia(data_dir, tmp_path, "_100")
-    whole = run("study", "compare", path, "--format", "json").result()["groups"][0]["with_reference"]
+    whole = run("study", "compare", path, "--format", "json").result()["groups"][0]["with_model"]
     text = path.read_text(encoding="utf-8")
     assert text.count('label = "all"\nstart_s = 0.0\n') == 1
     halves = text.replace('label = "all"\nstart_s = 0.0\n', 'label = "a"\nstart_s = 0.0\nend_s = 50.0\n')
     path.write_text(f'{halves}[[interval]]\nlabel = "b"\nstart_s = 50.0\nuse = "calibration"\n')
     result = run("study", "compare", path, "--trials", "intervals", "--format", "json").result()
     assert len(result["trials"]) == 2
-    by = result["groups"][0]["with_reference"]
+    by = result["groups"][0]["with_model"]
     assert (whole["known"], by["known"], by["rank"]) == (1, 1, None)
     assert not by["pooled"]["identifiable"]
     assert by["drift"]["exceeds"] is None
     assert by["pooled"]["index_low_kg"] <= whole["mean_index_kg"] <= by["pooled"]["index_high_kg"]
-    assert not result["groups"][0]["without_reference"]["pooled"]["identifiable"]
+    assert not result["groups"][0]["without_model"]["pooled"]["identifiable"]

@@ -37,7 +37,7 @@ def _fitted(experiment: Experiment, index: int = 0) -> Calibration:
 
 
 def _by_candidate(verdicts: Sequence[ContactForceErrors]) -> dict[tuple[str, Offset], ContactForceErrors]:
-    return {(verdict.candidate, verdict.offset): verdict for verdict in verdicts}
+    return {(verdict.calibration, verdict.offset): verdict for verdict in verdicts}
 
 
 def _bias(run: SensorRun, calibrations: dict[str, Calibration], offset: Offset, **how: str) -> FloatArray:
@@ -169,10 +169,10 @@ def test_the_prior_has_the_offset_that_the_calibration_carries_for_it(arm: Path)
     assert alone.offset_source == "the prior matrix_SIM001.txt, no offset removed"
     assert alone.force_mean_N > 2.0 * verdict.force_mean_N
     torques = {
-        (v.candidate, v.offset, v.joint): v
+        (v.calibration, v.offset, v.joint): v
         for v in joint_torques(SensorRun(experiment, sensor), {"new": calibration}).verdicts
     }
-    in_whole = {(v.candidate, v.offset, v.joint): v for v in joint_torques(SensorRun(whole, sensor), {}).verdicts}
+    in_whole = {(v.calibration, v.offset, v.joint): v for v in joint_torques(SensorRun(whole, sensor), {}).verdicts}
     assert len(in_whole) == 6
     for key, torque in in_whole.items():  # that file's own intervals are those that were fitted
         assert torques[key].rmse == pytest.approx(torque.rmse, abs=EXACT)
@@ -185,10 +185,12 @@ def test_priors_are_called_as_evaluate_calls_them(arm: Path) -> None:
     assert first.prior is not None
     other = first.model_copy(update={"prior": first.prior.model_copy(update={"offset": first.prior.offset + 1.0})})
     for given in ({"a": first, "b": first, "c": other}, {"prior": first}):
-        names = [(v.candidate, v.prior) for v in evaluate(SensorRun(experiment, sensor), given).verdicts]
-        assert [(v.candidate, v.prior) for v in contact_forces(SensorRun(experiment, sensor), given).verdicts] == names
+        names = [(v.calibration, v.prior) for v in evaluate(SensorRun(experiment, sensor), given).verdicts]
+        assert [
+            (v.calibration, v.prior) for v in contact_forces(SensorRun(experiment, sensor), given).verdicts
+        ] == names
         torques = joint_torques(SensorRun(experiment, sensor), given).verdicts
-        assert list(dict.fromkeys((v.candidate, v.prior) for v in torques)) == list(dict.fromkeys(names))
+        assert list(dict.fromkeys((v.calibration, v.prior) for v in torques)) == list(dict.fromkeys(names))
 
 
 def test_an_interval_that_ends_within_its_first_second_is_named(arm: Path) -> None:

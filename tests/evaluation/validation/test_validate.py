@@ -40,7 +40,7 @@ def test_it_joins_contact_forces_and_joint_torques(arm: Path) -> None:
     assert {best.best for best in validation.best} == {"new"}
     (words,) = forces.left_out
     assert validation.left_out == (f"arm_ft: {words}",)
-    assert [row.candidate for row in validation.validity] == ["new"]
+    assert [row.calibration for row in validation.validity] == ["new"]
     assert validation.warnings == (*sentences(validation.validity), f"left out: arm_ft: {words}")
     assert forces.warnings == torques.warnings == (f"left out: {words}",)
 
@@ -50,14 +50,14 @@ def test_nobody_is_best_among_equals(arm: Path) -> None:
     run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
     first = _fitted(run)
     for best in validate(run, {"a": first, "b": first}).best:
-        judgements = {row.other: row.judgement for row in best.comparisons}
+        judgements = {row.other: row.conclusion for row in best.comparisons}
         (prior,) = judgements.keys() - {"a", "b"}
         assert judgements == {prior: "better", "b": "no difference"}
-        assert (best.by_magnitude, best.judgement, best.best) == ("a", "no difference", None)
-        assert f"offset {best.offset}: none is best; " in best.sentence
-        assert "with b (no difference: the same in every sample)" in best.sentence
+        assert (best.by_magnitude, best.conclusion, best.best) == ("a", "no difference", None)
+        assert f"offset {best.offset}: none is best; " in best.message
+        assert "with b (no difference: the same in every sample)" in best.message
     for best in validate(run, {}).best:
-        assert (best.best, best.judgement, best.comparisons) == (None, None, ())
+        assert (best.best, best.conclusion, best.comparisons) == (None, None, ())
 
 
 def test_the_motion_of_an_interval_is_computed_once(arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -31,7 +31,7 @@ def test_the_best_candidate_is_named_in_every_form(arm: Path, run: Run) -> None:
     before = snapshot(arm)
     result = run("study", "validate", PARQUET, "-c", "fitted.json", "--format", "json").result()
     assert faults(result, run("schema", "validate").result()) == []
-    rows = {(row["candidate"], row["offset"]): row for row in result["contact_forces"]}
+    rows = {(row["calibration"], row["offset"]): row for row in result["contact_forces"]}
     assert set(rows) == {(c, o) for c in ("prior", "fitted.json") for o in ("fitted", "first-second")}
     for best in result["best"]:
         assert best["by_magnitude"] == "fitted.json"
@@ -44,7 +44,7 @@ def test_the_best_candidate_is_named_in_every_form(arm: Path, run: Run) -> None:
     flat = [line for line in csv.DictReader(io.StringIO(table.out)) if line["what"] == "contact_force"]
     assert len(flat) == 4
     for line in flat:
-        row = rows[line["candidate"], line["offset"]]
+        row = rows[line["calibration"], line["offset"]]
         np.testing.assert_allclose([float(line[c]) for c in AXES], row["mean_absolute"], rtol=1e-12)
     shown = run("study", "validate", PARQUET, "-c", "fitted.json", "--details")
     assert shown.code == 0
@@ -57,7 +57,7 @@ def test_the_best_candidate_is_named_in_every_form(arm: Path, run: Run) -> None:
 def test_joint_torques_are_in_every_form(arm: Path, run: Run) -> None:
     """A row per candidate, offset and joint that depends on the sensor; the same numbers in JSON, CSV and table."""
     result = run("study", "validate", PARQUET, "-c", "fitted.json", "--format", "json").result()
-    rows = {(row["candidate"], row["offset"], row["joint"]): row for row in result["joint_torques"]}
+    rows = {(row["calibration"], row["offset"], row["joint"]): row for row in result["joint_torques"]}
     assert len(rows) == len(result["joint_torques"]) == 2 * 2 * len(INBOARD)
     assert {joint for _, _, joint in rows} == set(INBOARD)
     assert result["left_out"] == []
@@ -70,7 +70,7 @@ def test_joint_torques_are_in_every_form(arm: Path, run: Run) -> None:
     flat = [line for line in csv.DictReader(io.StringIO(table.out)) if line["what"] == "joint_torque"]
     assert len(flat) == len(rows)
     for line in flat:
-        row = rows[line["candidate"], line["offset"], line["joint"]]
+        row = rows[line["calibration"], line["offset"], line["joint"]]
         assert {line["force_mean_N"], line[AXES[0]], line["logged_rmse"]} == {""}
         for key in ("samples", "rmse", "rmse_error", "mean", "mean_error", "largest"):
             assert float(line[key]) == row[key]
@@ -123,7 +123,7 @@ def test_what_is_left_out_is_warned_of_and_every_row_counts_its_own_samples(arm:
         assert [line for line in left_out if line.startswith(words)]
     for line in left_out:
         assert f"WARNING: left out: {line}" in done.log
-    counts = {(row["candidate"], row["offset"]): row["samples"] for row in done.result()["contact_forces"]}
+    counts = {(row["calibration"], row["offset"]): row["samples"] for row in done.result()["contact_forces"]}
     assert len(set(counts.values())) == 2
     shown = run("study", "validate", PARQUET, "-c", "fitted.json", "--details").out
     assert "free sub-model arm_ft; force: mean norm ± half its 95 % interval; per axis" in shown
@@ -163,8 +163,8 @@ def test_the_prior_is_the_one_of_evaluate(arm: Path, run: Run) -> None:
     """In a file without an interval to fit, both give it the offset that the calibration carries; the numbers agree."""
     edit(arm / PARQUET, 'use = "calibration"', 'use = "ignore"')
     words = (PARQUET, "-c", "fitted.json", "--format", "json")
-    judged = {(r["candidate"], r["offset"]): r for r in run("evaluate", *words).result()["verdicts"]}
-    rows = {(r["candidate"], r["offset"]): r for r in run("study", "validate", *words).result()["contact_forces"]}
+    judged = {(r["calibration"], r["offset"]): r for r in run("evaluate", *words).result()["verdicts"]}
+    rows = {(r["calibration"], r["offset"]): r for r in run("study", "validate", *words).result()["contact_forces"]}
     for name, prior in (("prior", None), ("fitted.json", "prior")):
         one, other = judged[name, "fitted"], rows[name, "fitted"]
         # evaluate judges the first second too, one in nine

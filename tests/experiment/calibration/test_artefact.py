@@ -54,7 +54,7 @@ def _calibration(*, lam: float = 3.5e4, prior: bool = True) -> Calibration:
         validity=Validity(
             raw_minimum_counts=np.zeros(6),
             raw_maximum_counts=np.ones(6),
-            reference_deviation=np.ones(6),
+            expected_wrench_sd=np.ones(6),
             rank=6,
             condition=12.0,
             directions=np.eye(6),
@@ -124,17 +124,15 @@ def test_temperature_counts_from_its_reference_value(tmp_path: Path) -> None:
         calibration.apply(raw, serial="SN1", variables={"temperature": np.zeros(3)})
 
 
-def test_a_file_from_before_there_were_variables_is_read(tmp_path: Path) -> None:
-    """Version 1 is the same form without variables; one with variables under that name is still complete."""
+def test_a_file_of_an_earlier_form_is_refused(tmp_path: Path) -> None:
+    """Its keys are others."""
     path = tmp_path / "c.json"
     write_calibration(path, _calibration())
-    content = json.loads(path.read_text())
-    assert content["schema"] == "forcetorque/calibration/3"
-    for key in ("variables", "estimation_type", "raw_offset_counts"):
-        del content[key]
-    path.write_text(json.dumps(content | {"schema": "forcetorque/calibration/1"}))
-    read = read_calibration(path)
-    assert read.model_dump_json() == _calibration().model_dump_json()
+    text = path.read_text()
+    assert text.count('"forcetorque/calibration/4"') == 1
+    path.write_text(text.replace("calibration/4", "calibration/3"))
+    with pytest.raises(FormatError, match="expected the schema 'forcetorque/calibration/4', got .*fit again"):
+        read_calibration(path)
 
 
 def test_refuses_a_foreign_sensor_unless_told() -> None:
@@ -244,7 +242,7 @@ NEGATIVE = np.where(np.arange(36).reshape(6, 6) == 8, -0.25, 0.25)
         ("lambda_counts2", -1.0, "greater than or equal to 0"),
         ("selection.lambda_counts2.0", -1.0, "greater than or equal to 0"),
         ("validity.variance_counts2", NEGATIVE[1], "expected numbers of at least 0, got -0.25"),
-        ("validity.reference_deviation", NEGATIVE[1], "expected numbers of at least 0, got -0.25"),
+        ("validity.expected_wrench_sd", NEGATIVE[1], "expected numbers of at least 0, got -0.25"),
         ("provenance.samples", -1, "greater than or equal to 0"),
         ("provenance.dropped", -3, "greater than or equal to 0"),
     ],

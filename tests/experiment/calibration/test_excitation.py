@@ -19,7 +19,7 @@ def _with_variances(*variance: float) -> Excitation:
         variance=np.array(variance),
         directions=np.eye(count),
         explained=np.ones(count),
-        reference_deviation=np.ones(6),
+        expected_wrench_sd=np.ones(6),
     )
 
 
@@ -57,7 +57,7 @@ def test_variances_come_strongest_first_with_their_directions() -> None:
     np.testing.assert_allclose(np.abs(excitation.directions), np.eye(6)[np.argsort(-amplitude)], atol=1e-9)
     assert (excitation.rank, excitation.excited) == (6, (True,) * 6)
     assert excitation.condition == pytest.approx(25.0)
-    np.testing.assert_allclose(excitation.reference_deviation, 1.0, rtol=1e-9)
+    np.testing.assert_allclose(excitation.expected_wrench_sd, 1.0, rtol=1e-9)
 
 
 @pytest.mark.parametrize("still", [0, 2])

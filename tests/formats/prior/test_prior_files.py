@@ -260,7 +260,7 @@ def test_a_plain_table_needs_its_units(tmp_path: Path) -> None:
         (b"%PDF-1.7 \0", "a PDF document"),
         (b"PK\x03\x04\0\0", "a ZIP archive"),
         (b"<robot><link/></robot>", "XML with the root 'robot'"),
-        (b'{"schema": "forcetorque/calibration/3"}', "JSON of schema forcetorque/calibration/3"),
+        (b'{"schema": "forcetorque/calibration/4"}', "JSON of schema forcetorque/calibration/4"),
         (b"1 2 3\n4 5 6\n", "a text of 2 lines that begins with '1 2 3'"),
         (b"x\0" * 9, "a file of 18 bytes that is no small text"),
     ],

@@ -71,11 +71,11 @@ def test_an_offset_alone_needs_no_motion() -> None:
     """With infinite lambda the prior is kept, and a limb at rest tells the offset."""
     fit = calibrate(_data(_turned(0.0)), PRIOR, regularisation=math.inf).fit
     assert np.abs(fit.offset).max() < 0.05
-    assert np.abs(fit.excitation.reference_deviation).max() < 1e-9
+    assert np.abs(fit.excitation.expected_wrench_sd).max() < 1e-9
 
 
 def test_a_deviation_that_is_rounded_below_zero_is_zero() -> None:
     """Constant columns far from zero leave a second moment of either sign; its root is a number nevertheless."""
     second = np.diag([4.0] * 6 + [0.0, -1e-32, 0.0, -1e-30, 0.0, 0.0])
     still = Moments(count=100, channels=6, variables=0, origin=np.zeros(12), step=np.zeros(12), second=second)
-    assert excitation_of(still).reference_deviation.tolist() == [0.0] * 6
+    assert excitation_of(still).expected_wrench_sd.tolist() == [0.0] * 6

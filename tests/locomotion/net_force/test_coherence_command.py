@@ -67,10 +67,10 @@ def test_a_folder_of_calibrations_stands_beside_the_prior(inside: Path, run: Run
         "json",
     )
     result = outcome.result()
-    assert result["schema"] == "forcetorque/coherence/1"
+    assert result["schema"] == "forcetorque/coherence/2"
     assert result["figure"] == "a.png"
     assert (inside / "a.png").read_bytes().startswith(b"\x89PNG")
-    means = {row["candidate"]: row["force_error_mean_N"] for row in result["summary"]}
+    means = {row["calibration"]: row["force_error_mean_N"] for row in result["summary"]}
     assert list(means) == ["prior", "feet"]
     assert means["feet"] < 0.3 * means["prior"]
     assert [row["phase"] for row in result["rows"] if not row["evidence"]] == ["hanging", "hanging"]
@@ -105,7 +105,7 @@ def test_estimate_takes_offsets_and_says_where_there_is_none(inside: Path, run: 
     """The readings name the way; with `none` a warning does."""
     outcome = run("estimate", DAY, "-o", "a.csv", "--offset", "one-link-imu:hanging", "--format", "json")
     taken = outcome.result()
-    assert all(words.endswith("offset one-link-imu:hanging") for words in taken["readings"].values())
+    assert all(words.endswith("offset one-link-imu:hanging") for words in taken["wrench_sources"].values())
     assert "no offset removed" not in outcome.err
     # a file of validation intervals alone gives the prior no offset
     left = run("estimate", DAY, "-o", "a.csv", "--details").err

@@ -63,7 +63,7 @@ def _errors(folder: Path, seeds: range) -> dict[tuple[str, str], list[float]]:
         }
         for row in coherence(days["switching_day2"], {"in situ": fitted}, offsets=OFFSETS).rows:
             if row.evidence and row.phase != "hanging":
-                key = f"{row.offset}:{row.offset_interval}", row.candidate
+                key = f"{row.offset}:{row.offset_interval}", row.calibration
                 norms.setdefault(key, []).append(float(np.linalg.norm(row.force_error_N)))
     return norms
 

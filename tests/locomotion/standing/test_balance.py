@@ -153,7 +153,7 @@ def _noisy(like: Standing, seed: int) -> Standing:
         noise = rng.normal(size=(len(stream), 6)) * NOISE @ np.linalg.inv(like.corrections[sensor.name].model.matrix).T
         streams[sensor.stream] = replace(stream, signals={"raw": replace(signal, values=signal.values + noise)})
     sensors = tuple(
-        replace(sensor, reading_noise=NOISE, reading_deviation=np.zeros(6)) for sensor in experiment.sensors
+        replace(sensor, measurement_noise=NOISE, measurement_offset_sd=np.zeros(6)) for sensor in experiment.sensors
     )
     recording = replace(experiment.recording, streams=streams)
     return replace(like, experiment=replace(experiment, recording=recording, sensors=sensors))
@@ -271,7 +271,7 @@ def test_the_script_of_the_page_runs(
 
 def test_thresholds_are_shares_of_the_weight() -> None:
     """The defaults are 15 and 6 percent."""
-    assert BalanceOptions().thresholds(300.0) == ContactThresholds(touch_N=45.0, release_N=18.0)
+    assert BalanceOptions().thresholds(300.0) == ContactThresholds(contact_threshold_N=45.0, release_N=18.0)
 
 
 WALKING = BalanceOptions(touch=ForceLimit(force_N=50.0), release=ForceLimit(force_N=20.0))

@@ -15,7 +15,7 @@ from forcetorque.locomotion.standing.result import phase_rows
 from forcetorque.locomotion.standing.support_phases import ContactThresholds, support_phases
 
 WEIGHT_N, PERIOD_S = 324.4, 0.01
-THRESHOLDS = ContactThresholds(touch_N=50.0, release_N=20.0)
+THRESHOLDS = ContactThresholds(contact_threshold_N=50.0, release_N=20.0)
 STAND, RIGHT, BOTH, LEFT = ((1.0, 1.0), 5.8), ((0.0, 1.0), 0.6), ((1.0, 1.0), 0.33), ((1.0, 0.0), 0.6)
 WALK = (STAND, *(RIGHT, BOTH, LEFT, BOTH) * 3)
 """Which feet bear, and for how long in s: the times of a real log."""

@@ -19,7 +19,7 @@ from forcetorque.locomotion.standing.support_phases import (
 )
 
 PERIOD_S = 0.01
-THRESHOLDS = ContactThresholds(touch_N=50.0, release_N=20.0)
+THRESHOLDS = ContactThresholds(contact_threshold_N=50.0, release_N=20.0)
 
 
 def _times(count: int) -> FloatArray:
@@ -37,8 +37,8 @@ def test_without_hysteresis_a_noisy_force_rattles() -> None:
     """The negative control: equal thresholds part one step into many."""
     rng = np.random.default_rng(1)
     force = np.r_[np.zeros(100), np.linspace(0, 100, 100), np.full(100, 100.0)] + rng.normal(0.0, 5.0, 300)
-    rattling = contact_state(force, _times(300), ContactThresholds(touch_N=50.0, release_N=50.0))
-    still = contact_state(force, _times(300), ContactThresholds(touch_N=80.0, release_N=30.0))
+    rattling = contact_state(force, _times(300), ContactThresholds(contact_threshold_N=50.0, release_N=50.0))
+    still = contact_state(force, _times(300), ContactThresholds(contact_threshold_N=80.0, release_N=30.0))
     assert np.count_nonzero(np.diff(rattling)) > 1
     assert np.count_nonzero(np.diff(still)) == 1
 
@@ -46,7 +46,7 @@ def test_without_hysteresis_a_noisy_force_rattles() -> None:
 @given(st.lists(st.floats(-50.0, 200.0), min_size=2, max_size=60), st.sampled_from([0.0, 0.025, 0.1]))
 def test_a_recording_played_backwards_has_the_same_contacts(forces: list[float], dwell_s: float) -> None:
     """The rule does not look at the past alone."""
-    thresholds = ContactThresholds(touch_N=50.0, release_N=20.0, dwell_s=dwell_s)
+    thresholds = ContactThresholds(contact_threshold_N=50.0, release_N=20.0, dwell_s=dwell_s)
     # whole numbers, so that the same stretch lasts as long both ways
     forwards = contact_state(forces, np.arange(len(forces)), _slower(thresholds))
     backwards = contact_state(forces[::-1], np.arange(len(forces)), _slower(thresholds))
@@ -55,14 +55,18 @@ def test_a_recording_played_backwards_has_the_same_contacts(forces: list[float],
 
 def _slower(thresholds: ContactThresholds) -> ContactThresholds:
     return ContactThresholds(
-        touch_N=thresholds.touch_N, release_N=thresholds.release_N, dwell_s=thresholds.dwell_s / PERIOD_S
+        contact_threshold_N=thresholds.contact_threshold_N,
+        release_N=thresholds.release_N,
+        dwell_s=thresholds.dwell_s / PERIOD_S,
     )
 
 
 def test_short_pauses_are_filled_and_short_contacts_dropped() -> None:
     """A bounce is one contact; a knock of the foot in the air is none."""
     force = np.r_[np.full(10, 100.0), np.zeros(3), np.full(10, 100.0), np.zeros(30), np.full(3, 100.0), np.zeros(20)]
-    down = contact_state(force, _times(len(force)), ContactThresholds(touch_N=50.0, release_N=20.0, dwell_s=0.05))
+    down = contact_state(
+        force, _times(len(force)), ContactThresholds(contact_threshold_N=50.0, release_N=20.0, dwell_s=0.05)
+    )
     assert down[:23].all()
     assert not down[23:].any()
 
@@ -89,9 +93,9 @@ def test_phases_name_the_feet_that_are_down() -> None:
 def test_what_cannot_be_a_phase_is_refused() -> None:
     """Thresholds that cross, a foot in the air all along, forces of the wrong sign, times that do not rise."""
     with pytest.raises(EstimationError, match="where they cross"):
-        ContactThresholds(touch_N=20.0, release_N=50.0)
+        ContactThresholds(contact_threshold_N=20.0, release_N=50.0)
     with pytest.raises(EstimationError, match="dwell time"):
-        ContactThresholds(touch_N=50.0, release_N=20.0, dwell_s=-1.0)
+        ContactThresholds(contact_threshold_N=50.0, release_N=20.0, dwell_s=-1.0)
     with pytest.raises(EstimationError, match="got none"):
         support_phases({}, _times(9), THRESHOLDS)
     with pytest.raises(ShapeError, match="instants that rise"):

@@ -45,8 +45,8 @@ def _problem(fault: str | None, seed: int) -> tuple[LoadProblem, str]:
 
 def _is_named(solution: LoadSolution, fault: str, words: str) -> bool:
     if fault == "pose":
-        return [one.row for one in solution.disagreeing] == [words]
-    return [one.name for one in solution.hypotheses] == [fault] and words in solution.hypotheses[0].words
+        return [one.observation for one in solution.disagreeing] == [words]
+    return [one.name for one in solution.hypotheses] == [fault] and words in solution.hypotheses[0].description
 
 
 def _named(fault: str, count: int) -> int:

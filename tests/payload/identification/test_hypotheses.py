@@ -156,7 +156,7 @@ def test_bad_input_is_named(name: str) -> None:
     named = solve(make()).hypotheses
     assert named
     assert named[0].name == wanted
-    assert words in named[0].words
+    assert words in named[0].description
 
 
 @pytest.mark.parametrize(
@@ -292,7 +292,7 @@ def test_a_row_that_disagrees_is_named_and_counts_less() -> None:
     reading = _reading()
     reading[11, :3] += [3.0, -2.0, 4.0]
     solution = solve(problem_of(reading, GRAVITY))
-    assert [row.row for row in solution.disagreeing] == ["row 12"]
+    assert [row.observation for row in solution.disagreeing] == ["row 12"]
     np.testing.assert_allclose(solution.disagreeing[0].residual[:3], [3.0, -2.0, 4.0], atol=0.3)
     assert solution.disagreeing[0].weight < 0.05
     assert abs(solution.loads[0].mass - MASS) < solution.loads[0].mass_half_width

@@ -138,7 +138,7 @@ def test_a_mount_that_nobody_states_is_found() -> None:
     assert solution.loads[0].mass == pytest.approx(MASS, abs=1e-3)
     stated = solve(problem_of(reading, gravity))
     assert [one.name for one in stated.hypotheses] == ["turned axes"]
-    assert "x of the sensor is -y of the motion, y is x, z is z" in stated.hypotheses[0].words
+    assert "x of the sensor is -y of the motion, y is x, z is z" in stated.hypotheses[0].description
 
 
 def test_the_tilt_of_a_floor_is_found() -> None:

@@ -186,7 +186,7 @@ def test_tare_shows_and_writes_the_offset(tmp_path: Path, run: Run) -> None:
     path = write_postures(tmp_path, seed=6)
     file = tmp_path / "parameters.yaml"
     result = run("tare", path, "--interval", "first", "--to", "ft-tools", "-o", file, "--format", "json").result()
-    assert result["schema"] == "forcetorque/tare/1"
+    assert result["schema"] == "forcetorque/tare/2"
     (row,) = result["sensors"]
     assert (np.abs(np.array(row["offset"]) + BIAS) < ENOUGH * SLOW).all()
     load = read_ft_tools(file, sensor="wrist", frame="tool")

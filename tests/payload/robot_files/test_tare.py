@@ -44,7 +44,7 @@ def test_the_weight_stays_in_the_next_posture(tmp_path: Path) -> None:
     zeroed = second - logged[: len(logged) // 2].mean(axis=0)
     assert np.linalg.norm((zeroed - weight(POSTURES[1]))[:3]) > 10.0
     np.testing.assert_allclose(row.load, weight(POSTURES[0]), atol=1e-6)
-    assert (row.samples, row.offset_before, row.reading) == (1200, None, "the logged wrench, no offset removed")
+    assert (row.samples, row.offset_before, row.wrench_source) == (1200, None, "the logged wrench, no offset removed")
     assert (row.half_width_95 > 0.1 * SLOW).all()
 
 
@@ -82,7 +82,7 @@ def test_a_calibrated_sensor_of_a_robot_is_tared_by_its_model(arm: Path) -> None
     run = interactive_experiment(arm / PARQUET)["arm_ft"]
     calibration = calibrate_sensor(run, code_version="1", created="now")
     (row,) = run.tare("judge", calibration).sensors
-    assert row.reading == "calibration"
+    assert row.wrench_source == "calibration"
     np.testing.assert_allclose(row.offset, OFFSET, rtol=0.2)  # as far as the calibration is right
     assert row.offset_before is not None
     assert np.array_equal(row.offset_before, calibration.offset)

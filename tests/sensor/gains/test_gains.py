@@ -300,11 +300,11 @@ def test_advice_without_a_contact_says_so(arm: Path) -> None:
     """A limb in the air does not show what it bears in use; with a contact beyond the sensor the advice stands."""
     free = select_gains(_run(load_experiment(arm / PARQUET)))
     raised = [channel for channel in free.sensors[0].channels if channel.change is GainChange.RAISE]
-    assert (free.sensors[0].contact_stated, bool(raised)) == (False, True)
+    assert (free.sensors[0].contact_specified, bool(raised)) == (False, True)
     assert "no contact is specified distal to the sensor: whether operating loads were recorded" in " ".join(
         free.text().split()
     )
     add(arm / PARQUET, '\n[[contact]]\nframe = "hand"\nintervals = ["fit"]\n')
     touched = select_gains(_run(load_experiment(arm / PARQUET)))
-    assert touched.sensors[0].contact_stated
+    assert touched.sensors[0].contact_specified
     assert "no contact is specified" not in " ".join(touched.text().split())

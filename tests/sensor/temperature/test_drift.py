@@ -30,7 +30,7 @@ def test_what_was_put_in_comes_out() -> None:
     """Two cycles tell all three parts of the drift within their intervals."""
     cycles = _cycles(1)
     fit = fit_drift(cycles)
-    assert (cycles.cycles, fit.told_from_time) == (2.0, True)
+    assert (cycles.cycles, fit.separable_from_time) == (2.0, True)
     assert fit.hysteresis is not None
     assert fit.hysteresis_half_width is not None
     assert fit.drift_per_hour is not None
@@ -48,7 +48,7 @@ def test_one_cycle_mixes_hysteresis_with_time_and_a_rise_mixes_all() -> None:
     assert one.hysteresis_half_width is not None
     assert two.hysteresis_half_width is not None
     assert (one.hysteresis_half_width > two.hysteresis_half_width).all()
-    assert (rise.told_from_time, rise.hysteresis, rise.drift_per_hour) == (False, None, None)
+    assert (rise.separable_from_time, rise.hysteresis, rise.drift_per_hour) == (False, None, None)
     assert np.isinf(rise.coefficient_half_width).all()
     # what is given is both: 20 degC in 2 h
     np.testing.assert_allclose(rise.coefficient, PER_DEGREE + 0.1 * PER_HOUR, atol=0.02)

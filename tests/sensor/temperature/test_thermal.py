@@ -120,7 +120,7 @@ def test_a_calibration_that_knows_the_temperature_is_not_told_again(warm_log: Pa
     assert [variable.name for variable in calibration.variables] == ["temperature"]
     (before,), (after,) = run.thermal().sensors, run.thermal(calibration).sensors
     assert (before.corrected, after.corrected, after.variable_table()) == (False, True, None)
-    assert after.reading == "calibration"
+    assert after.wrench_source == "calibration"
 
 
 def test_the_script_of_its_page_runs(

@@ -40,7 +40,7 @@ ARM = ScenarioFile.model_validate(
         "name": "arm",
         "seed": 5,
         "robot": {"model": ("arm",)},
-        "sensors": {"drift_counts_per_degC": 12.0, "mounting_spread": 0.05, "noise_counts": 3.0},
+        "sensors": {"drift_counts_per_degC": 12.0, "mounting_sd": 0.05, "noise_counts": 3.0},
         "recording": [
             {
                 "name": name,

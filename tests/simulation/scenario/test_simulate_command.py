@@ -30,7 +30,7 @@ model = ["arm"]
 [sensors]
 noise_counts = 1.0
 offset_counts = 500.0
-mounting_spread = 0.05
+mounting_sd = 0.05
 [[recording]]
 name = "fit"
 motion = { kind = "random", duration_s = 12.0, slowest_hz = 0.3, speed = 2.0 }
@@ -69,7 +69,7 @@ def test_the_other_commands_read_what_was_written(scenario: Path, run: Run) -> N
     assert [row["recording"] for row in result["recordings"]] == ["fit", "judge"]
     assert run("calibrate", "out/fit.toml", "-o", "new.json").code == 0
     verdicts = run("evaluate", "out/judge.toml", "-c", "new.json", "--format", "json").result()["verdicts"]
-    errors = {(row["candidate"], row["offset"]): row["force_error_mean_N"] for row in verdicts}
+    errors = {(row["calibration"], row["offset"]): row["force_error_mean_N"] for row in verdicts}
     assert errors["new.json", "judged-mean"] < 0.1 * errors["prior", "judged-mean"]
     truth = json.loads(Path("out/truth.json").read_text(encoding="utf-8"))["sensors"]["arm_ft"]
     fitted = read_calibration(Path("new.json")).matrix
@@ -161,7 +161,7 @@ def test_bundled_scenarios_are_whole(name: str) -> None:
         ("[[recording]]", ERROR.replace("arm_ft", "arm_tf"), "no force-torque sensor 'arm_tf'"),
         ("[[recording]]", ERROR.replace("3.0, 1.0]", "3.0]"), "sensors.workbench_error.mean_force_N"),
         (
-            "mounting_spread = 0.05\n[[recording]]",
+            "mounting_sd = 0.05\n[[recording]]",
             ERROR,
             "2 N in fx, but mounting as drawn gives none",
         ),
@@ -192,7 +192,7 @@ def test_a_list_that_is_too_short_is_named_with_what_it_lacks(
 ) -> None:
     """One line of place, expectation and what came, for lists of every length; the whole lists are accepted."""
     edit(scenario, '[[recording]]\nname = "fit"', f'{ERROR}gravity_direction = [0.0, 0.0, 1.0]\nname = "fit"')
-    edit(scenario, "mounting_spread", "screw_torque_Nm = [2.0, 2.0, 2.0, 1.0]\nmounting_spread")
+    edit(scenario, "mounting_sd", "screw_torque_Nm = [2.0, 2.0, 2.0, 1.0]\nmounting_spread")
     load_scenario(scenario)
     edit(scenario, old, short)
     error = run("simulate", scenario, "-o", "out").error()
@@ -214,7 +214,7 @@ def test_the_workbench_matrix_errs_by_what_the_file_says(scenario: Path, run: Ru
     edit(Path("out/fit.toml"), "[robot]", '[robot]\ntolerance = "exact"')  # as the simulated robot is
     assert run("calibrate", "out/fit.toml", "-o", "new.json").code == 0
     verdicts = run("evaluate", "out/judge.toml", "-c", "new.json", "--format", "json").result()["verdicts"]
-    errors = {(row["candidate"], row["offset"]): row["force_error_mean_N"] for row in verdicts}
+    errors = {(row["calibration"], row["offset"]): row["force_error_mean_N"] for row in verdicts}
     lowest, highest = float(np.linalg.norm([2.0, 3.0, 1.0])), 6.0
     # a twentieth for the half seconds at either end that are not judged
     assert 0.95 * lowest < errors["prior", "judged-mean"] < highest

@@ -116,7 +116,7 @@ def test_the_error_of_the_matrix_has_its_stated_size() -> None:
 @pytest.mark.parametrize(
     ("sensors", "match"),
     [
-        ({"matrix_error": {"share": 0.05}, "mounting_spread": 0.06}, "matrix_error stands for all that mounting does"),
+        ({"matrix_error": {"share": 0.05}, "mounting_sd": 0.06}, "matrix_error stands for all that mounting does"),
         ({"matrix_error": {"share": -0.1}}, "greater than or equal to 0"),
         ({"matrix_error": {"share": 0.1, "lever_m": 0.0}}, "greater than 0"),
         ({"step_counts": -1.0}, "greater than or equal to 0"),

@@ -37,13 +37,13 @@ def test_broken_taxels_are_left_out_by_name(answer: SkinCalibration) -> None:
     assert set(reasons) == set(BROKEN)
     for taxel, fault in BROKEN.items():
         assert fault.value in reasons[taxel].split(", ")
-    assert (answer.sound, answer.left_out) == (TAXELS - len(BROKEN), len(BROKEN))
+    assert (answer.valid_taxels, answer.left_out) == (TAXELS - len(BROKEN), len(BROKEN))
 
 
 def test_health_is_per_recording(answer: SkinCalibration) -> None:
     """What breaks before the second recording is fitted, but does not judge there."""
     fit, kept = answer.recordings
-    assert (fit.sound, kept.sound) == (TAXELS - len(BROKEN), TAXELS - len(BROKEN) - len(LATER))
+    assert (fit.valid_taxels, kept.valid_taxels) == (TAXELS - len(BROKEN), TAXELS - len(BROKEN) - len(LATER))
     assert kept.jumps > fit.jumps
     row = next(row for row in answer.candidates if row.curve == "monotone" and row.recording == "all")
     assert (row.taxels, row.left_out) == (TAXELS - len(BROKEN) - len(LATER), len(BROKEN) + len(LATER))
@@ -123,7 +123,7 @@ def test_the_file_holds_what_was_fitted(answer: SkinCalibration) -> None:
     assert set(made.provenance.inputs_sha256) >= {"fit: fit.toml", "kept: kept.toml"}
     table = made.table()
     assert not table.falls().any()
-    assert int(table.live.sum()) == answer.sound
+    assert int(table.live.sum()) == answer.valid_taxels
     taxels = responses()
     pressure = np.full(TAXELS, 3e4)
     read = table.pressures(taxels.rest - taxels.fall(pressure), taxels.rest)[table.live]

@@ -32,15 +32,15 @@ CALIBRATE = ("skin", "calibrate", "fit.toml", "kept.toml", "-o", "palm.json")
 def test_it_writes_curves_tables_and_a_figure(run: Run, palm: Path) -> None:
     """The result says where; JSON has every taxel, and the file those that are sound."""
     result = run(*CALIBRATE, "--table", "palm.csv", "--figure", "palm.png", "--format", "json").result()
-    assert result["schema"] == "forcetorque/skin_calibrate/1"
-    assert (result["sound"], result["left_out"]) == (TAXELS - len(BROKEN), len(BROKEN))
+    assert result["schema"] == "forcetorque/skin_calibrate/2"
+    assert (result["valid_taxels"], result["left_out"]) == (TAXELS - len(BROKEN), len(BROKEN))
     assert len(result["taxels"]) == TAXELS
     assert (result["file"], result["figure"]) == ("palm.json", "palm.png")
     made = read_patch_calibration(palm / "palm.json")
     assert made.curve == "monotone"
-    assert sum(taxel.coefficients is not None for taxel in made.taxels) == result["sound"]
+    assert sum(taxel.coefficients is not None for taxel in made.taxels) == result["valid_taxels"]
     with (palm / "palm.csv").open(encoding="utf-8") as stream:
-        assert len(list(csv.DictReader(stream))) == 256 * result["sound"]
+        assert len(list(csv.DictReader(stream))) == 256 * result["valid_taxels"]
     assert size_of((palm / "palm.png").read_bytes())[0] == 1200
 
 

@@ -94,5 +94,5 @@ def test_late_pads_are_said_and_made_up_for(run: Run, shank: WarmShank) -> None:
         write_log(Path(), name, late_pads(shank, warmth, 15.0, seed=11))
         read = run("skin", "wrench", f"{name}.toml", "--table", "late.json", "--format", "json")
         assert any("times as fast as in the warm-up" in line for line in read.log) is fast
-        assert read.result()["touched"] <= frames
+        assert read.result()["frames_with_contact"] <= frames
         assert read.result()["largest_force_N"] < (1.5 if fast else 0.6)

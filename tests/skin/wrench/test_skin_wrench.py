@@ -78,8 +78,8 @@ def test_the_summary_is_that_of_the_rows(made: tuple[Path, Sequence[ContactTruth
     """Touched frames, largest and mean force; all recordings end untouched."""
     folder, truths = made
     answer = asked(folder)
-    assert answer.touched == len({row.time_s for row in answer.contacts})
-    assert 0 < answer.touched < answer.frames
+    assert answer.frames_with_contact == len({row.time_s for row in answer.contacts})
+    assert 0 < answer.frames_with_contact < answer.frames
     assert answer.largest_force_N == pytest.approx(max(truth.load_N for truth in truths), rel=0.15)
     assert 0.0 < answer.mean_force_N < answer.largest_force_N
     assert "touched in" in answer.text()

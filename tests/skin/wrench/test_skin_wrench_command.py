@@ -40,7 +40,7 @@ def calibrated(made: tuple[Path, list[ContactTruth]], monkeypatch: pytest.Monkey
 def test_objects_are_found_while_they_rest(run: Run, truths: list[ContactTruth]) -> None:
     """Their forces within a fifth, no contact between them, and the broken taxel named."""
     result = run(*WRENCH, "--format", "json").result()
-    assert result["schema"] == "forcetorque/skin_wrench/1"
+    assert result["schema"] == "forcetorque/skin_wrench/2"
     assert result["left_out"] == [BROKEN]
     loading = Loading()
     for number, truth in enumerate(truths):

@@ -13,7 +13,7 @@ from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.labelled_arrays import wrench_array, xarray_dataset
 from forcetorque.base.lazy import LazyMethod
 from forcetorque.evaluation import commands as _evaluation
-from forcetorque.evaluation.load_cases.verdict import UseVerdict
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.estimation_type import EstimationType
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from forcetorque.sensor.bandwidth import bandwidth as _bandwidth
 
 
-class Verdicts(tuple[UseVerdict, ...]):
+class Verdicts(tuple[LoadCaseVerdict, ...]):
     """Whether calibrations may be used, one per calibration and load case: `verdicts[0].sentence`."""
 
     __slots__ = ()
@@ -59,12 +59,12 @@ class Verdicts(tuple[UseVerdict, ...]):
         return html_table(self._table())
 
     def _table(self) -> Table:
-        names = short_names([verdict.candidate for verdict in self])
+        names = short_names([verdict.calibration for verdict in self])
         return Table(
             caption="",
             headings=("sensor", "calibration", "load case", "decision", "why"),
             rows=tuple(
-                (verdict.sensor, names[verdict.candidate], verdict.load_case, verdict.decision, verdict.sentence)
+                (verdict.sensor, names[verdict.calibration], verdict.load_case, verdict.decision, verdict.message)
                 for verdict in self
             ),
         )

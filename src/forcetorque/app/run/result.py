@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from forcetorque.evaluation.load_cases.verdict import UseVerdict
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
 from forcetorque.inspection.draft.questions import OPEN_QUESTIONS
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.result import Result
@@ -52,7 +52,7 @@ class Stage(Row):
 class WholeRun(Result):
     """The whole way of one experiment, or of several recordings of the same sensors."""
 
-    schema_name: Literal["forcetorque/run/1"] = Field(default="forcetorque/run/1", alias="schema")
+    schema_name: Literal["forcetorque/run/2"] = Field(default="forcetorque/run/2", alias="schema")
     """Form of the result."""
     experiment: str
     """The files."""
@@ -60,7 +60,7 @@ class WholeRun(Result):
     """Stages in their order."""
     questions: tuple[str, ...] = ()
     """What only a person can answer, with line and key in the experiment file."""
-    uses: tuple[UseVerdict, ...] = ()
+    load_cases: tuple[LoadCaseVerdict, ...] = ()
     """Verdicts on the calibrations, one per load case."""
     files: tuple[str, ...] = ()
     """Files that were written."""
@@ -81,7 +81,7 @@ class WholeRun(Result):
         """How an unattended run learns what came out."""
         if (stage := self.stopped) is not None:
             return ExitCode.QUESTIONS if stage.name == "init" else ExitCode.STOPPED
-        usable = all(use.decision == "use" for use in self.uses) and all(
+        usable = all(use.decision == "use" for use in self.load_cases) and all(
             answer.concern is Concern.NONE for answer in self.final
         )
         return ExitCode.USABLE if usable else ExitCode.NOT_USABLE

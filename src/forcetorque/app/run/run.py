@@ -18,7 +18,7 @@ from forcetorque.calibration.export.export import export_icub_matrix, export_tab
 from forcetorque.calibration.joint.calibrate import JOINT_FILE, calibrate_jointly, calibration_file
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import Evaluation
-from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, use_verdicts
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
@@ -68,7 +68,7 @@ class _Way:
     """What a person overruled, in words for the calibrations."""
     results: list[Result] = field(default_factory=list)
     answers: tuple[Answer, ...] = ()
-    uses: tuple[UseVerdict, ...] = ()
+    uses: tuple[LoadCaseVerdict, ...] = ()
     started: float = field(default_factory=monotonic)
 
     def begin(self, name: StageName) -> None:
@@ -104,7 +104,7 @@ class _Way:
         return WholeRun(
             experiment=", ".join(map(str, self.files)),
             stages=tuple(self.stages),
-            uses=self.uses,
+            load_cases=self.uses,
             files=tuple(self.written),
             override=self.override,
             details_of=tuple(self.results),
@@ -186,7 +186,7 @@ def _by_known_loads(way: _Way) -> None:
     way.results.append(result)
     way.answers = tuple(result.answers())
     if result.faults:
-        faults = "; ".join(fault.sentence for fault in result.faults)
+        faults = "; ".join(fault.message for fault in result.faults)
         way.stop("workbench", f"{len(result.faults)} fault(s) of the bench: {faults}", "correct the bench")
     if len(result.sensors) == 1:
         way.output.mkdir(parents=True, exist_ok=True)
@@ -377,7 +377,7 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
     """Evaluate on data that were not fitted; a calibration that must not be used is withheld."""
     way.begin("evaluate")
     evaluations: list[Evaluation] = []
-    uses: list[UseVerdict] = []
+    uses: list[LoadCaseVerdict] = []
     without: list[Answer] = []
     """On sensors of a joint calibration whose limb bears the robot: no wrench is expected of them alone."""
     for entry in fitted.calibrations:
@@ -386,7 +386,7 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
         try:
             if any(one.has(Use.VALIDATION) for one in campaign.runs):
                 evaluations.append(evaluate(campaign, named))
-                uses += evaluations[-1].uses
+                uses += evaluations[-1].load_cases
             else:
                 uses += use_verdicts(campaign, named)
         except ForceTorqueError as error:
@@ -405,7 +405,7 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
     if forbidden:
         worst = forbidden[0]
         remedy = next((reason.remedy for reason in worst.reasons if reason.remedy is not None), "keep the prior matrix")
-        way.stop("evaluate", "; ".join(f"{use.sensor}: {use.sentence}" for use in forbidden), remedy.rstrip("."))
+        way.stop("evaluate", "; ".join(f"{use.sensor}: {use.message}" for use in forbidden), remedy.rstrip("."))
     elif evaluations or without:
         texts = [f"{use.sensor}: {use.decision}" for use in uses]
         way.end("evaluate", ", ".join([*texts, *(f"{one.subject.split()[0]}: no verdict" for one in without)]))
@@ -415,7 +415,7 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
 
 def _with_doubts(entry: SensorCalibration, doubts: Sequence[str]) -> SensorCalibration:
     calibration = entry.calibration
-    doubted = calibration.model_copy(update={"doubts": (*calibration.doubts, *doubts)})
+    doubted = calibration.model_copy(update={"warnings": (*calibration.warnings, *doubts)})
     return entry.model_copy(update={"calibration": doubted}) if doubts else entry
 
 

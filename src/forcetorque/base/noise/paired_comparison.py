@@ -47,8 +47,8 @@ _LEAST = 1e-9
 _WIDEST = 300.0
 """Half an interval of logarithms, beyond which its end is no number."""
 
-Judgement = Literal["better", "worse", "no difference", "not told apart"]
-"""What a comparison comes to: `no difference` is known to be small, `not told apart` may be large."""
+Conclusion = Literal["better", "worse", "no difference", "inconclusive"]
+"""What a comparison comes to: `no difference` is known to be small, `inconclusive` may be large."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,9 +61,9 @@ class ErrorRatio:
     """Lower end of the 95 % interval; 0 where it is undetermined."""
     high: float
     """Upper end; infinity where it is undetermined."""
-    stretches: int
+    segments: int
     """Number of independent segments, of all recordings."""
-    judgement: Judgement
+    conclusion: Conclusion
     """Of the first calibration under test: better or worse, no different, or not enough data."""
 
 
@@ -166,7 +166,7 @@ def _ratio(recordings: Sequence[PairedErrors], axes: slice) -> ErrorRatio:
     least = _LEAST**2 * float(totals.max()) / sum(pair.shape[1] for pair in squares)
     if least == 0.0 or all(np.array_equal(*pair) for pair in squares):
         count = sum(independent_segments(np.zeros(min(BLOCKS, pair.shape[1])))[0] for pair in squares)
-        return ErrorRatio(ratio=1.0, low=1.0, high=1.0, stretches=count, judgement="no difference")
+        return ErrorRatio(ratio=1.0, low=1.0, high=1.0, segments=count, conclusion="no difference")
     segments, errors = [], []
     for pair in squares:
         count, error = independent_segments(_log_ratios(pair, BLOCKS, least))
@@ -201,18 +201,18 @@ def ratio_over(
         ratio=math.exp(mean),
         low=math.exp(low) if half < _WIDEST else 0.0,
         high=math.exp(high) if half < _WIDEST else math.inf,
-        stretches=count,
-        judgement=_judgement(low, high, pooled),
+        segments=count,
+        conclusion=_conclusion(low, high, pooled),
     )
 
 
-def _judgement(low: float, high: float, pooled: float) -> Judgement:
+def _conclusion(low: float, high: float, pooled: float) -> Conclusion:
     if high < 0.0 and pooled < 0.0:
         return "better"
     if low > 0.0 and pooled > 0.0:
         return "worse"
     alike = math.log(ALIKE[0]) <= low and high <= math.log(ALIKE[1])
-    return "no difference" if alike else "not told apart"
+    return "no difference" if alike else "inconclusive"
 
 
 def _standard_error(segments: Sequence[FloatArray], errors: Sequence[float], mean: float) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
-from forcetorque.calibration.summary import LITTLE_LEARNT, LearntDirection
+from forcetorque.calibration.summary import LITTLE_LEARNT, InformationGain
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     THIN_REFERENCE_LINE,
@@ -49,7 +49,7 @@ _AFTER_LITTLE: dict[str, Any] = {"color": look(1).colour, "marker": "X", "marker
 
 
 @in_figure_style
-def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> Figure:
+def learnt_figure(learnt: Mapping[str, Sequence[InformationGain]]) -> Figure:
     """Draw what the recordings taught of every load direction.
 
     The first panels have by how much the uncertainty became narrower; the others the predicted error, before and after,
@@ -57,7 +57,7 @@ def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> Figure:
     Axes of errors are logarithmic, and the same for all calibrations, so that these can be compared.
 
     Args:
-        learnt: The six directions of `learnt_directions`, by name of the calibration.
+        learnt: The six directions of `information_gains`, by name of the calibration.
 
     Returns:
         The figure, two rows for each calibration: forces as loads, moments as loads.
@@ -71,10 +71,10 @@ def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> Figure:
     figure = new_figure(_ROW_INCHES * 2 * len(learnt))
     grid = figure.subplots(2 * len(learnt), 3, squeeze=False, gridspec_kw={"width_ratios": (0.8, 1.0, 1.0)})
     for place, (name, rows) in enumerate(learnt.items()):
-        little = [row.learnt < LITTLE_LEARNT for row in rows]
+        little = [row.uncertainty_reduction < LITTLE_LEARNT for row in rows]
         for half, loads in enumerate(FORCE_AND_MOMENT):
             share, *panels = grid[2 * place + half]
-            _draw_shares(share, [row.learnt for row in rows[loads]])
+            _draw_shares(share, [row.uncertainty_reduction for row in rows[loads]])
             for quantity, panel in enumerate(panels):
                 label, factor = _ERRORS[half][quantity]
                 _set_error_axis(panel, factor * errors[:, loads, quantity], label)
@@ -96,7 +96,7 @@ def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> Figure:
     return figure
 
 
-def _require_directions(learnt: Mapping[str, Sequence[LearntDirection]]) -> None:
+def _require_directions(learnt: Mapping[str, Sequence[InformationGain]]) -> None:
     if not learnt:
         raise ShapeError("learnt: expected at least one calibration to draw, got none")
     for name, rows in learnt.items():
@@ -106,7 +106,7 @@ def _require_directions(learnt: Mapping[str, Sequence[LearntDirection]]) -> None
             raise ShapeError(f"learnt[{name!r}]: expected the directions {expected}, got {' '.join(directions)}")
 
 
-def _errors(row: LearntDirection) -> tuple[tuple[float, float], tuple[float, float]]:
+def _errors(row: InformationGain) -> tuple[tuple[float, float], tuple[float, float]]:
     """Force error before and after, moment error before and after."""
     force = row.force_error_before_N, row.force_error_after_N
     return force, (row.moment_error_before_Nm, row.moment_error_after_Nm)

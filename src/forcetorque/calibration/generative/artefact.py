@@ -272,8 +272,8 @@ def generative_calibration(
             [_fitted_loads(fit, interval) for interval in intervals],
         ),
         selection=Selection(rule=_RULE),
-        doubts=(
-            *dict.fromkeys(d for recording in recordings for d in recording.doubts),
+        warnings=(
+            *dict.fromkeys(d for recording in recordings for d in recording.warnings),
             *_exact_beside_uncertain(intervals),
             *_disagreeing(fit, stretches),
         ),

@@ -201,7 +201,7 @@ class SolvedRows:
             drift=self.design.free.shape[1] > len(sessions),
             mean=mean,
             covariance=covariance,
-            learnt_covariance=learnt,
+            mean_covariance=learnt,
             prior_covariance=prior,
             to_wrench=to_wrench,
             noise=noise,

@@ -87,7 +87,7 @@ def sensor_posterior(
         drift=False,
         mean=np.c_[factor - np.eye(LOADS), -factor @ offsets.T],
         covariance=covariance + _repeatability(repeatability, mean_loads),
-        learnt_covariance=learnt,
+        mean_covariance=learnt,
         prior_covariance=np.stack([before[np.ix_(row[:LOADS], row[:LOADS])] for row in rows]),
         to_wrench=fit.change(sensor),
         noise=tuple(RowNoise(white=float(one), time_constant_s=0.0, ratio=0.0) for one in noise),
@@ -199,7 +199,7 @@ def sensor_artefact(
         offset_standard_error=last.standard_error,
         residual_rms=residual,
         lambda_counts2=None,
-        prior=Prior(matrix=prior, offset=prior_offsets[last.name], source=described.prior_source or "stated"),
+        prior=Prior(matrix=prior, offset=prior_offsets[last.name], source=described.prior_source or "specified"),
         validity=validity_of(
             np.nanmin([one.minimum for one in raw], axis=0),
             np.nanmax([one.maximum for one in raw], axis=0),
@@ -207,7 +207,7 @@ def sensor_artefact(
             [one.reference + one.rest for one in data],
         ),
         selection=Selection(rule=_RULE),
-        doubts=tuple(_unfitted_variables(campaign)),
+        warnings=tuple(_unfitted_variables(campaign)),
         provenance=Provenance(
             code_version=code_version,
             created=created,

@@ -17,7 +17,7 @@ from forcetorque.calibration.joint.interval import JointInterval, joint_interval
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
 from forcetorque.calibration.moments import channel_full_scale
-from forcetorque.calibration.summary import learnt_directions
+from forcetorque.calibration.summary import information_gains
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
 from forcetorque.experiment.calibration.model_error import ModelTolerance, MountTolerance
@@ -276,7 +276,7 @@ def calibrate_jointly(
                 file=str(place / calibration_file(calibration.sensor.name, calibration.sensor.serial)),
                 calibration=calibration,
                 secondary_matrix=calibration.secondary_matrix(),
-                learnt=learnt_directions(calibration),
+                information_gain=information_gains(calibration),
             )
             for calibration in calibrations.values()
         ),

@@ -91,10 +91,10 @@ class SensorErrorRow(Row):
         )
 
 
-class PartRow(Row):
+class SubModelRow(Row):
     """What is left of the equation of one part in one interval: root mean square over the windows that were fitted."""
 
-    part: Annotated[str, Shown("part")]
+    sub_model: Annotated[str, Shown("sub-model")]
     """Name of the part: the sensor at its base, or the link whose motion is known."""
     sensors: tuple[str, ...]
     """Its sensors."""
@@ -144,7 +144,7 @@ class PartRow(Row):
             for values in (residual.before, residual.after)
         ]
         return cls(
-            part=residual.part,
+            sub_model=residual.part,
             sensors=residual.sensors,
             root_link=residual.root_link,
             interval=residual.label,
@@ -200,10 +200,10 @@ class ModelErrorRow(Row):
         return cls(name=term.name, unit=term.unit, value=value, deviation=deviation, prior_deviation=term.deviation)
 
 
-class TouchRow(Row):
+class ContactSpanRow(Row):
     """A span of time that was left out because a part's equation does not hold."""
 
-    part: Annotated[str, Shown("part")]
+    sub_model: Annotated[str, Shown("sub-model")]
     """Name of the part."""
     interval: Annotated[str, Shown("interval")]
     """Label of the interval."""
@@ -222,7 +222,7 @@ class TouchRow(Row):
         Returns:
             The row.
         """
-        return cls(part=touch.part, interval=touch.label, start_s=touch.start_s, end_s=touch.end_s)
+        return cls(sub_model=touch.part, interval=touch.label, start_s=touch.start_s, end_s=touch.end_s)
 
 
 _DOUBTFUL_SHARE = 0.1
@@ -238,11 +238,11 @@ class JointOutcome(Row):
     """File with the covariance of all unknowns; None where there is none."""
     sensors: tuple[SensorErrorRow, ...]
     """How far every sensor is to be trusted at the load that it bore."""
-    parts: tuple[PartRow, ...]
+    sub_models: tuple[SubModelRow, ...]
     """What is left of the equation of every part."""
     model_errors: tuple[ModelErrorRow, ...]
     """What may be wrong with the model, and what was found."""
-    touches: tuple[TouchRow, ...]
+    contacts: tuple[ContactSpanRow, ...]
     """Spans that were left out because they disagree."""
     left_out: tuple[str, ...]
     """Parts that nothing touches, but whose joints were not logged, in words."""
@@ -270,9 +270,9 @@ class JointOutcome(Row):
                 for name, calibration in calibrations.items()
                 if calibration.posterior is not None
             ),
-            parts=tuple(PartRow.of(one) for one in result.residuals if one.kept.any()),
+            sub_models=tuple(SubModelRow.of(one) for one in result.residuals if one.kept.any()),
             model_errors=tuple(ModelErrorRow.of(*error) for error in result.fit.model_errors()),
-            touches=tuple(map(TouchRow.of, result.touches)),
+            contacts=tuple(map(ContactSpanRow.of, result.touches)),
             left_out=result.left_out,
             fit=result.fit,
             residuals=result.residuals,
@@ -285,11 +285,11 @@ class JointOutcome(Row):
             Tables and sentences.
         """
         yield table_of(self.sensors, "predicted error at the mean load of these recordings, one s.d.")
-        yield table_of(self.parts, "what is left of the equation of every part, root mean square")
+        yield table_of(self.sub_models, "what is left of the equation of every part, root mean square")
         if learnt := [row for row in self.model_errors if row.learnt or row.is_far]:
             yield table_of(learnt, "what the recordings tell of the model, ± one s.d.")
-        if self.touches:
-            yield table_of(self.touches, "left out, because the part's equation does not hold: touched, or a knock")
+        if self.contacts:
+            yield table_of(self.contacts, "left out, because the part's equation does not hold: touched, or a knock")
         yield from self.left_out
 
     def doubts(self) -> Iterator[str]:
@@ -300,7 +300,7 @@ class JointOutcome(Row):
         """
         yield from _open_loads(self.sensors)
         yield from _far_errors(self.model_errors)
-        for interval, rows in groupby(self.parts, key=lambda row: row.interval):
+        for interval, rows in groupby(self.sub_models, key=lambda row: row.interval):
             yield from _disagreeing(interval, [row for row in rows if row.mass_kg > _LIGHT_KG])
 
 
@@ -327,11 +327,11 @@ def _far_errors(errors: Sequence[ModelErrorRow]) -> Iterator[str]:
             )
 
 
-def _disagreeing(interval: str, rows: Sequence[PartRow]) -> Iterator[str]:
+def _disagreeing(interval: str, rows: Sequence[SubModelRow]) -> Iterator[str]:
     far = [row for row in rows if row.share_of_weight > _DOUBTFUL_SHARE]
     if not far:
         return
-    words = ", ".join(f"{row.part} ({row.force_after_N:.1f} N of {row.weight_N:.0f} N)" for row in far)
+    words = ", ".join(f"{row.sub_model} ({row.force_after_N:.1f} N of {row.weight_N:.0f} N)" for row in far)
     if 2 * len(far) > len(rows) > 1:
         yield (
             f"interval {interval!r}: forces of most parts do not agree with their motion: {words}. Gravity and motion "

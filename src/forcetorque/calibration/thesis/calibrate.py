@@ -370,7 +370,7 @@ def artefact(
             inputs_sha256=dict(inputs_sha256),
             added=tuple(added),
         ),
-        doubts=tuple(doubts),
+        warnings=tuple(doubts),
     )
 
 
@@ -412,14 +412,14 @@ def validity_of(
     return Validity(
         raw_minimum_counts=minimum,
         raw_maximum_counts=maximum,
-        reference_deviation=excitation.reference_deviation,
+        expected_wrench_sd=excitation.expected_wrench_sd,
         rank=excitation.rank,
         condition=excitation.condition if math.isfinite(excitation.condition) else None,
         directions=excitation.directions,
         variance_counts2=excitation.variance,
         explained=excitation.explained,
         excited=excitation.excited,
-        loads=FittedLoads.of(loads, excitation.reference_deviation),
+        loads=FittedLoads.of(loads, excitation.expected_wrench_sd),
     )
 
 

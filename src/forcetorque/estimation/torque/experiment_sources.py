@@ -177,7 +177,7 @@ class TorqueSources:
         noise, lasting = {}, {}
         for sensor in experiment.sensors:
             noise[sensor.name], lasting[sensor.name] = _errors(
-                f"sensor {sensor.name!r}", "reading", sensor.reading_noise, sensor.reading_deviation
+                f"sensor {sensor.name!r}", "reading", sensor.measurement_noise, sensor.measurement_offset_sd
             )
         measured = {
             sensor.name: wrench_at(

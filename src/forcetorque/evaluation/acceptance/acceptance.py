@@ -14,11 +14,11 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion, RecordingCriterion, Subject, criteria_of
 from forcetorque.evaluation.acceptance.static_checks import RecordingChecks, StaticChecks, check
-from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, use_verdicts
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.validity import ReadingsOutside, doubts_about_choice, readings_outside, sentences
+from forcetorque.experiment.validity import SamplesOutside, doubts_about_choice, readings_outside, sentences
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
@@ -34,7 +34,7 @@ class Acceptance(Result):
 
     interval_uses = ()
 
-    schema_name: Literal["forcetorque/accept/1"] = Field(default="forcetorque/accept/1", alias="schema")
+    schema_name: Literal["forcetorque/accept/2"] = Field(default="forcetorque/accept/2", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment; of several recordings their names, apart by semicolons."""
@@ -50,9 +50,9 @@ class Acceptance(Result):
     """One per sensor, with or without limits; of several recordings they stand in `recordings_measured`."""
     recordings_measured: tuple[RecordingChecks, ...] = ()
     """One per sensor and recording; none where there is one recording."""
-    validity: tuple[ReadingsOutside, ...] = ()
+    validity: tuple[SamplesOutside, ...] = ()
     """One per calibration whose errors were judged: how far the readings lie outside what it was fitted on."""
-    uses: tuple[UseVerdict, ...] = ()
+    load_cases: tuple[LoadCaseVerdict, ...] = ()
     """One per calibration and load case: whether it may be used, as `evaluate` says."""
 
     @model_validator(mode="after")
@@ -90,7 +90,7 @@ class Acceptance(Result):
             apart = [criterion for criterion in self.recordings if criterion.sensor == sensor]
             count = len({criterion.recording for criterion in apart})
             where = f"{count} recordings" if apart else self.experiment
-            yield criteria_table(criteria, f"{where}: {first.sensor} ({first.serial}), {first.candidate}")
+            yield criteria_table(criteria, f"{where}: {first.sensor} ({first.serial}), {first.calibration}")
             if apart:
                 table = criteria_table(apart, f"{first.sensor} ({first.serial}), each recording by itself")
                 yield with_first_column(table, "recording", [criterion.recording for criterion in apart])
@@ -163,7 +163,9 @@ def accept(
         with campaign.stated(run):
             checks = check(run, calibration, population=population)
         subjects.append(
-            Subject(campaign=campaign, run=run, calibration=calibration, others=others or {}, checks=checks, uses=uses)
+            Subject(
+                campaign=campaign, run=run, calibration=calibration, others=others or {}, checks=checks, load_cases=uses
+            )
         )
     judges_errors = spec.evaluate is not None or spec.improvement is not None or spec.validate_ is not None
     judged = campaign.runs_with(Use.VALIDATION) if calibration and judges_errors else ()
@@ -181,7 +183,7 @@ def accept(
             for subject in (subjects if several else ())
         ),
         validity=validity,
-        uses=uses,
+        load_cases=uses,
         warnings=(
             *without,
             *sentences(validity),
@@ -192,7 +194,7 @@ def accept(
 
 def _uses(
     campaign: Campaign, spec: AcceptanceFile, calibration: tuple[str, Calibration] | None
-) -> tuple[tuple[UseVerdict, ...], tuple[str, ...]]:
+) -> tuple[tuple[LoadCaseVerdict, ...], tuple[str, ...]]:
     """Give the verdicts of `evaluate`; where it has none and no limit needs one, a warning that says why."""
     if calibration is None:
         return (), ()
@@ -209,7 +211,7 @@ def _apart(subject: Subject, spec: AcceptanceFile) -> Iterator[RecordingCriterio
     absent: dict[str, object] = {"uncertainty": None, "excitation": None, "load_case": ()}
     if not subject.run.has(Use.VALIDATION):
         absent |= {"evaluate": None, "improvement": None, "validate_": None}
-    alone = replace(subject, campaign=Campaign(subject.run), uses=())
+    alone = replace(subject, campaign=Campaign(subject.run), load_cases=())
     for criterion in criteria_of([alone], spec.model_copy(update=absent)):
         stated = criterion.model_dump(exclude={"passed"})
         yield RecordingCriterion(recording=subject.campaign.recording(subject.run), **stated)

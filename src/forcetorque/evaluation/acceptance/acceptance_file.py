@@ -211,7 +211,7 @@ class Excitation(_Limits):
     """Largest over smallest deviation over the raw directions; at most."""
 
 
-class Learnt(_Limits):
+class InformationGainLimits(_Limits):
     """By how much the recordings made the uncertainty of loads along each direction narrower, 0 to 1; at least."""
 
     fx: _Share | None = None
@@ -237,7 +237,7 @@ class WorkbenchLimits(_Limits):
     """Directions of load that the positions move; at least."""
     faults: Annotated[int, Field(ge=0, strict=True)] | None = None
     """Faults of the bench that are seen; at most."""
-    unsound_blocks: Annotated[int, Field(ge=0, strict=True)] | None = None
+    invalid_blocks: Annotated[int, Field(ge=0, strict=True)] | None = None
     """Blocks with findings; at most."""
 
 
@@ -266,7 +266,7 @@ class AcceptanceFile(Table):
     """Standard errors."""
     excitation: Excitation | None = None
     """What the data moved, in raw directions."""
-    learnt: Learnt | None = None
+    information_gain: InformationGainLimits | None = None
     """What the data taught of loads; for calibrations of the generative model."""
     workbench: WorkbenchLimits | None = None
     """Known loads on a workbench, which `accept` does not judge."""

@@ -15,11 +15,11 @@ from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
     from forcetorque.evaluation.acceptance.acceptance import Acceptance
-    from forcetorque.evaluation.load_cases.verdict import UseVerdict
+    from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
 
 _OF_RECORDINGS = frozenset({"recording", "offset"})
 """Tables of an acceptance file that limit the recording, not the calibration."""
-_OF_INFORMATION = frozenset({"uncertainty", "excitation", "learnt", "load_case"})
+_OF_INFORMATION = frozenset({"uncertainty", "excitation", "information_gain", "load_case"})
 """Tables whose limits further recordings can meet."""
 _RECORD_MORE = "record more, and calibrate again"
 _NAMED = 4
@@ -40,16 +40,16 @@ def acceptance_answers(acceptance: Acceptance) -> Iterator[Answer]:
         ordered = sorted(criteria, key=lambda criterion: (criterion.passed, -_excess(criterion)))
         failed = [criterion for criterion in ordered if not criterion.passed]
         worst = ordered[0]
-        name = short_names([worst.candidate])[worst.candidate]
+        name = short_names([worst.calibration])[worst.calibration]
         # load cases of the acceptance file are criteria themselves, and decide alone
         decided = any(criterion.criterion.startswith("load_case.") for criterion in criteria)
-        uses = () if decided else acceptance.uses
+        uses = () if decided else acceptance.load_cases
         unsure = [use for use in uses if use.sensor == sensor and use.decision == "not enough data"]
         step, command = _step(worst) if failed else _after_acceptance(worst, unsure)
         yield Answer(
             subject=f"{worst.sensor} ({worst.serial}), {name}, by {acceptance.specification!r}",
             verdict="REJECTED" if failed else "ACCEPTED",
-            why=(*_reasons(worst, failed, len(criteria)), *(use.sentence for use in unsure[:1])),
+            why=(*_reasons(worst, failed, len(criteria)), *(use.message for use in unsure[:1])),
             step=step,
             command=command,
             concern=Concern.BAD if failed else Concern.UNCERTAIN if unsure else Concern.NONE,
@@ -82,17 +82,17 @@ def _compared(criterion: Criterion) -> str:
     return f"{criterion.criterion} {criterion.measured:.3g}{unit}, {allowed} {criterion.limit:.4g}{unit} allowed{where}"
 
 
-def _after_acceptance(criterion: Criterion, unsure: Sequence[UseVerdict]) -> tuple[str, str]:
-    if criterion.candidate == PRIOR:
+def _after_acceptance(criterion: Criterion, unsure: Sequence[LoadCaseVerdict]) -> tuple[str, str]:
+    if criterion.calibration == PRIOR:
         return "", ""
     if unsure:
-        return _RECORD_MORE, to_plan(criterion.candidate)
-    return to_export(criterion.candidate, criterion.sensor)
+        return _RECORD_MORE, to_plan(criterion.calibration)
+    return to_export(criterion.calibration, criterion.sensor)
 
 
 def _step(worst: Criterion) -> tuple[str, str]:
     """What may meet the criterion that is farthest from its limit."""
-    table, calibration = worst.criterion.partition(".")[0], worst.candidate
+    table, calibration = worst.criterion.partition(".")[0], worst.calibration
     if table in _OF_RECORDINGS:
         return "look for faults of the recording", typed("inspect", EXPERIMENT)
     if calibration == PRIOR:

@@ -14,12 +14,12 @@ from pydantic import computed_field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.calibration.summary import learnt_directions
+from forcetorque.calibration.summary import information_gains
 from forcetorque.evaluation.acceptance import acceptance_file as limits
 from forcetorque.evaluation.acceptance.acceptance_file import Component
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
-from forcetorque.evaluation.evaluation import CandidateErrors, validation_errors
-from forcetorque.evaluation.load_cases.verdict import UseVerdict
+from forcetorque.evaluation.evaluation import CalibrationErrors, validation_errors
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
 from forcetorque.evaluation.matrix_checks import most_unusual
 from forcetorque.evaluation.section import LoadCaseTable
 from forcetorque.evaluation.validation.contact_forces import ContactForceErrors, contact_forces
@@ -47,7 +47,7 @@ class Criterion(Row):
     """Sensor."""
     serial: str
     """Its serial number."""
-    candidate: str
+    calibration: str
     """The calibration file, or the prior."""
     criterion: str
     """Table, key and, where there are six limits, component of the acceptance file, such as `evaluate.rmse.fx`."""
@@ -125,7 +125,7 @@ class Judged:
         yield Criterion(
             sensor=self.checks.sensor,
             serial=self.checks.serial,
-            candidate=self.checks.candidate,
+            calibration=self.checks.calibration,
             criterion=name,
             measured=float(measured),
             bound=bound,
@@ -214,7 +214,7 @@ class Subject(Judged):
     """The sensor in one of them."""
     others: Mapping[str, Calibration]
     """Calibrations of the other sensors by name."""
-    uses: tuple[UseVerdict, ...] = ()
+    load_cases: tuple[LoadCaseVerdict, ...] = ()
     """Verdicts of `evaluate` on the calibration, of all recordings."""
 
 
@@ -270,7 +270,7 @@ def _worst(
         yield worst
 
 
-def _evaluated(subject: Subject, offset: str) -> tuple[CandidateErrors, CandidateErrors]:
+def _evaluated(subject: Subject, offset: str) -> tuple[CalibrationErrors, CalibrationErrors]:
     """Errors of the prior, or again of the calibration where there is none, and of the calibration."""
     verdicts = validation_errors(subject.campaign, dict([subject.fitted()])).verdicts
     rows = [row for row in verdicts if row.offset == offset]
@@ -318,7 +318,7 @@ def _contact_errors(subject: Subject, stated: limits.Validate) -> ContactForceEr
     # a prior that no data gave an offset is evaluated with what it has, none, where its own is asked for
     from_start = Offset(stated.offset) is Offset.FIRST_SECOND
     for row in forces.verdicts[::-1]:  # the calibration comes last, and may be called `prior` too
-        if row.candidate == name and (row.offset is Offset.FIRST_SECOND) is from_start:
+        if row.calibration == name and (row.offset is Offset.FIRST_SECOND) is from_start:
             return row
     raise ExperimentError("; ".join(forces.left_out))
 
@@ -419,21 +419,25 @@ def _excitation(subject: Judged, stated: limits.Excitation) -> Iterator[Criterio
     yield from subject.at_limit("excitation.condition", condition, stated.condition, count=n)
 
 
-def _learnt(subject: Judged, stated: limits.Learnt) -> Iterator[Criterion]:
+def _learnt(subject: Judged, stated: limits.InformationGainLimits) -> Iterator[Criterion]:
     name, fitted = subject.fitted()
-    directions = learnt_directions(fitted)
+    directions = information_gains(fitted)
     if directions is None:
-        raise ExperimentError(f"calibration {name!r} is not a generative fit with a prior matrix; [learnt] needs one")
+        raise ExperimentError(
+            f"calibration {name!r} is not a generative fit with a prior matrix; [information_gain] needs one"
+        )
     for row in directions:
         limit = getattr(stated, row.direction)
         n = fitted.provenance.samples
-        yield from subject.at_limit(f"learnt.{row.direction}", row.learnt, limit, bound=Bound.AT_LEAST, count=n)
+        yield from subject.at_limit(
+            f"information_gain.{row.direction}", row.uncertainty_reduction, limit, bound=Bound.AT_LEAST, count=n
+        )
 
 
 def _load_case(subject: Subject, stated: Sequence[LoadCaseTable]) -> Iterator[Criterion]:
     subject.fitted()
     tables = {table.name for table in stated}
-    for verdict in subject.uses:
+    for verdict in subject.load_cases:
         if verdict.load_case not in tables:
             continue
         start = f"load_case.{verdict.load_case}"
@@ -445,12 +449,12 @@ def _load_case(subject: Subject, stated: Sequence[LoadCaseTable]) -> Iterator[Cr
 
 def _forbidden(subject: Subject) -> Iterator[Criterion]:
     """Fail for load cases of the experiment, or the default ones, that data contradict."""
-    for verdict in subject.uses:
+    for verdict in subject.load_cases:
         if verdict.decision == "do not use":
             yield from _use(subject, f"verdict.{verdict.load_case}", verdict)
 
 
-def _use(subject: Subject, name: str, verdict: UseVerdict) -> Iterator[Criterion]:
+def _use(subject: Subject, name: str, verdict: LoadCaseVerdict) -> Iterator[Criterion]:
     used = verdict.decision == "use"
     note = "" if used else verdict.reasons[0].text
     yield from subject.at_limit(name, float(used), 1.0, bound=Bound.AT_LEAST, note=note)
@@ -466,13 +470,13 @@ _TABLES: dict[str, Callable[..., Iterable[Criterion]]] = {
     "offset": _offset,
     "uncertainty": _uncertainty,
     "excitation": _excitation,
-    "learnt": _learnt,
+    "information_gain": _learnt,
     "load_case": _load_case,
 }
 """What judges each table of the file on a robot."""
 
 OF_CALIBRATION: dict[str, Callable[..., Iterable[Criterion]]] = {
-    name: _TABLES[name] for name in ("matrix", "population", "uncertainty", "excitation", "learnt")
+    name: _TABLES[name] for name in ("matrix", "population", "uncertainty", "excitation", "information_gain")
 }
 """What judges those tables that need no recording on a robot."""
 

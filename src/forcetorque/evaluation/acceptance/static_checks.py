@@ -51,7 +51,7 @@ class StaticChecks(Row):
     """Sensor."""
     serial: str
     """Its serial number."""
-    candidate: str
+    calibration: str
     """The calibration file, or the prior."""
     limit_counts: float
     """Largest magnitude of a reading; counts."""
@@ -61,7 +61,7 @@ class StaticChecks(Row):
     """Change of a component when all channels are off by one count with the worst signs; N, N m."""
     resolution_rms: WrenchValues | None
     """The same when they err independently with one count each; N, N m."""
-    full_scale_stated: WrenchValues | None
+    full_scale_specified: WrenchValues | None
     """Full scale with all channels at their limit, which no load reaches; N, N m."""
     full_scale_positive: WrenchValues | None
     """Largest load along each axis before a channel saturates; N, N m."""
@@ -142,12 +142,12 @@ def check(
     return StaticChecks(
         sensor=sensor.name,
         serial=sensor.serial,
-        candidate=f"prior {sensor.prior_source}" if calibration is None else calibration[0],
+        calibration=f"prior {sensor.prior_source}" if calibration is None else calibration[0],
         limit_counts=sensor.limit_counts,
         condition=None if matrix is None else matrix.condition,
         resolution_worst=None if matrix is None else matrix.resolution.worst,
         resolution_rms=None if matrix is None else matrix.resolution.rms,
-        full_scale_stated=None if matrix is None else matrix.stated_full_scale,
+        full_scale_specified=None if matrix is None else matrix.stated_full_scale,
         full_scale_positive=None if full_scale is None else full_scale.positive,
         full_scale_negative=None if full_scale is None else full_scale.negative,
         population_count=None if features is None else len(_others(sensor, population or {})),

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
-from forcetorque.evaluation.load_cases.verdict import LoadCaseError, UseVerdict
+from forcetorque.evaluation.load_cases.verdict import LoadCaseError, LoadCaseVerdict
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     REFERENCE_LINE,
@@ -44,7 +44,7 @@ _MEASURED: dict[str, Any] = {"color": look(2).colour, "marker": "D", "linestyle"
 
 
 @in_figure_style
-def use_figure(verdicts: Sequence[UseVerdict], names: Mapping[str, str]) -> Figure:
+def use_figure(verdicts: Sequence[LoadCaseVerdict], names: Mapping[str, str]) -> Figure:
     """Draw how large the errors at the loads of use will be, with the prior matrix and with the calibration.
 
     Beside them stands what the calibration errs by on data that were not fitted.
@@ -71,7 +71,7 @@ def use_figure(verdicts: Sequence[UseVerdict], names: Mapping[str, str]) -> Figu
             _draw_row(panel, place, row)
         panel.set_title(f"{quantity} error, {rows[0].unit}", loc="left", fontsize=_POINTS, fontweight="bold")
     panels[0].set_ylim(len(verdicts) - 0.4, -0.5)
-    labels = [f"{shown_name(names[verdict.candidate])}\n{shown_name(verdict.load_case)}" for verdict in verdicts]
+    labels = [f"{shown_name(names[verdict.calibration])}\n{shown_name(verdict.load_case)}" for verdict in verdicts]
     panels[0].set_yticks(range(len(verdicts)), labels, fontsize=_POINTS)
     legend_below(
         figure,

@@ -69,7 +69,7 @@ def sphere_figure(spheres: Sequence[SensorSphere]) -> Figure:
     """
     if not spheres:
         raise ShapeError("spheres: expected at least one to draw, got none")
-    names = short_names([sphere.candidate for sphere in spheres])
+    names = short_names([sphere.calibration for sphere in spheres])
     figure = new_figure(ROW_INCHES[1] * len(spheres))
     rows = figure.subplots(len(spheres), 3, squeeze=False)
     for panels, sphere in zip(rows, spheres, strict=True):
@@ -77,7 +77,7 @@ def sphere_figure(spheres: Sequence[SensorSphere]) -> Figure:
         for panel, plane in zip(panels, PLANES, strict=True):
             _draw_plane(panel, sphere, centre, plane)
         panels[0].set_title(
-            shown_name(f"{sphere.sensor} ({sphere.serial}), {names[sphere.candidate]}"),
+            shown_name(f"{sphere.sensor} ({sphere.serial}), {names[sphere.calibration]}"),
             loc="left",
         )
     legend_below(figure, _keys(spheres))
@@ -282,7 +282,7 @@ def index_figure(groups: Sequence[TrialGroup]) -> Figure:
     if not groups:
         raise ShapeError("indices: expected at least one group to draw, got none")
     ordered = sorted(groups, key=_place)
-    modes = [mode for mode in (True, False) if any(_lines(group, with_reference=mode) for group in groups)]
+    modes = [mode for mode in (True, False) if any(_lines(group, with_model=mode) for group in groups)]
     tops = np.cumsum([0.0, *(_height(group) for group in ordered)])
     inches = float(tops[-1])
     scale = min(max(1.0, _LEAST_INCHES / inches), _MOST_INCHES / inches)
@@ -292,11 +292,11 @@ def index_figure(groups: Sequence[TrialGroup]) -> Figure:
         words = "with the model" if mode else "without the model"
         panel.set_title(f"index {words}", loc="left")
         panel.set_xlabel("index, kg")
-        panel.set_xlim(0.0, _reach([line for group in groups for line in _lines(group, with_reference=mode)]))
+        panel.set_xlim(0.0, _reach([line for group in groups for line in _lines(group, with_model=mode)]))
         for k, (group, top) in enumerate(zip(ordered, tops[:-1], strict=True)):
             if k % 2:
                 panel.axhspan(top, tops[k + 1], color="0.96", linewidth=0.0, zorder=0)
-            _draw(panel, _lines(group, with_reference=mode), float(top))
+            _draw(panel, _lines(group, with_model=mode), float(top))
         panel.grid(visible=True, axis="x", color="0.9", linewidth=0.6)
         panel.set_axisbelow(True)
         panel.tick_params(axis="y", length=0.0)
@@ -308,8 +308,8 @@ def index_figure(groups: Sequence[TrialGroup]) -> Figure:
 
 
 def _place(group: TrialGroup) -> tuple[float, float]:
-    with_reference, without = (group.index(with_reference=mode) for mode in (True, False))
-    return np.inf if with_reference is None else with_reference, np.inf if without is None else without
+    with_model, without = (group.index(with_model=mode) for mode in (True, False))
+    return np.inf if with_model is None else with_model, np.inf if without is None else without
 
 
 def _height(group: TrialGroup) -> float:
@@ -317,11 +317,11 @@ def _height(group: TrialGroup) -> float:
     return _GAP_INCHES + _LINE_INCHES * (count + 2 if count > 1 else 1)
 
 
-def _lines(group: TrialGroup, *, with_reference: bool) -> list[_Line]:
-    fits = [(trial.gravity, trial.fit(with_reference=with_reference)) for trial in group.trials]
+def _lines(group: TrialGroup, *, with_model: bool) -> list[_Line]:
+    fits = [(trial.gravity, trial.fit(with_model=with_model)) for trial in group.trials]
     lines = [_line("trial", fit, gravity) for gravity, fit in fits if fit is not None]
-    indices = group.identifiable_indices(with_reference=with_reference)
-    pooled = group.pooled_fit(with_reference=with_reference)
+    indices = group.identifiable_indices(with_model=with_model)
+    pooled = group.pooled_fit(with_model=with_model)
     if len(group.trials) > 1 and indices:
         mean, low, high = mean_of_trials(indices)
         lines.append(_Line(kind="mean", index=mean, low=low, high=high, known=True))
@@ -375,7 +375,7 @@ def _draw(panel: Axes, lines: Sequence[_Line], top: float) -> None:
 def _names(groups: Sequence[TrialGroup]) -> list[str]:
     """Names of groups, by what tells them apart."""
     sensors = {group.first.sphere.sensor for group in groups}
-    candidates = short_names([group.first.sphere.candidate for group in groups])
+    candidates = short_names([group.first.sphere.calibration for group in groups])
     names = []
     for group in groups:
         sphere = group.first.sphere
@@ -383,7 +383,7 @@ def _names(groups: Sequence[TrialGroup]) -> list[str]:
         if group.first.condition is not None:
             words.append(group.first.condition)
         if len(candidates) > 1:
-            words.append(candidates[sphere.candidate])
+            words.append(candidates[sphere.calibration])
         names.append(shown_name(", ".join(words)))
     return names
 
@@ -393,7 +393,7 @@ def _index_keys(groups: Sequence[TrialGroup]) -> list[tuple[str, dict[str, Any]]
     if any(len(group.trials) > 1 for group in groups):
         keys.append(("mean of the trials, from their scatter", _key(_MEAN.colour, _MEAN.marker)))
         keys.append(("pooled fit, 95 % interval", _key(_POOLED.colour, _POOLED.marker)))
-    lines = [line for group in groups for mode in (True, False) for line in _lines(group, with_reference=mode)]
+    lines = [line for group in groups for mode in (True, False) for line in _lines(group, with_model=mode)]
     if any(not line.known for line in lines):
         unknown = {"color": _UNKNOWN, "linestyle": ":", "marker": "o", "markerfacecolor": "white"}
         keys.append(("not identifiable", unknown))

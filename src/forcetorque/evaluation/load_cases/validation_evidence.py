@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.noise.autocorrelation import autocorrelation
 from forcetorque.base.noise.means import joined_times, mean_error, means_over
-from forcetorque.base.noise.paired_comparison import ErrorRatio, Judgement, PairedErrors, compare_errors
+from forcetorque.base.noise.paired_comparison import Conclusion, ErrorRatio, PairedErrors, compare_errors
 from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import EvaluatedWrenches
@@ -182,7 +182,7 @@ def validation_excitation(
     """
     moving = np.sqrt((reference if moved is None else moved).var(axis=0))
     load = np.sqrt((reference**2).mean(axis=0))
-    loads = [load, *(calibration.validity.reference_deviation for calibration in calibrations)]
+    loads = [load, *(calibration.validity.expected_wrench_sd for calibration in calibrations)]
     force, moment = (
         (float(np.linalg.norm(moving[part])), max(float(np.linalg.norm(one[part])) for one in loads))
         for part in FORCE_AND_MOMENT
@@ -254,7 +254,7 @@ _WIDEST = 10.0
 class ErrorComparison(Row):
     """Errors of a candidate over those of another on the same samples, as norms."""
 
-    candidate: Annotated[str, Shown("candidate", file=True)]
+    calibration: Annotated[str, Shown("calibration", file=True)]
     """The calibration file, or the prior."""
     offset: Annotated[Offset, Shown("offset")]
     """Which offset they are evaluated with."""
@@ -272,9 +272,9 @@ class ErrorComparison(Row):
     """Lower end of its 95 % interval; none where too few stretches do not give one."""
     ratio_high: Annotated[float | None, Shown("at most", digits=2)]
     """Upper end."""
-    stretches: Annotated[int, Shown("stretches")]
+    segments: Annotated[int, Shown("segments")]
     """Independent segments of time that the interval comes from."""
-    judgement: Annotated[Judgement, Shown("judgement")]
+    conclusion: Annotated[Conclusion, Shown("conclusion")]
     """Conclusion of the interval about the calibration."""
 
     def against(self, other_mean: float, other: str) -> str:
@@ -285,19 +285,19 @@ class ErrorComparison(Row):
             other: The other, in words.
 
         Returns:
-            Both means, the judgement, and its interval where there is one.
+            Both means, the conclusion, and its interval where there is one.
         """
         digits = 2 if self.quantity == "force" else 3
         means = f"{self.mean:.{digits}f} {self.unit} against {other_mean:.{digits}f} {self.unit} with {other}"
-        return f"{means} ({self.judgement}: {self._interval()})"
+        return f"{means} ({self.conclusion}: {self._interval()})"
 
     def _interval(self) -> str:
-        stretches = f"{self.stretches} stretch{'' if self.stretches == 1 else 'es'}"
+        stretches = f"{self.segments} stretch{'' if self.segments == 1 else 'es'}"
         if self.ratio_low == self.ratio_high == 1.0:
             return "the same in every sample"
         if self.ratio_low is None or self.ratio_high is None:
             return f"the errors repeat themselves, and are worth {stretches} only"
-        if self.judgement == "not told apart" and self.ratio_high > _WIDEST * self.ratio_low:
+        if self.conclusion == "inconclusive" and self.ratio_high > _WIDEST * self.ratio_low:
             return f"{stretches} are too few, or too unlike"
         return f"{self.ratio:.2f} of it, {self.ratio_low:.2f} to {self.ratio_high:.2f} over {stretches}"
 
@@ -317,7 +317,7 @@ def known_interval(ratio: ErrorRatio) -> tuple[float, float] | tuple[None, None]
 class Independence(Row):
     """How many independent samples the errors of a candidate are worth; neighbours repeat each other."""
 
-    candidate: Annotated[str, Shown("candidate", file=True)]
+    calibration: Annotated[str, Shown("calibration", file=True)]
     """The calibration file, or the prior."""
     samples: Annotated[int, Shown("samples")]
     """Number of validation samples."""
@@ -365,7 +365,7 @@ def independence(judged: EvaluatedWrenches) -> tuple[Independence, ...]:
     """
     return tuple(
         Independence(
-            candidate=name,
+            calibration=name,
             samples=len(judged.time_s),
             independent=tuple(
                 finite_or_none(autocorrelation(error, judged.time_s).effective_count)
@@ -440,7 +440,7 @@ def _compared(
         mean, prior_mean = (float(np.linalg.norm(error[:, axes], axis=1).mean()) for error in (new, old))
         yield PriorComparison(
             sensor=sensor,
-            candidate=candidate,
+            calibration=candidate,
             prior=prior,
             offset=offset,
             quantity=quantity,
@@ -452,6 +452,6 @@ def _compared(
             ratio=ratio.ratio,
             ratio_low=low,
             ratio_high=high,
-            stretches=ratio.stretches,
-            judgement=ratio.judgement,
+            segments=ratio.segments,
+            conclusion=ratio.conclusion,
         )

@@ -105,14 +105,14 @@ class LoadCaseError(Row):
     """Part that would go if the robot model were known exactly; it is in none of the others."""
 
 
-class UseVerdict(Row):
+class LoadCaseVerdict(Row):
     """Whether one calibration may be used for one load case."""
 
     sensor: str
     """Sensor."""
     serial: str
     """Its serial number."""
-    candidate: str
+    calibration: str
     """The calibration file."""
     load_case: str
     """Name of the load case."""
@@ -120,11 +120,11 @@ class UseVerdict(Row):
     """What the loads are, in words."""
     offset: Literal["fitted", "tared"]
     """What offset readings are taken with."""
-    stated: bool
+    specified: bool
     """Whether a file specifies the load case; else it is the default."""
     decision: Decision
     """What to do."""
-    sentence: str
+    message: str
     """The verdict in one sentence."""
     reasons: tuple[Reason, ...]
     """Reasons against it and for it, the most important first."""
@@ -139,7 +139,7 @@ class UseVerdict(Row):
         return TONES[self.decision]
 
 
-def verdict_texts(verdicts: tuple[UseVerdict, ...]) -> list[str]:
+def verdict_texts(verdicts: tuple[LoadCaseVerdict, ...]) -> list[str]:
     """Give the verdicts as sentences, each with the name of its calibration.
 
     Args:
@@ -148,8 +148,8 @@ def verdict_texts(verdicts: tuple[UseVerdict, ...]) -> list[str]:
     Returns:
         A sentence each.
     """
-    names = short_names([verdict.candidate for verdict in verdicts])
-    return [f"{verdict.sensor}, {names[verdict.candidate]}: {verdict.sentence}" for verdict in verdicts]
+    names = short_names([verdict.calibration for verdict in verdicts])
+    return [f"{verdict.sensor}, {names[verdict.calibration]}: {verdict.message}" for verdict in verdicts]
 
 
 LOOK_FOR_CAUSE: Final = (
@@ -264,7 +264,7 @@ class LoadCaseAssessment:
     def _reasons(self) -> Iterator[Reason]:
         yield from self._predicted()
         yield from self._measured()
-        for warning in self.calibration.doubts:
+        for warning in self.calibration.warnings:
             yield Reason(against="data", text=f"warning about the fitted data: {warning}", remedy=CORRECT_DATA)
         yield from self._worse()
 
@@ -413,7 +413,7 @@ def use_verdicts(
     more: Sequence[LoadCaseTable] = (),
     *,
     refuse: Refuse = raise_rejection,
-) -> tuple[UseVerdict, ...]:
+) -> tuple[LoadCaseVerdict, ...]:
     """Decide for every calibration and load case whether it may be used.
 
     It may where the predicted error is within the allowed one with 95 %, and the loads of the validation data moved and
@@ -440,7 +440,7 @@ def use_verdicts(
             require_unseen_if_judged(name, calibration, run)
     measured = evidence_by_calibration(campaign, judged)
     compared = compare_with_prior(campaign, judged) if measured else ()
-    worse = [row for row in compared if row.judgement == "worse"]
+    worse = [row for row in compared if row.conclusion == "worse"]
     verdicts = []
     for name, calibration in judged.items():
         notes = tuple(dict.fromkeys(_notes(campaign, name, calibration)))
@@ -450,7 +450,7 @@ def use_verdicts(
                     case,
                     calibration,
                     measured.get(name),
-                    worse=[row for row in worse if (row.candidate, row.offset) == (name, _COMPARED[case.offset])],
+                    worse=[row for row in worse if (row.calibration, row.offset) == (name, _COMPARED[case.offset])],
                 )
             except FitError as error:
                 refuse(error)
@@ -467,7 +467,7 @@ def _notes(campaign: Campaign, name: str, calibration: Calibration) -> Iterator[
         circular = circular_loads(run)
         chosen = doubts_about_choice(run, name, calibration) if run.has(Use.VALIDATION) else ()
         for sentence in (*circular, *chosen):
-            if sentence not in calibration.doubts:  # which are reasons of the verdict
+            if sentence not in calibration.warnings:  # which are reasons of the verdict
                 yield Reason(against=None, text=sentence)
 
 
@@ -478,19 +478,21 @@ _COMPARED: Final = {LoadCaseOffset.FITTED: Offset.FITTED, LoadCaseOffset.TARED: 
 """Offset with which validation data compare a calibration and its prior for a load case."""
 
 
-def _verdict(campaign: Campaign, name: str, assessment: LoadCaseAssessment, notes: tuple[Reason, ...]) -> UseVerdict:
+def _verdict(
+    campaign: Campaign, name: str, assessment: LoadCaseAssessment, notes: tuple[Reason, ...]
+) -> LoadCaseVerdict:
     decision, reasons = assessment.verdict()
     case = assessment.case
-    return UseVerdict(
+    return LoadCaseVerdict(
         sensor=campaign.sensor.name,
         serial=campaign.sensor.serial,
-        candidate=name,
+        calibration=name,
         load_case=case.name,
         loads=case.words,
         offset=case.offset.value,
-        stated=case.is_stated,
+        specified=case.is_stated,
         decision=decision,
-        sentence=f"{decision} for {case.words}: {reasons[0].text}",
+        message=f"{decision} for {case.words}: {reasons[0].text}",
         reasons=(*reasons, *notes),
         within=assessment.within,
         errors=tuple(assessment.errors()),

@@ -30,12 +30,12 @@ def sphere_answers(spheres: Spheres) -> Iterator[Answer]:
     """
     for sensor in dict.fromkeys(row.sensor for row in spheres.rows):
         own = [row for row in spheres.rows if row.sensor == sensor]
-        names = short_names([row.candidate for row in own])
-        for row in sorted(own, key=lambda row: row.candidate.startswith(PRIOR)):
-            fit = row.with_reference or row.without_reference
+        names = short_names([row.calibration for row in own])
+        for row in sorted(own, key=lambda row: row.calibration.startswith(PRIOR)):
+            fit = row.with_model or row.without_model
             step, command = _step(row, fit)
             yield Answer(
-                subject=f"{row.sensor} ({row.serial}), {names[row.candidate]}",
+                subject=f"{row.sensor} ({row.serial}), {names[row.calibration]}",
                 verdict=index_verdict(fit),
                 why=tuple(_reasons(row, fit)),
                 step=step,
@@ -95,6 +95,6 @@ def _reasons(row: SphereRow, fit: EllipsoidRow) -> Iterator[str]:
 def _step(row: SphereRow, fit: EllipsoidRow) -> tuple[str, str]:
     if not fit.identifiable:
         return "turn the sensor slowly through more directions, and record again", ""
-    if row.candidate.startswith(PRIOR):
+    if row.calibration.startswith(PRIOR):
         return to_calibrate(row.sensor)
-    return to_evaluate(row.candidate)
+    return to_evaluate(row.calibration)

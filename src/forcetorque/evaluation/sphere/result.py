@@ -181,7 +181,7 @@ class SphereRow(Row):
     """Sensor."""
     serial: str
     """Its serial number."""
-    candidate: str
+    calibration: str
     """`prior`, or the calibration file."""
     intervals: tuple[str, ...]
     """Intervals whose samples were taken together."""
@@ -197,17 +197,17 @@ class SphereRow(Row):
     """Standard deviation of the size of the force by the model, relative to its mean; 0 for a sphere."""
     directions_covered: float | None
     """Share of all directions in which there was a force."""
-    no_reference: str | None
+    no_model: str | None
     """Why there are no fits with the model; none where there are."""
     one_radius: RadiusRow
     """A sphere."""
-    without_reference: EllipsoidRow
+    without_model: EllipsoidRow
     """An ellipsoid without the model."""
-    with_reference: EllipsoidRow | None
+    with_model: EllipsoidRow | None
     """An ellipsoid with the model."""
-    moment_without_reference: MomentEllipsoidRow | None
+    moment_without_model: MomentEllipsoidRow | None
     """Moments without the model; none where they do not change."""
-    moment_with_reference: MomentRow | None
+    moment_with_model: MomentRow | None
     """Moments with the model."""
 
     @classmethod
@@ -225,7 +225,7 @@ class SphereRow(Row):
         return cls(
             sensor=sphere.sensor,
             serial=sphere.serial,
-            candidate=sphere.candidate,
+            calibration=sphere.calibration,
             intervals=sphere.intervals,
             fitted_on=sphere.fitted_on,
             samples=analysis.samples,
@@ -233,12 +233,12 @@ class SphereRow(Row):
             form=analysis.form,
             force_scatter=analysis.scatter,
             directions_covered=analysis.directions,
-            no_reference=sphere.no_fit_with_model,
+            no_model=sphere.no_fit_with_model,
             one_radius=RadiusRow.of(analysis.radius, analysis.gravity),
-            without_reference=EllipsoidRow.of(analysis.free, analysis),
-            with_reference=None if mapped is None else EllipsoidRow.of(mapped.fit, analysis),
-            moment_without_reference=None if free_moment is None else MomentEllipsoidRow.of(free_moment),
-            moment_with_reference=analysis.moment,
+            without_model=EllipsoidRow.of(analysis.free, analysis),
+            with_model=None if mapped is None else EllipsoidRow.of(mapped.fit, analysis),
+            moment_without_model=None if free_moment is None else MomentEllipsoidRow.of(free_moment),
+            moment_with_model=analysis.moment,
         )
 
 

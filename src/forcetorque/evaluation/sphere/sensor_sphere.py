@@ -249,13 +249,13 @@ class SensorSphere:
     """Sensor."""
     serial: str
     """Its serial number."""
-    candidate: str
+    calibration: str
     """`prior`, or the name of a calibration."""
     intervals: tuple[str, ...]
     """Labels of the intervals whose samples were taken together."""
     fitted_on: tuple[str, ...]
     """Those of them that the calibration was fitted on: it is then evaluated too kindly."""
-    no_reference: str | None
+    no_model: str | None
     """Why the model gives no reference; None where it does."""
     force: FloatArray
     """What the sensor read; shape (n, 3); N."""
@@ -269,7 +269,7 @@ class SensorSphere:
         """Why there is no fit with the model; None where there is one."""
         if self.analysis.mapped is not None:
             return None
-        return self.no_reference or "the reference forces lie in a plane"
+        return self.no_model or "the reference forces lie in a plane"
 
 
 def sphere_intervals(experiment: Experiment, names: Sequence[str] | None) -> tuple[Interval, ...]:
@@ -329,7 +329,7 @@ def sensor_spheres(
         corrections = _corrections(run, calibrations)
         reason = _no_reference(run, intervals)
         needed = {variable for _, correction, _ in corrections for variable in correction.variables}
-        spans, reference = _collected(run, intervals, needed, with_reference=reason is None)
+        spans, reference = _collected(run, intervals, needed, with_model=reason is None)
         mass = _one_mass(run, intervals)
     spheres = []
     for name, correction, calibration in corrections:
@@ -340,10 +340,10 @@ def sensor_spheres(
             SensorSphere(
                 sensor=run.sensor.name,
                 serial=run.sensor.serial,
-                candidate=name,
+                calibration=name,
                 intervals=tuple(interval.label for interval in intervals),
                 fitted_on=_fitted_on(run, calibration, intervals),
-                no_reference=reason,
+                no_model=reason,
                 force=wrench[:, :3],
                 reference=None if reference is None else reference[:, :3],
                 analysis=analysis,
@@ -401,10 +401,10 @@ def _question(run: SensorRun, interval: Interval) -> Question:
 
 
 def _collected(
-    run: SensorRun, intervals: Sequence[Interval], variables: Collection[str], *, with_reference: bool
+    run: SensorRun, intervals: Sequence[Interval], variables: Collection[str], *, with_model: bool
 ) -> tuple[list[tuple[Interval, Readings]], FloatArray | None]:
     """Readings of every interval, and references one after the other."""
-    if not with_reference:
+    if not with_model:
         return [(interval, run.interval_readings(interval, variables=variables)) for interval in intervals], None
     samples = [run.interval_samples(interval, variables=variables) for interval in intervals]
     reference = np.concatenate([one.samples.reference for one in samples])

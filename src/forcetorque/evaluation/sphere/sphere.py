@@ -43,7 +43,7 @@ def mass_table(rows: Sequence[SphereRow], caption: str) -> Table:
     """
     return Table(
         caption=caption,
-        headings=("candidate", "fit", "x, kg", "y, kg", "z, kg", "error x, N", "y, N", "z, N", "index, kg", "known"),
+        headings=("calibration", "fit", "x, kg", "y, kg", "z, kg", "error x, N", "y, N", "z, N", "index, kg", "known"),
         rows=tuple(
             (candidate, words, *_three(fit.mass_kg, 3), *_three(fit.error_N, 2), number(fit.index_kg, 3),
              _known(fit.identifiable))
@@ -64,7 +64,7 @@ def interval_table(rows: Sequence[SphereRow]) -> Table:
     return Table(
         caption="what the recording allows: intervals of 95 %, which with the model take its masses and the joint "
         "angles as exact",
-        headings=("candidate", "fit", "x, kg", "y, kg", "z, kg", "index, kg", "fitted on"),
+        headings=("calibration", "fit", "x, kg", "y, kg", "z, kg", "index, kg", "fitted on"),
         rows=tuple(
             (candidate, words,
              *(interval(low, high, digits=3) for low, high in zip(fit.mass_low_kg, fit.mass_high_kg, strict=True)),
@@ -83,10 +83,10 @@ def moment_table(rows: Sequence[SphereRow]) -> Table | None:
     Returns:
         Three lines per candidate; None where nothing was compared with the model.
     """
-    names = short_names([row.candidate for row in rows])
+    names = short_names([row.calibration for row in rows])
     lines: list[tuple[str, ...]] = []
     for row in rows:
-        fit, name = row.moment_with_reference, names[row.candidate]
+        fit, name = row.moment_with_model, names[row.calibration]
         if fit is not None:
             ends = (interval(low, high, digits=3) for low, high in zip(fit.low_Nm, fit.high_Nm, strict=True))
             measured = (*_three(fit.half_width_Nm, 3), number(fit.index_Nm, 3), _known(fit.identifiable))
@@ -97,7 +97,7 @@ def moment_table(rows: Sequence[SphereRow]) -> Table | None:
         return None
     return Table(
         caption="largest moment about each axis while the force goes over its sphere",
-        headings=("candidate", "moment", "x, N m", "y, N m", "z, N m", "index, N m", "known"),
+        headings=("calibration", "moment", "x, N m", "y, N m", "z, N m", "index, N m", "known"),
         rows=tuple(lines),
     )
 
@@ -112,35 +112,35 @@ def remarks(rows: Sequence[SphereRow], gravity: float) -> Iterator[str]:
     Yields:
         Sentences.
     """
-    first, names = rows[0], short_names([row.candidate for row in rows])
+    first, names = rows[0], short_names([row.calibration for row in rows])
     if first.model_mass_kg is not None:
         yield f"the model has {first.model_mass_kg:.3f} kg on the sensor; gravity {gravity:g} m/s2"
-    if first.no_reference is not None:
-        yield f"no fit with the model: {first.no_reference}"
+    if first.no_model is not None:
+        yield f"no fit with the model: {first.no_model}"
     for row in rows:
-        name, one = names[row.candidate], row.one_radius
+        name, one = names[row.calibration], row.one_radius
         mass = "none" if one.geometric_mass_kg is None else f"{one.geometric_mass_kg:.3f} kg"
         verdict = "" if one.identifiable else f", not identifiable: {'; '.join(one.why)}"
         yield f"{name}, one radius: {mass}, {interval(one.mass_low_kg, one.mass_high_kg, digits=2)} kg{verdict}"
-        if row.with_reference is not None and row.with_reference.why:
-            yield f"{name}, with the model: not identifiable: {'; '.join(row.with_reference.why)}"
-        if row.without_reference.why:
+        if row.with_model is not None and row.with_model.why:
+            yield f"{name}, with the model: not identifiable: {'; '.join(row.with_model.why)}"
+        if row.without_model.why:
             share = row.directions_covered
             covered = "" if share is None else f", {100.0 * share:.0f} % of all directions"
-            yield f"{name}, without: a {row.form}{covered}; not identifiable: {'; '.join(row.without_reference.why)}"
-        if row.moment_with_reference is not None and row.moment_with_reference.why:
-            yield f"{name}, moments: not identifiable: {'; '.join(row.moment_with_reference.why)}"
-        for words, fit in (("with the model", row.with_reference), ("without", row.without_reference)):
+            yield f"{name}, without: a {row.form}{covered}; not identifiable: {'; '.join(row.without_model.why)}"
+        if row.moment_with_model is not None and row.moment_with_model.why:
+            yield f"{name}, moments: not identifiable: {'; '.join(row.moment_with_model.why)}"
+        for words, fit in (("with the model", row.with_model), ("without", row.without_model)):
             if fit is not None and fit.identifiable and not fit.tilt_identifiable:
                 yield f"{name}, {words}: half-widths and principal radii, which lie between the axes, are not known"
 
 
 def _fits(rows: Sequence[SphereRow]) -> Iterator[tuple[str, str, SphereRow, EllipsoidRow]]:
-    names = short_names([row.candidate for row in rows])
+    names = short_names([row.calibration for row in rows])
     for row in rows:
-        for words, fit in (("with model", row.with_reference), ("without", row.without_reference)):
+        for words, fit in (("with model", row.with_model), ("without", row.without_model)):
             if fit is not None:
-                yield names[row.candidate], words, row, fit
+                yield names[row.calibration], words, row, fit
 
 
 def _three(values: FloatArray | None, digits: int) -> tuple[str, ...]:
@@ -163,7 +163,7 @@ class Spheres(DrawnResult):
 
     interval_uses = ()
 
-    schema_name: Literal["forcetorque/sphere/1"] = Field(default="forcetorque/sphere/1", alias="schema")
+    schema_name: Literal["forcetorque/sphere/2"] = Field(default="forcetorque/sphere/2", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment."""
@@ -235,7 +235,7 @@ def spheres(
         failures=(),
         analyses=analyses,
         warnings=tuple(
-            f"{analysis.candidate} was fitted on {', '.join(map(repr, analysis.fitted_on))}, so the verdict on it "
+            f"{analysis.calibration} was fitted on {', '.join(map(repr, analysis.fitted_on))}, so the verdict on it "
             "flatters"
             for analysis in analyses
             if analysis.fitted_on

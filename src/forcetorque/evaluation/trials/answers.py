@@ -27,13 +27,13 @@ def comparison_answers(comparison: Comparison) -> Iterator[Answer]:
         One answer each, of calibrations before those of priors, and one for every failure.
     """
     groups = comparison.groups
-    names = short_names([row.candidate for row in groups])
-    for group in sorted(groups, key=lambda group: group.candidate.startswith(PRIOR)):
+    names = short_names([row.calibration for row in groups])
+    for group in sorted(groups, key=lambda group: group.calibration.startswith(PRIOR)):
         fit, by = _fit(group, comparison.trials)
         words = [f"{group.sensor} ({group.serial})", *([group.condition] if group.condition else [])]
         rank = "" if by.rank is None or len(groups) == 1 else f", rank {by.rank}"
         yield Answer(
-            subject=", ".join([*words, names[group.candidate]]),
+            subject=", ".join([*words, names[group.calibration]]),
             verdict=f"{index_verdict(fit)}{rank}",
             why=tuple(_reasons(group, fit, by)),
             written=(comparison.figure_file,),
@@ -44,11 +44,11 @@ def comparison_answers(comparison: Comparison) -> Iterator[Answer]:
 
 def _fit(group: GroupRow, trials: Sequence[TrialRow]) -> tuple[EllipsoidRow, GroupFitRow]:
     """Pooled fit, or that of the only trial, with the model where there is one."""
-    key = (group.sensor, group.serial, group.condition, group.candidate)
-    first = next(row for row in trials if (row.sensor, row.serial, row.condition, row.candidate) == key)
-    if group.with_reference is not None and first.with_reference is not None:
-        return group.with_reference.pooled or first.with_reference, group.with_reference
-    return group.without_reference.pooled or first.without_reference, group.without_reference
+    key = (group.sensor, group.serial, group.condition, group.calibration)
+    first = next(row for row in trials if (row.sensor, row.serial, row.condition, row.calibration) == key)
+    if group.with_model is not None and first.with_model is not None:
+        return group.with_model.pooled or first.with_model, group.with_model
+    return group.without_model.pooled or first.without_model, group.without_model
 
 
 def _reasons(group: GroupRow, fit: EllipsoidRow, by: GroupFitRow) -> Iterator[str]:

@@ -19,10 +19,10 @@ from forcetorque.results.number_text import interval
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, short_names
 
-_Fit = Literal["with_reference", "without_reference"]
+_Fit = Literal["with_model", "without_model"]
 FITS: tuple[tuple[_Fit, str], ...] = (
-    ("with_reference", "with the model"),
-    ("without_reference", "without the model"),
+    ("with_model", "with the model"),
+    ("without_model", "without the model"),
 )
 """The two ellipsoids of every trial, and their words."""
 _MANY = 10
@@ -39,7 +39,7 @@ def comparison_blocks(trials: Sequence[TrialRow], groups: Sequence[GroupRow]) ->
     Yields:
         Tables and sentences.
     """
-    names = short_names([row.candidate for row in trials])
+    names = short_names([row.calibration for row in trials])
     label = _labels(groups, names)
     yield _trial_table(trials, names)
     yield from _condition_tables(trials, groups, names)
@@ -62,7 +62,7 @@ def _trial_table(trials: Sequence[TrialRow], names: Mapping[str, str]) -> Table:
     """Every trial, as in Table 4.1; columns that are the same everywhere are left out."""
     words = {
         "condition": [row.condition or "-" for row in trials],
-        "candidate": [names[row.candidate] for row in trials],
+        "calibration": [names[row.calibration] for row in trials],
     }
     shown = {heading: column for heading, column in words.items() if len(set(column)) > 1}
     if any(row.trial > 1 for row in trials):
@@ -73,8 +73,8 @@ def _trial_table(trials: Sequence[TrialRow], names: Mapping[str, str]) -> Table:
             "sensor", "serial", *shown, "error x, N", "y, N", "z, N", "index with, kg", "index without, kg",
         ),
         rows=tuple(
-            (row.sensor, row.serial, *(column[k] for column in shown.values()), *_errors(row.with_reference),
-             _index(row.with_reference), _index(row.without_reference))
+            (row.sensor, row.serial, *(column[k] for column in shown.values()), *_errors(row.with_model),
+             _index(row.with_model), _index(row.without_model))
             for k, row in enumerate(trials)
         ),
     )  # fmt: skip
@@ -86,13 +86,13 @@ def _condition_tables(
     """A table per sensor and candidate that has several trials or conditions, and per fit that says something."""
     sensors: dict[tuple[str, str, str], list[GroupRow]] = {}
     for row in groups:
-        sensors.setdefault((row.sensor, row.serial, row.candidate), []).append(row)
+        sensors.setdefault((row.sensor, row.serial, row.calibration), []).append(row)
     compared = [rows for rows in sensors.values() if len(rows) > 1 or rows[0].trials > 1]
     for rows in compared[:_MANY]:
         keys = {_key(row) for row in rows}
         for fit, words in FITS:
             if any(_index(getattr(trial, fit)) != "-" for trial in trials if _key(trial) in keys):
-                caption = f"{rows[0].sensor} ({rows[0].serial}), {names[rows[0].candidate]}: index {words}, kg"
+                caption = f"{rows[0].sensor} ({rows[0].serial}), {names[rows[0].calibration]}: index {words}, kg"
                 yield _condition_table(rows, trials, fit, caption)
     if len(compared) > _MANY:
         yield f"{len(compared) - _MANY} more sensors have tables like these; see --format json"
@@ -163,19 +163,19 @@ def _rank_table(groups: Sequence[GroupRow], trials: Sequence[TrialRow], label: C
 
 def _labels(groups: Sequence[GroupRow], names: Mapping[str, str]) -> Callable[[GroupRow], str]:
     """What names a group in one line: the sensor, and what not all groups have in common."""
-    conditions, candidates = len({row.condition for row in groups}) > 1, len({row.candidate for row in groups}) > 1
+    conditions, candidates = len({row.condition for row in groups}) > 1, len({row.calibration for row in groups}) > 1
 
     def label(row: GroupRow) -> str:
         words = [f"{row.sensor} ({row.serial})"]
         words += [row.condition or "no condition"] if conditions else []
-        words += [names[row.candidate]] if candidates else []
+        words += [names[row.calibration]] if candidates else []
         return ", ".join(words)
 
     return label
 
 
 def _key(row: GroupRow | TrialRow) -> tuple[str, str, str | None, str]:
-    return row.sensor, row.serial, row.condition, row.candidate
+    return row.sensor, row.serial, row.condition, row.calibration
 
 
 def _errors(fit: EllipsoidRow | None) -> tuple[str, ...]:
@@ -207,7 +207,7 @@ def _ends(fit: EllipsoidRow | None) -> str:
     return "-" if fit is None else interval(fit.index_low_kg, fit.index_high_kg, digits=2)
 
 
-_COMMON = ("sensor", "serial", "condition", "candidate")
+_COMMON = ("sensor", "serial", "condition", "calibration")
 """What tells groups apart, in every line of the CSV."""
 _OF_A_FIT = (
     *("identifiable", "index_kg", "index_low_kg", "index_high_kg"),
@@ -224,7 +224,7 @@ class Comparison(DrawnResult):
     drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.sphere:index_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("analyses",)
 
-    schema_name: Literal["forcetorque/compare/1"] = Field(default="forcetorque/compare/1", alias="schema")
+    schema_name: Literal["forcetorque/compare/2"] = Field(default="forcetorque/compare/2", alias="schema")
     """Form of the result."""
     tolerance: float
     """Half width of an interval, relative to the mean radius, up to which a number is identifiable."""
@@ -304,7 +304,7 @@ def compare(
     )  # fmt: skip
     groups, warnings = group_trials(trials, progress=progress)
     flattered = (
-        f"{trial.sphere.candidate} was fitted on {', '.join(map(repr, trial.sphere.fitted_on))} of {trial.file}, so "
+        f"{trial.sphere.calibration} was fitted on {', '.join(map(repr, trial.sphere.fitted_on))} of {trial.file}, so "
         "the verdict on it flatters"
         for trial in trials
         if trial.sphere.fitted_on

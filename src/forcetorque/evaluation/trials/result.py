@@ -24,7 +24,7 @@ class TrialRow(Row):
     """What was done to the sensor, in the user's words."""
     trial: int
     """Place among the trials of its condition, from 1."""
-    candidate: str
+    calibration: str
     """`prior`, or the calibration file."""
     file: str
     """Experiment file."""
@@ -42,11 +42,11 @@ class TrialRow(Row):
     """Mass beyond the sensor by the model."""
     form: CloudForm
     """What part of a sphere the forces can be told to be."""
-    no_reference: str | None
+    no_model: str | None
     """Why there is no fit with the model; none where there is one."""
-    with_reference: EllipsoidRow | None
+    with_model: EllipsoidRow | None
     """An ellipsoid with the model."""
-    without_reference: EllipsoidRow
+    without_model: EllipsoidRow
     """An ellipsoid without the model."""
 
     @classmethod
@@ -67,7 +67,7 @@ class TrialRow(Row):
             serial=sphere.serial,
             condition=trial.condition,
             trial=number,
-            candidate=sphere.candidate,
+            calibration=sphere.calibration,
             file=trial.file,
             experiment=trial.experiment,
             intervals=sphere.intervals,
@@ -76,9 +76,9 @@ class TrialRow(Row):
             gravity_m_s2=analysis.gravity,
             model_mass_kg=analysis.mass,
             form=analysis.form,
-            no_reference=sphere.no_fit_with_model,
-            with_reference=None if mapped is None else EllipsoidRow.of(mapped.fit, analysis),
-            without_reference=EllipsoidRow.of(analysis.free, analysis),
+            no_model=sphere.no_fit_with_model,
+            with_model=None if mapped is None else EllipsoidRow.of(mapped.fit, analysis),
+            without_model=EllipsoidRow.of(analysis.free, analysis),
         )
 
 
@@ -113,15 +113,15 @@ class GroupRow(Row):
     """Its serial number."""
     condition: str | None
     """What was done to the sensor."""
-    candidate: str
+    calibration: str
     """`prior`, or the calibration file."""
     trials: int
     """Number of trials."""
     not_pooled: str | None
     """Why several trials have no pooled fit."""
-    with_reference: GroupFitRow | None
+    with_model: GroupFitRow | None
     """By the fits with the model; none where no trial has one."""
-    without_reference: GroupFitRow
+    without_model: GroupFitRow
     """By the fits without the model."""
 
 
@@ -134,38 +134,38 @@ def group_rows(groups: Sequence[TrialGroup]) -> tuple[GroupRow, ...]:
     Returns:
         Their rows, in the same order.
     """
-    ranks = {with_reference: _ranks(groups, with_reference=with_reference) for with_reference in (True, False)}
+    ranks = {with_model: _ranks(groups, with_model=with_model) for with_model in (True, False)}
     rows = []
     for k, group in enumerate(groups):
         sphere = group.first.sphere
-        mapped = any(trial.fit(with_reference=True) is not None for trial in group.trials)
+        mapped = any(trial.fit(with_model=True) is not None for trial in group.trials)
         rows.append(
             GroupRow(
                 sensor=sphere.sensor,
                 serial=sphere.serial,
                 condition=group.first.condition,
-                candidate=sphere.candidate,
+                calibration=sphere.calibration,
                 trials=len(group.trials),
                 not_pooled=group.not_pooled,
-                with_reference=_group_fit(group, ranks[True][k], with_reference=True) if mapped else None,
-                without_reference=_group_fit(group, ranks[False][k], with_reference=False),
+                with_model=_group_fit(group, ranks[True][k], with_model=True) if mapped else None,
+                without_model=_group_fit(group, ranks[False][k], with_model=False),
             )
         )
     return tuple(rows)
 
 
-def _ranks(groups: Sequence[TrialGroup], *, with_reference: bool) -> list[int | None]:
-    ends = [group.index_interval(with_reference=with_reference) for group in groups]
+def _ranks(groups: Sequence[TrialGroup], *, with_model: bool) -> list[int | None]:
+    ends = [group.index_interval(with_model=with_model) for group in groups]
     tops = [end[1] for end in ends if end is not None]
     return [None if end is None else 1 + sum(top < end[0] for top in tops) for end in ends]
 
 
-def _group_fit(group: TrialGroup, rank: int | None, *, with_reference: bool) -> GroupFitRow:
-    indices = group.identifiable_indices(with_reference=with_reference)
+def _group_fit(group: TrialGroup, rank: int | None, *, with_model: bool) -> GroupFitRow:
+    indices = group.identifiable_indices(with_model=with_model)
     mean, low, high = mean_of_trials(indices) if indices else (None, None, None)
-    fit, centres = group.pooled_fit(with_reference=with_reference), None
+    fit, centres = group.pooled_fit(with_model=with_model), None
     if group.pooled is not None:
-        centres = group.pooled.mapped_centres if with_reference else group.pooled.free_centres
+        centres = group.pooled.mapped_centres if with_model else group.pooled.free_centres
     return GroupFitRow(
         known=len(indices),
         mean_index_kg=mean,
@@ -174,7 +174,7 @@ def _group_fit(group: TrialGroup, rank: int | None, *, with_reference: bool) -> 
         pooled=None if fit is None else _pooled_row(fit, group),
         pooled_centre_N=None if centres is None else tuple(centres),
         rank=rank,
-        drift=group.drift(with_reference=with_reference),
+        drift=group.drift(with_model=with_model),
     )
 
 

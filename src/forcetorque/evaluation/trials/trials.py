@@ -168,16 +168,16 @@ class TrialSphere:
         """Magnitude of gravity that the file states; m/s2."""
         return self.sphere.analysis.gravity
 
-    def fit(self, *, with_reference: bool) -> EllipsoidFit | None:
+    def fit(self, *, with_model: bool) -> EllipsoidFit | None:
         """Give one of the two ellipsoids of forces.
 
         Args:
-            with_reference: Whether it is that with the model.
+            with_model: Whether it is that with the model.
 
         Returns:
             The fit; None where there is none with the model.
         """
-        if not with_reference:
+        if not with_model:
             return self.sphere.analysis.free
         mapped = self.sphere.analysis.mapped
         return None if mapped is None else mapped.fit
@@ -326,36 +326,36 @@ class TrialGroup:
         """The first trial, which says what all have in common."""
         return self.trials[0]
 
-    def pooled_fit(self, *, with_reference: bool) -> EllipsoidFit | None:
+    def pooled_fit(self, *, with_model: bool) -> EllipsoidFit | None:
         """Give one of the two pooled ellipsoids.
 
         Args:
-            with_reference: Whether it is that with the model.
+            with_model: Whether it is that with the model.
 
         Returns:
             The fit; None where there is none.
         """
         if self.pooled is None:
             return None
-        return self.pooled.mapped if with_reference else self.pooled.free
+        return self.pooled.mapped if with_model else self.pooled.free
 
-    def identifiable_indices(self, *, with_reference: bool) -> list[float]:
+    def identifiable_indices(self, *, with_model: bool) -> list[float]:
         """Compute the indices of the trials that are identifiable.
 
         Args:
-            with_reference: Whether they are those with the model.
+            with_model: Whether they are those with the model.
 
         Returns:
             Indices in the order of the trials; kg.
         """
-        fits = [(trial.gravity, trial.fit(with_reference=with_reference)) for trial in self.trials]
+        fits = [(trial.gravity, trial.fit(with_model=with_model)) for trial in self.trials]
         return [fit.index / gravity for gravity, fit in fits if fit is not None and fit.identifiable]
 
-    def drift(self, *, with_reference: bool) -> DriftRow | None:
+    def drift(self, *, with_model: bool) -> DriftRow | None:
         """Compare the first trial with the last.
 
         Args:
-            with_reference: Whether by the fits with the model.
+            with_model: Whether by the fits with the model.
 
         Returns:
             Last minus first; None with one trial, where one has no ellipsoid, or where the files state different
@@ -363,40 +363,40 @@ class TrialGroup:
         """
         if self.trials[0].gravity != self.trials[-1].gravity:
             return None
-        ends = [trial.fit(with_reference=with_reference) for trial in (self.trials[0], self.trials[-1])]
+        ends = [trial.fit(with_model=with_model) for trial in (self.trials[0], self.trials[-1])]
         if len(self.trials) < 2 or ends[0] is None or ends[1] is None:
             return None
         return drift_between(ends[0], ends[1], gravity=self.first.gravity)
 
-    def index(self, *, with_reference: bool) -> float | None:
+    def index(self, *, with_model: bool) -> float | None:
         """Give the index by which the group may be compared with others.
 
         Args:
-            with_reference: Whether it is that with the model.
+            with_model: Whether it is that with the model.
 
         Returns:
             That of the pooled fit, or of the only trial; kg; None where it is not identifiable.
         """
-        fit = self._known_fit(with_reference=with_reference)
+        fit = self._known_fit(with_model=with_model)
         return None if fit is None else fit.index / self.first.gravity
 
-    def index_interval(self, *, with_reference: bool) -> tuple[float, float] | None:
+    def index_interval(self, *, with_model: bool) -> tuple[float, float] | None:
         """Give the 95 % interval of that index.
 
         Args:
-            with_reference: Whether it is that with the model.
+            with_model: Whether it is that with the model.
 
         Returns:
             Its ends; kg; None where the index is not identifiable.
         """
-        fit, gravity = self._known_fit(with_reference=with_reference), self.first.gravity
+        fit, gravity = self._known_fit(with_model=with_model), self.first.gravity
         return None if fit is None else (fit.index_low / gravity, fit.index_high / gravity)
 
-    def _known_fit(self, *, with_reference: bool) -> EllipsoidFit | None:
+    def _known_fit(self, *, with_model: bool) -> EllipsoidFit | None:
         """The pooled fit, all of whose trials have one gravity, or that of the only trial, if it is identifiable."""
-        fit = self.pooled_fit(with_reference=with_reference)
+        fit = self.pooled_fit(with_model=with_model)
         if len(self.trials) == 1:
-            fit = self.first.fit(with_reference=with_reference)
+            fit = self.first.fit(with_model=with_model)
         return fit if fit is not None and fit.identifiable else None
 
 
@@ -415,7 +415,7 @@ def group_trials(
     by_condition: dict[tuple[str, str, str | None, str], list[TrialSphere]] = {}
     for trial in trials:
         sphere = trial.sphere
-        by_condition.setdefault((sphere.sensor, sphere.serial, trial.condition, sphere.candidate), []).append(trial)
+        by_condition.setdefault((sphere.sensor, sphere.serial, trial.condition, sphere.calibration), []).append(trial)
     groups, warnings = [], []
     for (sensor, serial, condition, candidate), members in by_condition.items():
         where = f"{sensor} ({serial}), {condition or 'no condition'}, {candidate}"
@@ -446,7 +446,7 @@ def _pooled(trials: Sequence[TrialSphere]) -> tuple[PooledSphere | None, str | N
         return None, None
     spheres = [trial.sphere for trial in trials]
     priors = [trial.prior for trial in trials]
-    if spheres[0].candidate == PRIOR and not all(_same(priors[0], prior) for prior in priors[1:]):
+    if spheres[0].calibration == PRIOR and not all(_same(priors[0], prior) for prior in priors[1:]):
         return None, "the trials are read with different prior matrices"
     gravities = list(dict.fromkeys(trial.gravity for trial in trials))
     if len(gravities) > 1:

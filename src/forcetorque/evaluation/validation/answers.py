@@ -14,7 +14,7 @@ from forcetorque.results.number_text import amount, within
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
-    from forcetorque.evaluation.validation.contact_forces import BestCandidate, ContactForceErrors, ContactForces
+    from forcetorque.evaluation.validation.contact_forces import BestCalibration, ContactForceErrors, ContactForces
     from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, JointTorques
     from forcetorque.evaluation.validation.validation import Validation
 
@@ -44,7 +44,7 @@ def contact_answers(contacts: ContactForces) -> Iterator[Answer]:
 
 
 def _by_sensor(
-    forces: Sequence[ContactForceErrors], best: Sequence[BestCandidate], torques: Sequence[JointTorqueErrors]
+    forces: Sequence[ContactForceErrors], best: Sequence[BestCalibration], torques: Sequence[JointTorqueErrors]
 ) -> Iterator[Answer]:
     """The answer for every sensor: of its own offset where its candidates have one."""
     for sensor in dict.fromkeys(row.sensor for row in best):
@@ -55,12 +55,14 @@ def _by_sensor(
         yield _answer(choice, rows, own)
 
 
-def _answer(choice: BestCandidate, rows: Sequence[ContactForceErrors], torques: Sequence[JointTorqueErrors]) -> Answer:
-    names = short_names([row.candidate for row in rows])
-    least = next(row for row in rows if row.candidate == choice.by_magnitude)
-    ordered = sorted(rows, key=lambda row: (row.candidate != choice.by_magnitude, row.force_mean_N))
-    forces = ", ".join(f"{names[row.candidate]} {_force(row)}" for row in ordered)
-    calibrations = [row.candidate for row in ordered if not _is_prior(row.candidate)]
+def _answer(
+    choice: BestCalibration, rows: Sequence[ContactForceErrors], torques: Sequence[JointTorqueErrors]
+) -> Answer:
+    names = short_names([row.calibration for row in rows])
+    least = next(row for row in rows if row.calibration == choice.by_magnitude)
+    ordered = sorted(rows, key=lambda row: (row.calibration != choice.by_magnitude, row.force_mean_N))
+    forces = ", ".join(f"{names[row.calibration]} {_force(row)}" for row in ordered)
+    calibrations = [row.calibration for row in ordered if not _is_prior(row.calibration)]
     step, command = to_evaluate(calibrations[0]) if calibrations else to_calibrate(least.sensor)
     return Answer(
         subject=f"{least.sensor} ({least.serial}), nothing touches {least.sub_model}",
@@ -75,16 +77,16 @@ def _answer(choice: BestCandidate, rows: Sequence[ContactForceErrors], torques: 
     )
 
 
-def _verdict(choice: BestCandidate, name: str, least: ContactForceErrors) -> str:
-    if choice.judgement is None:
+def _verdict(choice: BestCalibration, name: str, least: ContactForceErrors) -> str:
+    if choice.conclusion is None:
         return f"contact force {_force(least)}"
     if choice.best is not None:
         return f"BEST: {name}"
-    return "NONE IS BEST: NO DIFFERENCE" if choice.judgement == "no difference" else "NONE IS BEST: TOO LITTLE DATA"
+    return "NONE IS BEST: NO DIFFERENCE" if choice.conclusion == "no difference" else "NONE IS BEST: TOO LITTLE DATA"
 
 
-def _concern(choice: BestCandidate) -> Concern:
-    if choice.judgement is None:
+def _concern(choice: BestCalibration) -> Concern:
+    if choice.conclusion is None:
         return Concern.NONE
     if choice.best is not None:
         return Concern.BAD if _is_prior(choice.best) else Concern.NONE
@@ -109,9 +111,9 @@ def torque_answers(joint_torques: JointTorques) -> Iterator[Answer]:
         One answer each.
     """
     torques = joint_torques.verdicts
-    names = short_names([row.candidate for row in torques])
-    for sensor, candidate, offset in dict.fromkeys((row.sensor, row.candidate, row.offset) for row in torques):
-        rows = [row for row in torques if (row.sensor, row.candidate, row.offset) == (sensor, candidate, offset)]
+    names = short_names([row.calibration for row in torques])
+    for sensor, candidate, offset in dict.fromkeys((row.sensor, row.calibration, row.offset) for row in torques):
+        rows = [row for row in torques if (row.sensor, row.calibration, row.offset) == (sensor, candidate, offset)]
         worst = max(rows, key=lambda row: row.rmse)
         yield Answer(
             subject=f"{sensor} ({worst.serial}), {names[candidate]}, {offset} offset",
@@ -121,14 +123,14 @@ def torque_answers(joint_torques: JointTorques) -> Iterator[Answer]:
 
 
 def _of_torques(torques: Sequence[JointTorqueErrors], candidate: str, names: Mapping[str, str]) -> Iterator[str]:
-    own = [row for row in torques if row.candidate == candidate]
+    own = [row for row in torques if row.calibration == candidate]
     if not own:
         return
     worst = max(own, key=lambda row: row.rmse)
     others = ", ".join(
-        f"{names.get(row.candidate, row.candidate)} {amount(row.rmse, row.unit)}"
+        f"{names.get(row.calibration, row.calibration)} {amount(row.rmse, row.unit)}"
         for row in torques
-        if row.joint == worst.joint and row.candidate != candidate
+        if row.joint == worst.joint and row.calibration != candidate
     )
     beside = f", {others}" if others else ""
     yield f"largest joint torque error, {worst.joint}: {names[candidate]} {_torque(worst)}{beside}"

@@ -40,7 +40,7 @@ from forcetorque.results.table import (
 )
 
 
-class CandidateComparison(ErrorComparison):
+class CalibrationComparison(ErrorComparison):
     """The contact force of a candidate against that of another."""
 
     other: Annotated[str, Shown("against", file=True)]
@@ -49,7 +49,7 @@ class CandidateComparison(ErrorComparison):
     """Mean norm of the contact force with the other."""
 
 
-class BestCandidate(Row):
+class BestCalibration(Row):
     """The candidates of a sensor with one offset, and whether one is best."""
 
     sensor: str
@@ -57,19 +57,19 @@ class BestCandidate(Row):
     offset: Offset
     """Which offset the calibrations are evaluated with."""
     by_magnitude: str
-    """Candidate with the smallest mean norm of the force; whether it is the best, `judgement` says."""
+    """Candidate with the smallest mean norm of the force; whether it is the best, `conclusion` says."""
     by_axis: tuple[str, ...]
     """Candidate with the smallest mean absolute value, per component."""
-    judgement: Literal["better", "no difference", "not told apart"] | None
+    conclusion: Literal["better", "no difference", "inconclusive"] | None
     """Of that by magnitude: better than every other, no different from those that it is not better than, or too little
     data to tell; null where there is no other."""
-    comparisons: tuple[CandidateComparison, ...]
+    comparisons: tuple[CalibrationComparison, ...]
     """The same against every other."""
 
     @property
     def best(self) -> str | None:
         """The candidate that is better than every other; none where the recording does not tell."""
-        return self.by_magnitude if self.judgement == "better" else None
+        return self.by_magnitude if self.conclusion == "better" else None
 
     @property
     def sentence(self) -> str:
@@ -95,7 +95,7 @@ def best_candidate(
     candidates: Sequence[tuple[int, Offset]],
     pooled: ContactWrenches,
     recordings: Sequence[ContactWrenches],
-) -> BestCandidate:
+) -> BestCalibration:
     """Find the candidate with the smallest contact force, and tell whether it is better than every other.
 
     Args:
@@ -119,8 +119,8 @@ def best_candidate(
         ratio = compare_errors(_pairs(recordings, least, key)).force
         low, high = known_interval(ratio)
         comparisons.append(
-            CandidateComparison(
-                candidate=names[least],
+            CalibrationComparison(
+                calibration=names[least],
                 offset=offset,
                 quantity="force",
                 unit="N",
@@ -131,17 +131,17 @@ def best_candidate(
                 ratio=ratio.ratio,
                 ratio_low=low,
                 ratio_high=high,
-                stretches=ratio.stretches,
-                judgement=ratio.judgement,
+                segments=ratio.segments,
+                conclusion=ratio.conclusion,
             )
         )
     by_axis = np.argmin([sizes[key].mean(axis=0) for key in candidates], axis=0)
-    return BestCandidate(
+    return BestCalibration(
         sensor=sensor,
         offset=offset,
         by_magnitude=names[least],
         by_axis=tuple(names[candidates[place]] for place in by_axis),
-        judgement=_judgement(comparisons),
+        conclusion=_conclusion(comparisons),
         comparisons=tuple(comparisons),
     )
 
@@ -157,15 +157,15 @@ def _pairs(
     ]
 
 
-def _judgement(
-    comparisons: Sequence[CandidateComparison],
-) -> Literal["better", "no difference", "not told apart"] | None:
-    judgements = {row.judgement for row in comparisons}
+def _conclusion(
+    comparisons: Sequence[CalibrationComparison],
+) -> Literal["better", "no difference", "inconclusive"] | None:
+    judgements = {row.conclusion for row in comparisons}
     if not judgements:
         return None
     if judgements == {"better"}:
         return "better"
-    return "no difference" if judgements <= {"better", "no difference"} else "not told apart"
+    return "no difference" if judgements <= {"better", "no difference"} else "inconclusive"
 
 
 WORTH = frozenset({"bias", "independent", "excitation_N", "excitation_Nm"})
@@ -181,7 +181,7 @@ class ContactForceErrors(Row):
     """Its serial number."""
     sub_model: str
     """Sub-model that nothing touches."""
-    candidate: Annotated[str, Shown("candidate", file=True)]
+    calibration: Annotated[str, Shown("calibration", file=True)]
     """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
     offset: Annotated[Offset, Shown("offset")]
     """Offset from the first second of every validation interval, or that of the candidate."""
@@ -217,8 +217,8 @@ class ContactForces(Result):
     answered_by: ClassVar[str | None] = "forcetorque.evaluation.validation.answers:contact_answers"
 
     verdicts: tuple[ContactForceErrors, ...]
-    """One per candidate and offset."""
-    best: tuple[BestCandidate, ...]
+    """One per calibration and offset."""
+    best: tuple[BestCalibration, ...]
     """One per offset."""
     left_out: tuple[str, ...]
     """What could not be evaluated of the intervals, in words."""
@@ -300,7 +300,7 @@ def contact_forces_of(sensor: ExperimentSensor, recordings: Mapping[str, Contact
 
 def contact_force_blocks(
     verdicts: Sequence[ContactForceErrors],
-    best: Sequence[BestCandidate],
+    best: Sequence[BestCalibration],
     recordings: Sequence[RecordingContactForces] = (),
 ) -> Iterator[Table | str]:
     """Show contact forces of any number of sensors.
@@ -323,7 +323,7 @@ def contact_force_blocks(
             caption = f"{sensor} ({apart[0].serial}), each recording by itself"
             yield with_first_column(without_vague(table_of(apart, caption, leave_out=WORTH)), "recording", names)
             yield with_first_column(constant_contact_table(apart), "recording", names)
-    if len({row.candidate for row in verdicts}) > 1:
+    if len({row.calibration for row in verdicts}) > 1:
         yield from (candidate.sentence for candidate in best)
 
 
@@ -348,7 +348,7 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
             sensor=sensor.name,
             serial=sensor.serial,
             sub_model=contacts.sub_model,
-            candidate=candidate.name,
+            calibration=candidate.name,
             offset=candidate.offset(offset),
             offset_source=candidate.offset_source(offset),
             prior=candidate.prior,
@@ -372,7 +372,7 @@ def _judgeable(contacts: ContactWrenches) -> list[tuple[int, Offset]]:
 
 def _best(
     sensor: ExperimentSensor, contacts: ContactWrenches, recordings: Sequence[ContactWrenches]
-) -> Iterator[BestCandidate]:
+) -> Iterator[BestCalibration]:
     """Best candidate with each offset, of one sensor."""
     groups: dict[Offset, list[tuple[int, Offset]]] = {}
     for index, offset in _judgeable(contacts):

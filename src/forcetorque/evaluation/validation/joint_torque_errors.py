@@ -375,7 +375,7 @@ def _joined(
 def _over(
     free: FreeSubModel, interval: Interval, scheme: TorqueScheme, candidates: Sequence[CalibrationUnderTest]
 ) -> Iterator[tuple[TorqueKey, TorqueSamples]]:
-    """Errors of every candidate, offset and joint over one interval, after its first second."""
+    """Errors of every calibration, offset and joint over one interval, after its first second."""
     run, instants, sensor = free.run, free.run.instants(interval), free.run.sensor.name
     model, maps = _model(run, interval, scheme)
     own = [run.measured(interval, candidate.correction) - model.expected_of(sensor) for candidate in candidates]

@@ -60,7 +60,7 @@ class JointTorques(Result):
     answered_by: ClassVar[str | None] = "forcetorque.evaluation.validation.answers:torque_answers"
 
     verdicts: tuple[JointTorqueErrors, ...]
-    """One per candidate, offset and joint, joints from the support outwards."""
+    """One per calibration, offset and joint, joints from the support outwards."""
     left_out: tuple[str, ...]
     """Torques that the log does not allow to estimate, or to evaluate in an interval, in words."""
 
@@ -166,7 +166,7 @@ def _rows(campaign: Campaign, torques: TorqueErrorSamples) -> Iterator[JointTorq
         yield JointTorqueErrors(
             sensor=campaign.sensor.name,
             serial=campaign.sensor.serial,
-            candidate=candidate.name,
+            calibration=candidate.name,
             offset=candidate.offset(key.offset),
             offset_source=candidate.offset_source(key.offset),
             prior=candidate.prior,

@@ -10,9 +10,9 @@ from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.evaluation import smoothing_text
-from forcetorque.evaluation.load_cases.verdict import UseVerdict, use_verdicts, verdict_texts
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, use_verdicts, verdict_texts
 from forcetorque.evaluation.validation.contact_forces import (
-    BestCandidate,
+    BestCalibration,
     ContactForceErrors,
     RecordingContactForces,
     contact_force_blocks,
@@ -35,7 +35,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.free_sub_model import FreeSubModel, SubModelChoice
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.experiment.validity import ReadingsOutside, readings_outside, sentences
+from forcetorque.experiment.validity import SamplesOutside, readings_outside, sentences
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
@@ -50,18 +50,18 @@ class Validation(Result):
 
     interval_uses = ()
 
-    schema_name: Literal["forcetorque/validate/1"] = Field(default="forcetorque/validate/1", alias="schema")
+    schema_name: Literal["forcetorque/validate/2"] = Field(default="forcetorque/validate/2", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment; of several recordings their names, apart by semicolons."""
     other_sensors: Literal["model", "measured"]
     """What the other sensors of the sub-model were taken to read."""
     contact_forces: tuple[ContactForceErrors, ...]
-    """One per sensor, candidate and offset."""
-    best: tuple[BestCandidate, ...]
+    """One per sensor, calibration and offset."""
+    best: tuple[BestCalibration, ...]
     """One per sensor and offset."""
     joint_torques: tuple[JointTorqueErrors, ...]
-    """One per sensor, candidate, offset and joint that depends on the sensor."""
+    """One per sensor, calibration, offset and joint that depends on the sensor."""
     recordings: tuple[RecordingContactForces, ...] = ()
     """Contact forces of every recording by itself; none where there is one."""
     recording_torques: tuple[RecordingJointTorques, ...] = ()
@@ -70,10 +70,10 @@ class Validation(Result):
     """Torques that the log does not allow to estimate, and what gaps and short intervals leave out, in words."""
     smoothing: tuple[str, ...] = ()
     """Whether measured and expected wrench were smoothed, as text; of several recordings one per way."""
-    validity: tuple[ReadingsOutside, ...] = ()
+    validity: tuple[SamplesOutside, ...] = ()
     """One per calibration: how far the validation samples lie outside what it was fitted on."""
 
-    uses: tuple[UseVerdict, ...] = ()
+    load_cases: tuple[LoadCaseVerdict, ...] = ()
     """One per calibration and load case: whether it may be used."""
 
     def blocks(self) -> Iterator[Table | str]:
@@ -87,7 +87,7 @@ class Validation(Result):
             yield from self._without_offset(sensor)
             torques = [row for row in self.joint_torques if row.sensor == sensor]
             yield joint_torque_table(torques) if torques else f"{sensor}: no joint torque is estimated from it"
-        yield from verdict_texts(self.uses)
+        yield from verdict_texts(self.load_cases)
         others = "the model expects" if self.other_sensors == "model" else "they measured"
         yield "; ".join((f"other sensors: as {others}", *self.smoothing))
 
@@ -112,7 +112,7 @@ class Validation(Result):
         """List the candidates whose wrenches keep the unknown offset of the sensor, with what reads them."""
         for row in self.contact_forces:
             if row.sensor == sensor and row.offset is Offset.NONE:
-                yield f"{sensor}, {row.candidate}, offset {row.offset}: read by {row.offset_source}"
+                yield f"{sensor}, {row.calibration}, offset {row.offset}: read by {row.offset_source}"
 
 
 def validation(campaign: Campaign, calibrations: Mapping[str, Calibration], choice: SubModelChoice) -> Validation:
@@ -152,7 +152,7 @@ def validation(campaign: Campaign, calibrations: Mapping[str, Calibration], choi
         left_out=left_out,
         smoothing=tuple(dict.fromkeys(map(smoothing_text, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
-        uses=uses,
+        load_cases=uses,
         warnings=(*sentences(validity), *(f"left out: {words}" for words in left_out)),
     )
 
@@ -166,7 +166,7 @@ def _torques_and_contacts(
 
 def _validity(
     campaign: Campaign, calibrations: Mapping[str, Calibration]
-) -> tuple[tuple[ReadingsOutside, ...], tuple[str, ...]]:
+) -> tuple[tuple[SamplesOutside, ...], tuple[str, ...]]:
     """How far readings lie outside what was fitted; else why that is not known: joints beyond the sensor may lack."""
     try:
         return readings_outside(campaign, calibrations), ()
@@ -176,7 +176,7 @@ def _validity(
 
 def _uses(
     campaign: Campaign, calibrations: Mapping[str, Calibration]
-) -> tuple[tuple[UseVerdict, ...], tuple[str, ...]]:
+) -> tuple[tuple[LoadCaseVerdict, ...], tuple[str, ...]]:
     """Whether calibrations may be used; else why that cannot be told, such as that one has seen the validation data."""
     try:
         return use_verdicts(campaign, calibrations), ()

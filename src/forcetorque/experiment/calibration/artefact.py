@@ -31,11 +31,8 @@ from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.results.table import Table
 from forcetorque.results.table_rendering import html_table, html_warnings
 
-SCHEMA: Final = "forcetorque/calibration/3"
+SCHEMA: Final = "forcetorque/calibration/4"
 """Name and version of the file's form."""
-
-_EARLIER: Final = ("forcetorque/calibration/1", "forcetorque/calibration/2")
-"""Forms before there were variables, and before sessions and posteriors: the same without, so they are read too."""
 
 GENERATIVE: Final = "generative"
 """Name of the default estimator among the estimation types."""
@@ -106,7 +103,7 @@ class Calibration(StoredTable):
         defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
     )
 
-    schema_name: Literal["forcetorque/calibration/3"] = Field(default=SCHEMA, alias="schema")
+    schema_name: Literal["forcetorque/calibration/4"] = Field(default=SCHEMA, alias="schema")
     """Form of the file."""
     sensor: SensorIdentity
     """The sensor."""
@@ -148,7 +145,7 @@ class Calibration(StoredTable):
     """Where the fit is supported by data."""
     selection: Selection
     """How lambda came about."""
-    doubts: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     """What makes the data doubtful that were fitted."""
     model_errors: tuple[ModelError, ...] = ()
     """What the fit found of the robot model, which it took as uncertain; none where it was taken as exact."""
@@ -203,7 +200,7 @@ class Calibration(StoredTable):
         )
         shares = None if self.posterior is None else self.posterior.learnt_shares()
         learnt = "" if shares is None else f"<p>{_learnt(shares)}</p>"
-        return html_warnings(self.doubts) + html_table(table) + learnt
+        return html_warnings(self.warnings) + html_table(table) + learnt
 
     def save(self, path: Path | str, *, force: bool = False) -> None:
         """Write the calibration as JSON; on any error the file keeps what it held before.
@@ -344,8 +341,6 @@ def read_calibration(path: Path | str) -> Calibration:
     file = Path(path)
     content = read_json(file, expected="a calibration file, there is none; `forcetorque calibrate` makes one")
     schema = content.get("schema") if isinstance(content, dict) else None
-    if schema in _EARLIER:
-        content["schema"] = schema = SCHEMA
     if schema == JOINT_SCHEMA:
         raise FormatError(
             f"{file}: expected the calibration of a sensor, got what the sensors of a joint calibration share; name "

@@ -30,7 +30,7 @@ class Excitation(ArrayRecord):
     """Unit directions in the space of raw channels, one per row; shape (c, c)."""
     explained: FloatArray = field(metadata=array("c"))
     """Share of each variance that the reference wrench explains, 0 to 1; shape (c,)."""
-    reference_deviation: FloatArray = field(metadata=array(6))
+    expected_wrench_sd: FloatArray = field(metadata=array(6))
     """Standard deviation of the reference wrench per component; shape (6,); N, N m."""
 
     @property
@@ -76,9 +76,9 @@ class Excitation(ArrayRecord):
         Returns:
             Components whose standard deviation is below 1 % of the largest of their kind (force or moment).
         """
-        forces, moments = self.reference_deviation[:3], self.reference_deviation[3:]
+        forces, moments = self.expected_wrench_sd[:3], self.expected_wrench_sd[3:]
         limits = np.repeat([0.01 * forces.max(), 0.01 * moments.max()], 3)
-        low = self.reference_deviation <= limits
+        low = self.expected_wrench_sd <= limits
         return tuple(name for name, is_low in zip(WRENCH_COMPONENTS, low, strict=True) if is_low)
 
 
@@ -118,7 +118,7 @@ def excitation_of(moments: Moments) -> Excitation:
         directions=directions,
         explained=np.clip(share, 0.0, 1.0),
         # a component that stands still far from zero may be rounded below it
-        reference_deviation=np.sqrt(np.maximum(np.diag(moments.reference_reference), 0.0)),
+        expected_wrench_sd=np.sqrt(np.maximum(np.diag(moments.reference_reference), 0.0)),
     )
 
 

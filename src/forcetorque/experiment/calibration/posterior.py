@@ -41,7 +41,7 @@ class Posterior(StoredTable):
     """Unknowns of every row; shape (rows, p); per N, per N m, per unit, offset, offset per second."""
     covariance: Annotated[FloatArray, ArrayField((None, None, None))]
     """Their covariance, repeatability included; shape (rows, p, p)."""
-    learnt_covariance: Annotated[FloatArray, ArrayField((None, 6, 6))]
+    mean_covariance: Annotated[FloatArray, ArrayField((None, 6, 6))]
     """Covariance of the six coefficients without the repeatability; shape (rows, 6, 6)."""
     prior_covariance: Annotated[FloatArray, ArrayField((None, 6, 6))] | None
     """Covariance of the six coefficients before any data; shape (rows, 6, 6); None without a prior."""
@@ -114,7 +114,7 @@ class Posterior(StoredTable):
             Covariance; shape (..., 6, 6).
         """
         load = np.asarray(wrench, dtype=np.float64)
-        return self._in_wrench(np.einsum("...j,ijk,...k->...i", load, self.learnt_covariance, load))
+        return self._in_wrench(np.einsum("...j,ijk,...k->...i", load, self.mean_covariance, load))
 
     def learnt_shares(self) -> FloatArray | None:
         """Tell how much less than before is left of the uncertainty of each load direction.
@@ -224,7 +224,7 @@ class LoadError(StoredTable):
         return posterior.model_copy(
             update={
                 "covariance": posterior.covariance + added,
-                "learnt_covariance": posterior.learnt_covariance + added[:, :LOADS, :LOADS],
+                "mean_covariance": posterior.mean_covariance + added[:, :LOADS, :LOADS],
             }
         )
 

@@ -165,7 +165,7 @@ class Validity(StoredTable):
     """Smallest fitted reading per channel; counts."""
     raw_maximum_counts: Annotated[FloatArray, ArrayField((None,))]
     """Largest fitted reading per channel; counts."""
-    reference_deviation: Annotated[FloatArray, ArrayField((6,), minimum=0.0)]
+    expected_wrench_sd: Annotated[FloatArray, ArrayField((6,), minimum=0.0)]
     """Standard deviation of the reference wrench; N, N m."""
     rank: int
     """Number of raw directions that moved at all."""

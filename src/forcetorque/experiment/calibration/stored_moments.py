@@ -21,7 +21,7 @@ from forcetorque.experiment.calibration.provenance import FittedInterval, Sensor
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
-SCHEMA: Final = "forcetorque/moments/1"
+SCHEMA: Final = "forcetorque/moments/2"
 """Name and version of the file's form."""
 
 _Vector = Annotated[FloatArray, ArrayField((None,))]
@@ -238,7 +238,7 @@ class RecordingMoments(StoredTable):
         defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
     )
 
-    schema_name: Literal["forcetorque/moments/1"] = Field(default=SCHEMA, alias="schema")
+    schema_name: Literal["forcetorque/moments/2"] = Field(default=SCHEMA, alias="schema")
     """Form of the file."""
     sensor: SensorIdentity
     """The sensor."""
@@ -266,7 +266,7 @@ class RecordingMoments(StoredTable):
     """Linear variables that are fitted."""
     intervals: tuple[IntervalMoments, ...] = Field(min_length=1)
     """The intervals."""
-    doubts: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     """What makes any fit of them doubtful."""
     added: tuple[str, ...] = ()
     """What the experiment file adds to its log, in sentences."""

@@ -201,8 +201,8 @@ WORKBENCH: Final = Setup(
     check_axes="are the directions of the loads given in the axes of the sensor, and is prior of [sensor] of this type "
     "of sensor?",
     check_moment="check the units of moments, or of the positions of weights, in the loads, and prior of [sensor]",
-    check_span="check that the readings are in the order of the loads, files and channels of [readings], and whether "
-    "prior of [sensor] is of this type of sensor",
+    check_span="check that the readings are in the order of the loads, files and channels of [measurements], and "
+    "whether prior of [sensor] is of this type of sensor",
     give_mass="so nothing hangs on the sensor; give the loads their masses, or their wrenches",
     move_load="as of one load; record other loads",
 )

@@ -432,6 +432,6 @@ def measurement_warnings(readers: Sequence[Reader], summary: Sequence[CoherenceS
         prior, mean = one.prior_force_error_mean_N, one.common_force_error_mean_N
         if prior is not None and mean is not None and mean > prior:
             yield (
-                f"{one.candidate}, offset {policy_words(one.offset, one.offset_interval)}: error {mean:.2f} N, more "
+                f"{one.calibration}, offset {policy_words(one.offset, one.offset_interval)}: error {mean:.2f} N, more "
                 f"than the {prior:.2f} N of the prior over the same {one.common_phases} phase(s)"
             )

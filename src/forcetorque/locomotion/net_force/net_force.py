@@ -41,7 +41,7 @@ def net_force_errors(
 
     Args:
         experiment: The experiment; every interval that is not to be ignored is a phase, in which its support, or the
-            links that it names as touched, and its contacts touch the world.
+            links that it names in contact_links, and its contacts touch the world.
         candidates: By name of the candidate its calibrations by name of their file, at most one for each sensor; what
             has none is read by the prior of the experiment. The prior is always evaluated.
         offsets: Where the offsets come from, in turn; from the first phase in which one link alone is touched if none
@@ -136,8 +136,8 @@ def _rows(experiment: Experiment, reader: Reader, phases: Sequence[NetContact], 
         half_width = np.hypot(samples.half_width, by_offset[:columns])
         yield PhaseForce(
             phase=label,
-            touching=phase.touching,
-            candidate=reader.candidate,
+            contact_links=phase.touching,
+            calibration=reader.candidate,
             offset=reader.policy.offset,
             offset_interval=reader.policy.interval,
             samples=int(whole.sum()),
@@ -196,7 +196,7 @@ def _offset_rows(reader: Reader) -> Iterator[OffsetOfSensor]:
     for sensor, offset in reader.offsets.items():
         support = offset.interval.support
         yield OffsetOfSensor(
-            candidate=reader.candidate,
+            calibration=reader.candidate,
             sensor=sensor,
             offset=offset.policy.offset,
             offset_interval=offset.interval.label,
@@ -211,14 +211,14 @@ def _offset_rows(reader: Reader) -> Iterator[OffsetOfSensor]:
 def _summary(rows: Sequence[PhaseForce]) -> Iterator[CoherenceSummary]:
     groups: dict[tuple[str, Offset, str | None], dict[str, float]] = {}
     for row in rows:
-        norms = groups.setdefault((row.candidate, row.offset, row.offset_interval), {})
+        norms = groups.setdefault((row.calibration, row.offset, row.offset_interval), {})
         if row.evidence:
             norms[row.phase] = float(np.linalg.norm(row.force_error_N))
     for (candidate, offset, interval), norms in groups.items():
         by_prior = {} if candidate == PRIOR else groups.get((PRIOR, offset, interval), {})
         common = [phase for phase in norms if phase in by_prior]
         yield CoherenceSummary(
-            candidate=candidate,
+            calibration=candidate,
             offset=offset,
             offset_interval=interval,
             phases=len(norms),

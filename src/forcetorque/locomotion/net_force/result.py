@@ -25,9 +25,9 @@ class PhaseForce(Row):
 
     phase: str
     """Label of the interval."""
-    touching: tuple[str, ...]
+    contact_links: tuple[str, ...]
     """Links that touch the world in it."""
-    candidate: str
+    calibration: str
     """What reads the sensors: `prior`, or the name of the calibrations."""
     offset: Offset
     """Where the offset is from."""
@@ -67,7 +67,7 @@ class PhaseForce(Row):
 class OffsetOfSensor(Row):
     """The offset of one sensor that a policy gave."""
 
-    candidate: str
+    calibration: str
     """What reads the sensors."""
     sensor: str
     """Sensor."""
@@ -90,7 +90,7 @@ class OffsetOfSensor(Row):
 class CoherenceSummary(Row):
     """What is left over all phases that are evidence."""
 
-    candidate: str
+    calibration: str
     """What reads the sensors."""
     offset: Offset
     """Where the offset is from."""
@@ -118,7 +118,7 @@ class Coherence(DrawnResult):
 
     interval_uses = ()
 
-    schema_name: Literal["forcetorque/coherence/1"] = Field(default="forcetorque/coherence/1", alias="schema")
+    schema_name: Literal["forcetorque/coherence/2"] = Field(default="forcetorque/coherence/2", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment."""
@@ -127,11 +127,11 @@ class Coherence(DrawnResult):
     weight_N: float
     """Its weight."""
     rows: tuple[PhaseForce, ...]
-    """One per offset, phase and candidate."""
+    """One per offset, phase and calibration."""
     offsets: tuple[OffsetOfSensor, ...]
     """Offsets that intervals gave."""
     summary: tuple[CoherenceSummary, ...]
-    """One per offset and candidate."""
+    """One per offset and calibration."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per offset in the form of thesis Tables 5.9 and 5.10, and what is left over all phases.
@@ -177,7 +177,7 @@ def policy_words(offset: Offset, interval: str | None) -> str:
 
 
 def _table(rows: Sequence[PhaseForce], weight: float) -> Table:
-    names, first = short_names([row.candidate for row in rows]), rows[0]
+    names, first = short_names([row.calibration for row in rows]), rows[0]
     return Table(
         caption=f"offset {policy_words(first.offset, first.offset_interval)}; weight {weight:.2f} N",
         headings=(
@@ -190,7 +190,7 @@ def _table(rows: Sequence[PhaseForce], weight: float) -> Table:
         rows=tuple(
             (
                 row.phase,
-                names[row.candidate],
+                names[row.calibration],
                 *(number(float(force), 2) for force in row.force_N),
                 *_cells(row.force_error_N, row.force_half_width_95_N, 2),
                 "" if row.evidence else NOT_EVIDENCE,
@@ -201,14 +201,14 @@ def _table(rows: Sequence[PhaseForce], weight: float) -> Table:
 
 
 def _moment_table(rows: Sequence[PhaseForce]) -> Table:
-    names, first = short_names([row.candidate for row in rows]), rows[0]
+    names, first = short_names([row.calibration for row in rows]), rows[0]
     return Table(
         caption=f"the same about moments, offset {policy_words(first.offset, first.offset_interval)}",
         headings=("phase", "read by", *(f"M{axis}, N m" for axis in _NAMES), ""),
         rows=tuple(
             (
                 row.phase,
-                names[row.candidate],
+                names[row.calibration],
                 *_cells(row.moment_error_Nm, row.moment_half_width_95_Nm, 2),
                 "" if row.evidence else NOT_EVIDENCE,
             )
@@ -218,7 +218,7 @@ def _moment_table(rows: Sequence[PhaseForce]) -> Table:
 
 
 def _samples_table(rows: Sequence[PhaseForce]) -> Table:
-    names, first = short_names([row.candidate for row in rows]), rows[0]
+    names, first = short_names([row.calibration for row in rows]), rows[0]
     moments = any(row.moment_error_Nm is not None for row in rows)
     headings = [f"E{axis}, N" for axis in _NAMES] + [f"M{axis}, N m" for axis in _NAMES if moments]
     table = []
@@ -226,7 +226,7 @@ def _samples_table(rows: Sequence[PhaseForce]) -> Table:
         cells = [*_ranges(row.force_deviation_N, row.force_smallest_N, row.force_largest_N)]
         if moments:
             cells += _ranges(row.moment_deviation_Nm, row.moment_smallest_Nm, row.moment_largest_Nm)
-        table.append((row.phase, names[row.candidate], *cells))
+        table.append((row.phase, names[row.calibration], *cells))
     return Table(
         caption="samples within the phase: standard deviation (smallest to largest), offset "
         + policy_words(first.offset, first.offset_interval),
@@ -251,14 +251,14 @@ def _cells(values: AxisValues | None, half_widths: ThreeOrNull | None, digits: i
 
 
 def _summary_table(rows: Sequence[CoherenceSummary]) -> Table:
-    names = short_names([row.candidate for row in rows])
+    names = short_names([row.calibration for row in rows])
     return Table(
         caption="norm of E over the phases that are evidence",
         headings=("offset", "read by", "phases", "mean, N", "largest, N"),
         rows=tuple(
             (
                 policy_words(row.offset, row.offset_interval),
-                names[row.candidate],
+                names[row.calibration],
                 str(row.phases),
                 number(row.force_error_mean_N, 2),
                 number(row.force_error_largest_N, 2),

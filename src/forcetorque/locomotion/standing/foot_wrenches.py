@@ -270,9 +270,9 @@ def _uncertainty(scene: BalanceScene, corrections: Mapping[str, Correction], mea
 
 def _stated(sensor: ExperimentSensor) -> FloatArray | None:
     """Covariance of one reading that the file states: noise, and what it is off all along."""
-    if sensor.reading_noise is None or sensor.reading_deviation is None:
+    if sensor.measurement_noise is None or sensor.measurement_offset_sd is None:
         return None
-    return np.diag(sensor.reading_noise**2 + sensor.reading_deviation**2)
+    return np.diag(sensor.measurement_noise**2 + sensor.measurement_offset_sd**2)
 
 
 VERTICAL_ONLY: Final = (

@@ -52,8 +52,8 @@ class BalanceOptions:
         Returns:
             The thresholds.
         """
-        touch_N, release_N = self.touch.newtons(weight_N), self.release.newtons(weight_N)
-        return ContactThresholds(touch_N=touch_N, release_N=release_N, dwell_s=self.dwell_s)
+        contact_threshold_N, release_N = self.touch.newtons(weight_N), self.release.newtons(weight_N)
+        return ContactThresholds(contact_threshold_N=contact_threshold_N, release_N=release_N, dwell_s=self.dwell_s)
 
     def least_load_N(self, weight_N: float | None) -> float:
         """Settle the load below which there is no point.

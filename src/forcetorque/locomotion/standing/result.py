@@ -27,7 +27,7 @@ class SupportPhaseRow(Row):
 
     phase: Annotated[str, Shown("down")]
     """Soles that are down."""
-    stretches: Annotated[int, Shown("times")]
+    intervals: Annotated[int, Shown("times")]
     """How often."""
     duration_s: Annotated[float, Shown("together", "s", digits=2)]
     """How long together, from first sample to last of each."""
@@ -166,7 +166,7 @@ def phase_rows(intervals: Sequence[IntervalBalance]) -> Iterator[SupportPhaseRow
         half = np.fmax(float(force.half_width[0]), _half_width_of_stretches(stretches))
         yield SupportPhaseRow(
             phase=name,
-            stretches=len(phases),
+            intervals=len(phases),
             duration_s=sum(phase.duration_s for _, phase in phases),
             samples=len(net),
             net_N=mean,

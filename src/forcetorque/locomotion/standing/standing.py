@@ -50,13 +50,13 @@ class Balance(DrawnResult):
 
     interval_uses = ()
 
-    schema_name: Literal["forcetorque/balance/1"] = Field(default="forcetorque/balance/1", alias="schema")
+    schema_name: Literal["forcetorque/balance/2"] = Field(default="forcetorque/balance/2", alias="schema")
     """Form of the result."""
     experiments: tuple[str, ...]
     """Names of the experiments that are counted."""
     weight_N: float | None
     """Weight of the robot; None where it is unknown, or robots differ."""
-    touch_N: float
+    contact_threshold_N: float
     """Force that a contact reaches."""
     release_N: float
     """Force above which it lasts."""
@@ -104,7 +104,8 @@ class Balance(DrawnResult):
         if self.pendulum:
             yield table_of(self.pendulum, "acceleration of the centre of mass by (5.22), beside that of the joints")
         yield (
-            f"a foot is down while it bears more than {self.release_N:.3g} N and reaches {self.touch_N:.3g} N"
+            f"a foot is down while it bears more than {self.release_N:.3g} N "
+            f"and reaches {self.contact_threshold_N:.3g} N"
             + (f", for {self.dwell_s:g} s at least" if self.dwell_s else "")
             + (f"; no centre of pressure below {self.least_load_N:.3g} N" if self.feet else "")
         )
@@ -200,7 +201,7 @@ def _summed_up(
     return Balance(
         experiments=names,
         weight_N=weight_N,
-        touch_N=thresholds.touch_N,
+        contact_threshold_N=thresholds.contact_threshold_N,
         release_N=thresholds.release_N,
         dwell_s=thresholds.dwell_s,
         least_load_N=options.least_load_N(intervals[0].weight_N),

@@ -24,12 +24,12 @@ RELEASE_SHARE: Final = 0.06
 class ContactThresholds:
     """Which forces make a contact.
 
-    A foot is down over a segment in which it always bears more than `release_N` and at some time `touch_N`: the first
-    says when a contact begins and ends, the second that it is one. A recording that is played backwards has the same
-    contacts, which a rule that looks at the past alone does not give.
+    A foot is down over a segment in which it always bears more than `release_N` and at some time
+    `contact_threshold_N`: the first says when a contact begins and ends, the second that it is one. A recording that is
+    played backwards has the same contacts, which a rule that looks at the past alone does not give.
     """
 
-    touch_N: float
+    contact_threshold_N: float
     """Force that a contact reaches; N."""
     release_N: float
     """Force above which it lasts; N."""
@@ -37,9 +37,9 @@ class ContactThresholds:
     """Shortest pause between contacts, and shortest contact, that count; s."""
 
     def __post_init__(self) -> None:
-        if not (np.isfinite(self.touch_N) and 0.0 < self.release_N <= self.touch_N):
+        if not (np.isfinite(self.contact_threshold_N) and 0.0 < self.release_N <= self.contact_threshold_N):
             raise EstimationError(
-                f"thresholds: expected 0 < release <= touch, got touch {self.touch_N:g} N and release "
+                f"thresholds: expected 0 < release <= touch, got touch {self.contact_threshold_N:g} N and release "
                 f"{self.release_N:g} N; where they cross no force determines whether a foot is down"
             )
         if not 0.0 <= self.dwell_s < np.inf:
@@ -114,7 +114,7 @@ def stretches(values: FloatArray | IntArray | BoolArray) -> list[slice]:
 def _in_segment(force: FloatArray, time: FloatArray, thresholds: ContactThresholds) -> BoolArray:
     down: BoolArray = force > thresholds.release_N
     for stretch in stretches(down):
-        down[stretch] &= force[stretch].max() >= thresholds.touch_N
+        down[stretch] &= force[stretch].max() >= thresholds.contact_threshold_N
     for state in (False, True):
         for stretch in stretches(down)[1:-1]:
             lasted = time[stretch.stop] - time[stretch.start]
@@ -238,8 +238,9 @@ def require_support(
         for foot, force in largest.items()
     )
     raise EstimationError(
-        f"no support phase found: expected a foot that bears {thresholds.touch_N:.3g} N at some time, got at most "
-        f"{most}; is the sign that of the ground on the foot, or the robot in the air? Lower the thresholds otherwise"
+        f"no support phase found: expected a foot that bears {thresholds.contact_threshold_N:.3g} N at some time, "
+        f"got at most {most}; is the sign that of the ground on the foot, or the robot in the air? Lower the "
+        "thresholds otherwise"
     )
 
 

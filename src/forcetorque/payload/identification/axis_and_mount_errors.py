@@ -175,7 +175,7 @@ def _confirmed(
     else:
         words = cause.words
     if words is not None:
-        yield HypothesisRow(name=cause.name, words=words, residual_share=left / stated, severity=cause.severity)
+        yield HypothesisRow(name=cause.name, description=words, residual_share=left / stated, severity=cause.severity)
 
 
 def _gain_words(problem: LoadProblem, cause: _Cause, *, drift: bool) -> str | None:

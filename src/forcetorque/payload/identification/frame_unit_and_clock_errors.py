@@ -73,7 +73,7 @@ def hypotheses(fitted: Fit, *, drift: bool) -> tuple[HypothesisRow, ...]:
         return (*_unit_of_gravity(rows), *_stated_as_nothing(problem))
     if np.abs(rows.moved(rows.wrench)).max() <= _ROUNDING * np.abs(rows.wrench).max():
         words = f"all {len(rows)} rows have the same reading: the log is frozen, or nothing was read"
-        return (HypothesisRow(name="frozen log", words=words, residual_share=1.0, severity="contradiction"),)
+        return (HypothesisRow(name="frozen log", description=words, residual_share=1.0, severity="contradiction"),)
     guess, residual = plain_fit(problem, drift=drift)
     stated = unexplained(rows, residual)
     named = [*_unit_of_gravity(rows), *_of_levers(fitted), *_stated_as_nothing(problem), *_reversed(fitted)]
@@ -81,7 +81,9 @@ def hypotheses(fitted: Fit, *, drift: bool) -> tuple[HypothesisRow, ...]:
         for name, words, limit, other in _others(problem):
             share = unexplained(other.rows, plain_fit(other, drift=drift)[1]) / stated
             if share < limit:
-                named.append(HypothesisRow(name=name, words=words, residual_share=share, severity="contradiction"))
+                named.append(
+                    HypothesisRow(name=name, description=words, residual_share=share, severity="contradiction")
+                )
     named += scales(problem, guess, other_sizes=not named)
     named += axis_errors(fitted, permuted=stated > _EXPLAINED, drift=drift) if not named else ()
     named += _lag(problem, residual, drift=drift)
@@ -167,14 +169,16 @@ def _reversed(fitted: Fit) -> Iterator[HypothesisRow]:
     half = fitted.half_width
     for k, one in enumerate(fitted.guess.parameters):
         if one.kind is Kind.MASS and fitted.guess.values[k] + _SURE * half[k] < 0.0:
-            yield HypothesisRow(name="reversed direction", words=words, residual_share=1.0, severity="contradiction")
+            yield HypothesisRow(
+                name="reversed direction", description=words, residual_share=1.0, severity="contradiction"
+            )
             return
     if all(load.mass is not None for load in problem.loads):
         rows, sign = problem.rows, replace(problem, direction=other)
         stated, turned = (unexplained(rows, plain_fit(one, drift=False)[1]) for one in (problem, sign))
         if turned < _BETTER * stated:
             yield HypothesisRow(
-                name="reversed direction", words=words, residual_share=turned / stated, severity="contradiction"
+                name="reversed direction", description=words, residual_share=turned / stated, severity="contradiction"
             )
 
 
@@ -183,7 +187,7 @@ def _unit_of_gravity(rows: LoadRows) -> Iterator[HypothesisRow]:
     gravity = float(np.median(np.linalg.norm(rows.proper_acceleration, axis=1)))
     if rows.angular_velocity_products is None and not 9.0 < gravity < 10.6:
         words = f"gravity is {gravity:.4g} m/s2: its unit is another one, such as g; state the unit of the column"
-        yield HypothesisRow(name="unit of gravity", words=words, residual_share=1.0, severity="contradiction")
+        yield HypothesisRow(name="unit of gravity", description=words, residual_share=1.0, severity="contradiction")
 
 
 def _of_levers(fitted: Fit) -> Iterator[HypothesisRow]:
@@ -206,21 +210,21 @@ def _of_levers(fitted: Fit) -> Iterator[HypothesisRow]:
                 f"the centre of mass of {load.name!r} is at least {nearest:.3g} m away: moments may be in N mm, or "
                 "forces in kg; state the units of the columns"
             )
-            yield HypothesisRow(name="mixed units", words=words, residual_share=1.0, severity="contradiction")
+            yield HypothesisRow(name="mixed units", description=words, residual_share=1.0, severity="contradiction")
         # the frame of a load on a link has its origin anywhere, at the centre of mass too
         if problem.rows.columns is None and error < size and size + error < _NEAR_M * (abs(mass) - mass_error):
             words = (
                 f"the centre of mass of {load.name!r} is {1e3 * size / abs(mass):.2g} mm from the sensor's origin: "
                 "moments may be in N m where N mm is stated; state the units of the columns"
             )
-            yield HypothesisRow(name="mixed units", words=words, residual_share=1.0, severity="contradiction")
+            yield HypothesisRow(name="mixed units", description=words, residual_share=1.0, severity="contradiction")
 
 
 def _stated_as_nothing(problem: LoadProblem) -> Iterator[HypothesisRow]:
     """Loads that weigh nothing by what is stated."""
     if all(load.mass == 0.0 for load in problem.loads):
         words = "all masses are stated as 0: state those of the weights, or leave them out to estimate them"
-        yield HypothesisRow(name="no load", words=words, residual_share=1.0, severity="contradiction")
+        yield HypothesisRow(name="no load", description=words, residual_share=1.0, severity="contradiction")
 
 
 def _of_nothing(fitted: Fit) -> Iterator[HypothesisRow]:
@@ -233,7 +237,7 @@ def _of_nothing(fitted: Fit) -> Iterator[HypothesisRow]:
         if one.kind is Kind.MASS and turns and abs(fitted.guess.values[k]) <= half[k] < np.inf:
             words = f"the mass of {problem.loads[one.owner].name!r} is not told from 0 although gravity turns"
             sentence = f"{words}: nothing hangs on the sensor, or it was not read"
-            yield HypothesisRow(name="no load", words=sentence, residual_share=1.0, severity="contradiction")
+            yield HypothesisRow(name="no load", description=sentence, residual_share=1.0, severity="contradiction")
 
 
 def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator[HypothesisRow]:
@@ -258,7 +262,7 @@ def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator
             f"the reading is about {abs(_LAGS[best]):.1f} s {side} the motion, as a filter or another clock makes it: "
             "shift the clock of the stream, or use rows in which nothing moves"
         )
-        yield HypothesisRow(name="lag", words=words, residual_share=float(shares[best]), severity="caution")
+        yield HypothesisRow(name="lag", description=words, residual_share=float(shares[best]), severity="caution")
 
 
 def _behind(rows: LoadRows, time_s: FloatArray, lag: float) -> LoadRows:
@@ -299,4 +303,4 @@ def _jump(fitted: Fit, residual: FloatArray, *, drift: bool) -> Iterator[Hypothe
     )
     share = unexplained(rows, left) / stated
     if share < _LESS_FOR_JUMP:
-        yield HypothesisRow(name="jump", words=words, residual_share=share, severity="caution")
+        yield HypothesisRow(name="jump", description=words, residual_share=share, severity="caution")

@@ -97,7 +97,7 @@ class BiasRow(Row):
 
     session: Annotated[str, Shown("session")]
     """Name of the session."""
-    rows: Annotated[int, Shown("rows")]
+    observations: Annotated[int, Shown("observations")]
     """Number of means or poses in it."""
     at_s: Annotated[float | None, Shown("at", "s", digits=0)]
     """Instant of the bias; s from the earliest stamp."""
@@ -155,7 +155,7 @@ class BiasTestRow(Row):
 class OutlierRow(Row):
     """A row that disagrees with all others, and was weighed down."""
 
-    row: Annotated[str, Shown("row")]
+    observation: Annotated[str, Shown("observation")]
     """Where it is from."""
     session: str
     """Name of its session."""
@@ -170,7 +170,7 @@ class HypothesisRow(Row):
 
     name: str
     """Such as `swapped columns`."""
-    words: str
+    description: str
     """What is to be changed."""
     residual_share: float
     """What it leaves of the residual of the file as it is; 1 where it is told by sizes alone."""

@@ -193,7 +193,7 @@ def _session(fitted: Fit, number: int, half: FloatArray) -> BiasRow:
     mine = problem.rows.session == number
     return BiasRow(
         session=problem.sessions[number],
-        rows=int(mine.sum()),
+        observations=int(mine.sum()),
         at_s=float(instants(problem.rows)[mine].mean()) if mine.any() else None,
         bias=six(values[bias]) if bias else (None,) * 6,
         bias_half_width_95=six(half[bias]) if bias else (None,) * 6,
@@ -213,7 +213,7 @@ def _variable(fitted: Fit, number: int, half: FloatArray) -> VariableRow:
 def _disagreeing(fitted: Fit) -> tuple[OutlierRow, ...]:
     return tuple(
         OutlierRow(
-            row=fitted.problem.rows.names[k],
+            observation=fitted.problem.rows.names[k],
             session=fitted.problem.sessions[fitted.problem.rows.session[k]],
             weight=float(fitted.weight[k]),
             residual=fitted.residual[k],

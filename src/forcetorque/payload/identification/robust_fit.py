@@ -135,7 +135,7 @@ def scales(problem: LoadProblem, guess: Guess, *, other_sizes: bool) -> Iterator
         else:
             continue
         size = f"{what} change by {factor:.4g} of what the stated loads make of them"
-        yield HypothesisRow(name=name, words=f"{size}: {words}", residual_share=1.0, severity="contradiction")
+        yield HypothesisRow(name=name, description=f"{size}: {words}", residual_share=1.0, severity="contradiction")
 
 
 def _scale(

@@ -134,7 +134,7 @@ def _contradictions(run: SensorRun, hanging: WristLoads, weighed: WeighedLoad | 
     # a mass that is stated as 0 is no mistake: a robot may be told that nothing hangs there
     spared = {"no load"} if hanging.are_stated else set()
     against = (account for account in accounts if account.severity == "contradiction")
-    yield from (f"{account.name}: {account.words}" for account in against if account.name not in spared)
+    yield from (f"{account.name}: {account.description}" for account in against if account.name not in spared)
     yield from overweight_loads(run)
 
 

@@ -131,13 +131,13 @@ class Response(DrawnResult):
     drawn_by: ClassVar[str] = "forcetorque.sensor.figures:response_figure"
     answered_by: ClassVar[str | None] = "forcetorque.sensor.bandwidth.answers:response_answer"
 
-    schema_name: Literal["forcetorque/response/1"] = Field(default="forcetorque/response/1", alias="schema")
+    schema_name: Literal["forcetorque/response/2"] = Field(default="forcetorque/response/2", alias="schema")
     """Form of the result."""
     sensor: str
     """Sensor."""
     serial: str
     """Its serial number."""
-    reading: str
+    wrench_source: str
     """What makes a wrench of its reading."""
     excitation: ExcitationKind
     """What was done to it."""
@@ -168,7 +168,7 @@ class Response(DrawnResult):
         Yields:
             Tables and sentences.
         """
-        what = f"{self.sensor} ({self.serial}), {self.reading}: {self.excitation}, {self.signal}"
+        what = f"{self.sensor} ({self.serial}), {self.wrench_source}: {self.excitation}, {self.signal}"
         if self.events:
             yield table_of(self.events, f"{what}: {len(self.events)} events")
         if self.numbers:
@@ -275,7 +275,7 @@ def response(
     result = Response(
         sensor=run.sensor.name,
         serial=run.sensor.serial,
-        reading=correction.source,
+        wrench_source=correction.source,
         excitation=kind,
         signal=component or _signal(kind, decays),
         force=force,
@@ -350,7 +350,7 @@ def _curve(transfer: FrequencyResponse, fit: SecondOrder | None) -> ResponseCurv
 def _warnings(
     result: Response, fit: SecondOrder | None, transfer: FrequencyResponse | None, decays: Decays | None
 ) -> Iterator[str]:
-    yield from (row.untold for row in result.events if row.untold is not None)
+    yield from (row.undetermined for row in result.events if row.undetermined is not None)
     for row in result.events:
         if row.frequency_hz is not None and row.frequency_hz > FOLDED_SHARE * result.rate_hz:
             yield (

@@ -43,7 +43,7 @@ class EventRow(Row):
     """Modes of the decay."""
     left_share: Annotated[float | None, Shown("left", digits=2)]
     """Share of the variance of the decay that these modes leave."""
-    untold: str | None = None
+    undetermined: str | None = None
     """Why no decay was determined."""
 
 
@@ -71,7 +71,7 @@ class DecayCurve(Row):
     """Which event."""
     time_s: Annotated[FloatArray, ArrayField((None,))]
     """Instants behind the event; shape (m,); s."""
-    reading: Annotated[FloatArray, ArrayField((None,))]
+    measurement: Annotated[FloatArray, ArrayField((None,))]
     """Reading; shape (m,)."""
     fitted: Annotated[FloatArray, ArrayField((None,))]
     """Fit; shape (m,)."""
@@ -270,7 +270,7 @@ def _row(one: Struck, event: Event, decay: RingDown | FitError) -> EventRow:
         damping_half_width_95=None if half is None else float(half[1]),
         modes=None if ring_down is None else ring_down.modes,
         left_share=None if ring_down is None else ring_down.left,
-        untold=None if ring_down is not None else str(decay),
+        undetermined=None if ring_down is not None else str(decay),
     )
 
 
@@ -280,7 +280,7 @@ def _curve(one: Struck, event: Event, decay: RingDown) -> DecayCurve:
     return DecayCurve(
         title=f"{one.record.name}, {time[event.peak]:.2f} s",
         time_s=time[span] - time[event.peak],
-        reading=one.signal.signals[span, 0],
+        measurement=one.signal.signals[span, 0],
         fitted=decay.fitted,
     )
 

@@ -30,7 +30,7 @@ def gains_answers(gains: Gains) -> Iterator[Answer]:
         yield Answer(
             subject=f"{row.sensor} ({row.serial})",
             verdict=_verdict(row.channels),
-            why=(_nearest(row, gains.margin), *(_UNKNOWN_CONTACT if raised and not row.contact_stated else ())),
+            why=(_nearest(row, gains.margin), *(_UNKNOWN_CONTACT if raised and not row.contact_specified else ())),
             step=_step(row),
             written=(gains.figure_file,),
             concern=_concern(row, raised=raised),
@@ -85,4 +85,4 @@ def _step(row: SensorRow) -> str:
 def _concern(row: SensorRow, *, raised: bool) -> Concern:
     if row.repeat or any(channel.change is GainChange.NONE_FITS for channel in row.channels):
         return Concern.BAD
-    return Concern.UNCERTAIN if raised and not row.contact_stated else Concern.NONE
+    return Concern.UNCERTAIN if raised and not row.contact_specified else Concern.NONE

@@ -149,7 +149,7 @@ class Gains(DrawnResult):
     drawn_by: ClassVar[str] = "forcetorque.sensor.figures:gain_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("drawn",)
 
-    schema_name: Literal["forcetorque/gains/1"] = Field(default="forcetorque/gains/1", alias="schema")
+    schema_name: Literal["forcetorque/gains/2"] = Field(default="forcetorque/gains/2", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment."""
@@ -212,7 +212,7 @@ def select_gains(run: SensorRun, calibration: OneCalibration | None = None, *, m
         frozen=counts.frozen,
         recovered=counts.recovered,
         limit_counts=run.sensor.limit_counts,
-        contact_stated=has_contact(run),
+        contact_specified=has_contact(run),
         repeat=counts.frozen > 0 or any(channel.saturated_share > 0.0 for channel in channels),
         channels=channels,
         matrix=source,

@@ -116,7 +116,7 @@ class SensorRow(Row):
     """Whether counts came through the inverse of the prior; an offset of the electronics is not in them."""
     limit_counts: float
     """Largest magnitude of a reading."""
-    contact_stated: bool
+    contact_specified: bool
     """Whether the file says of any interval that something touches the robot beyond the sensor."""
     repeat: bool
     """Whether the motion is to be repeated because a channel saturated or the reading froze."""
@@ -136,7 +136,7 @@ class SensorRow(Row):
             Tables and sentences.
         """
         yield _channel_table(self)
-        if not self.contact_stated and any(channel.change is GainChange.RAISE for channel in self.channels):
+        if not self.contact_specified and any(channel.change is GainChange.RAISE for channel in self.channels):
             yield (
                 "no contact is specified distal to the sensor: whether operating loads were recorded, and the "
                 "head-room under contact, is unknown; raise a gain only if nothing will touch the limb, or record the "

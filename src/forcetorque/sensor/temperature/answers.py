@@ -30,9 +30,9 @@ def thermal_answers(thermal: Thermal) -> Iterator[Answer]:
         stated = row.variable_table() is not None
         yield Answer(
             subject=f"{row.sensor} ({row.serial})",
-            verdict=drift if row.told_from_time else "NOT SEPARABLE FROM DRIFT IN TIME",
+            verdict=drift if row.separable_from_time else "NOT SEPARABLE FROM DRIFT IN TIME",
             why=(
-                f"{'largest' if row.told_from_time else drift}; of the moments {left}drift of {moment.signal} "
+                f"{'largest' if row.separable_from_time else drift}; of the moments {left}drift of {moment.signal} "
                 f"{_drift(moment)}",
                 f"{row.samples} samples, {row.cycles:g} times heated and cooled, {row.lowest_degC:.1f} to "
                 f"{row.highest_degC:.1f} degC",
@@ -40,7 +40,7 @@ def thermal_answers(thermal: Thermal) -> Iterator[Answer]:
             step="" if row.corrected else _STATE if stated else "record it heated and cooled several times",
             command=typed("bench", "thermal", EXPERIMENT, "--details") if stated else "",
             written=(thermal.figure_file,),
-            concern=Concern.NONE if row.told_from_time else Concern.UNCERTAIN,
+            concern=Concern.NONE if row.separable_from_time else Concern.UNCERTAIN,
         )
 
 

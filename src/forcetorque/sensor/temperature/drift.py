@@ -73,7 +73,7 @@ class DriftFit(ArrayRecord):
     """The same without offset and drift in time; shape (m, k)."""
 
     @property
-    def told_from_time(self) -> bool:
+    def separable_from_time(self) -> bool:
         """Whether drift with temperature was separable from drift with time."""
         return self.drift_per_hour is not None
 

@@ -70,7 +70,7 @@ class ThermalCurve(Row):
     """Temperatures; shape (m,)."""
     heating: Annotated[FloatArray, ArrayField((None,))]
     """1 while it is heated, -1 while it cools; shape (m,)."""
-    reading: Annotated[FloatArray, ArrayField((None, None))]
+    measurement: Annotated[FloatArray, ArrayField((None, None))]
     """Readings without offset and drift in time; shape (m, k)."""
     reference_degC: float
     """Mean temperature, about which lines turn."""
@@ -83,7 +83,7 @@ class SensorThermal(Row):
     """Sensor."""
     serial: str
     """Its serial number."""
-    reading: str
+    wrench_source: str
     """What makes a wrench of its reading."""
     variable: str
     """Variable that is its temperature."""
@@ -99,7 +99,7 @@ class SensorThermal(Row):
     """Mean temperature."""
     cycles: float
     """Cycles of heating and cooling; 0.5 for one of both."""
-    told_from_time: bool
+    separable_from_time: bool
     """Whether drift with temperature was separable from drift in time."""
     components: tuple[ThermalDriftRow, ...]
     """Drift of fx fy fz tx ty tz."""
@@ -122,8 +122,8 @@ class SensorThermal(Row):
             Tables and sentences.
         """
         caption = (
-            f"{self.sensor} ({self.serial}), {self.reading}: {self.samples} samples, {self.cycles:g} times heated and "
-            f"cooled, {self.lowest_degC:.1f} to {self.highest_degC:.1f} degC"
+            f"{self.sensor} ({self.serial}), {self.wrench_source}: {self.samples} samples, {self.cycles:g} times "
+            f"heated and cooled, {self.lowest_degC:.1f} to {self.highest_degC:.1f} degC"
         )
         yield table_of(self.components, caption)
         if self.channels:
@@ -142,7 +142,7 @@ class SensorThermal(Row):
         Returns:
             Lines of TOML; None where the drift is not known, or is what another correction leaves.
         """
-        if not self.told_from_time or self.corrected:
+        if not self.separable_from_time or self.corrected:
             return None
         # a calibration adds its coefficients, so that they are minus the drift
         lines = {
@@ -161,7 +161,7 @@ class Thermal(DrawnResult):
 
     interval_uses = ()
 
-    schema_name: Literal["forcetorque/thermal/1"] = Field(default="forcetorque/thermal/1", alias="schema")
+    schema_name: Literal["forcetorque/thermal/2"] = Field(default="forcetorque/thermal/2", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment."""
@@ -219,7 +219,7 @@ def temperature_drift(
     sensor = SensorThermal(
         sensor=run.sensor.name,
         serial=run.sensor.serial,
-        reading=correction.source,
+        wrench_source=correction.source,
         variable=temperature.linear.name,
         samples=len(degrees),
         sessions=len(sessions),
@@ -227,7 +227,7 @@ def temperature_drift(
         highest_degC=float(degrees.max()),
         reference_degC=fit.reference_degC,
         cycles=cycles.cycles,
-        told_from_time=fit.told_from_time,
+        separable_from_time=fit.separable_from_time,
         components=tuple(rows[: len(names)]),
         channels=tuple(rows[len(names) :]),
         thermometer_lag_s=fit.lag_s if fit.lag_error_s else None,
@@ -237,7 +237,7 @@ def temperature_drift(
             signals=tuple(f"{signal}, {unit}" for signal, unit in names),
             temperature_degC=settled.temperature_degC,
             heating=settled.heating,
-            reading=fit.at_temperature[:, : len(names)],
+            measurement=fit.at_temperature[:, : len(names)],
             reference_degC=fit.reference_degC,
         ),
     )
@@ -303,7 +303,7 @@ def _warnings(sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: LoadSt
             f"{sensor.sensor}: its temperature went through {cycles.range_degC:.2g} degC only: coefficients are worth "
             f"their intervals; heat it through what it will see, at least {LEAST_RANGE_DEGC:g} degC"
         )
-    if not fit.told_from_time:
+    if not fit.separable_from_time:
         yield (
             f"{sensor.sensor}: its temperature went with time alone, so that drift with temperature and drift in time "
             "are one: what is given per degC is both; record heating and cooling"

@@ -90,7 +90,7 @@ class Sensors(Table):
     """Torques of the screws around the rim, evenly spaced from the x axis on."""
     mounting_strength: NotNegative = 0.0
     """Relative change of an in-plane channel where the rim is tighter by 2 N m; even screws change nothing."""
-    mounting_spread: NotNegative = 0.0
+    mounting_sd: NotNegative = 0.0
     """Random change of each coefficient that mounting adds, relative to its row."""
     step_counts: NotNegative = 1.0
     """Step of the converter; 0 for none."""
@@ -104,11 +104,11 @@ class Sensors(Table):
     @model_validator(mode="after")
     def _one_error_of_the_matrix(self) -> Sensors:
         if self.matrix_error is not None and (
-            self.mounting_spread or self.mounting_strength or self.workbench_error is not None
+            self.mounting_sd or self.mounting_strength or self.workbench_error is not None
         ):
             raise PydanticCustomError(
                 "matrix_error",
-                "matrix_error stands for all that mounting does; leave it out, or mounting_spread, mounting_strength "
+                "matrix_error stands for all that mounting does; leave it out, or mounting_sd, mounting_strength "
                 "and workbench_error",
             )
         return self

@@ -48,7 +48,7 @@ class SkinCalibration(DrawnResult):
     drawn_fields: ClassVar[tuple[str, ...]] = ("picture",)
     answered_by: ClassVar[str | None] = "forcetorque.skin.answers:skin_calibration_answer"
 
-    schema_name: Literal["forcetorque/skin_calibrate/1"] = Field(default="forcetorque/skin_calibrate/1", alias="schema")
+    schema_name: Literal["forcetorque/skin_calibrate/2"] = Field(default="forcetorque/skin_calibrate/2", alias="schema")
     """Form of the result."""
     patch: str
     """Name of the patch."""
@@ -58,7 +58,7 @@ class SkinCalibration(DrawnResult):
     """Form of the curves that were kept."""
     highest_kPa: float
     """Highest pressure above rest that was fitted."""
-    sound: int
+    valid_taxels: int
     """Taxels with a curve."""
     left_out: int
     """Taxels without."""
@@ -94,7 +94,7 @@ class SkinCalibration(DrawnResult):
         if len(self.taxels) > _SHOWN:
             yield f"{len(self.taxels) - _SHOWN} more taxels; --format csv or json has all"
         yield (
-            f"{self.sound} of {len(self.taxels)} taxels have a curve ({self.curve}, fitted up to "
+            f"{self.valid_taxels} of {len(self.taxels)} taxels have a curve ({self.curve}, fitted up to "
             f"{self.highest_kPa:.0f} kPa); {self.left_out} were left out"
         )
         if self.warm_up is not None:
@@ -270,7 +270,7 @@ def _result(
         serial=artefact.serial,
         curve=artefact.curve.value,
         highest_kPa=1e-3 * artefact.highest_pa,
-        sound=len(columns) - left_out,
+        valid_taxels=len(columns) - left_out,
         left_out=left_out,
         least_inside=comparison.least_inside,
         least_above=comparison.least_above,

@@ -31,7 +31,7 @@ class SkinRecordingRow(Row):
     """Highest pressure above that at rest."""
     rest_kPa: Annotated[float, Shown("at rest", "kPa", digits=1)]
     """Reading of the pressure at rest, from which it counts."""
-    sound: Annotated[int, Shown("sound")]
+    valid_taxels: Annotated[int, Shown("valid")]
     """Taxels with which nothing is wrong in it."""
     wraps: Annotated[int, Shown("wrap")]
     """Taxels that run below 0 and go on at 255; a taxel may have several faults."""
@@ -109,7 +109,7 @@ def recording_row(recording: PatchRecording) -> SkinRecordingRow:
         messages=len(recording.seconds),
         highest_kPa=1e-3 * recording.cycle.highest,
         rest_kPa=1e-3 * recording.cycle.rest_pressure,
-        sound=int(np.count_nonzero(recording.valid)),
+        valid_taxels=int(np.count_nonzero(recording.valid)),
         **{name.name.lower(): number[name] for name in TaxelFault},
     )
 

@@ -270,7 +270,7 @@ class WarmUpRow(Row):
     """Taxels with gains."""
     gain: Annotated[float, Shown("gain", digits=2)]
     """Median of their gains; 1 is the rule of the firmware."""
-    gain_spread: Annotated[float, Shown("spread", digits=2)]
+    gain_sd: Annotated[float, Shown("spread", digits=2)]
     """Standard deviation of them from taxel to taxel."""
     misfit_counts: Annotated[float, Shown("misfit", "counts", digits=2)]
     """Median of what the pads leave of a taxel's change."""
@@ -392,7 +392,7 @@ def warm_up_row(learned: WarmUp) -> WarmUpRow:
         pad_change_counts=learned.pad_change_counts,
         taxels=len(taxels),
         gain=float(np.median(gains)),
-        gain_spread=float(gains.std()),
+        gain_sd=float(gains.std()),
         misfit_counts=float(np.median([heat.misfit_counts for heat in taxels])),
         lag_s=float(np.median(HeatGains.learned(learned.taxels).lags)),
         unexplained_counts=max(heat.unexplained_counts for heat in taxels),

@@ -198,7 +198,7 @@ class SkinEventRow(Row):
     """Stream."""
     messages: Annotated[int, Shown("messages")]
     """Messages."""
-    touched: Annotated[int, Shown("with a contact")]
+    messages_with_contact: Annotated[int, Shown("with a contact")]
     """Messages with a contact."""
     contacts: Annotated[int, Shown("contacts")]
     """Contacts of all messages."""
@@ -255,7 +255,7 @@ def _summary(stream: Stream, start_ns: int) -> tuple[SkinEventRow, SkinEventPict
     row = SkinEventRow(
         stream=stream.name,
         messages=len(rows),
-        touched=int(np.count_nonzero(counts)),
+        messages_with_contact=int(np.count_nonzero(counts)),
         contacts=int(counts.sum()),
         most=int(counts.max(initial=0)),
         followed=int(np.concatenate([[0], *identities]).max()),

@@ -109,7 +109,7 @@ class SkinWrench(DrawnResult):
     drawn_by: ClassVar[str] = "forcetorque.skin.figures:skin_wrench_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("picture",)
 
-    schema_name: Literal["forcetorque/skin_wrench/1"] = Field(default="forcetorque/skin_wrench/1", alias="schema")
+    schema_name: Literal["forcetorque/skin_wrench/2"] = Field(default="forcetorque/skin_wrench/2", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment."""
@@ -127,7 +127,7 @@ class SkinWrench(DrawnResult):
     """Columns of taxels without a table, or useless in this recording."""
     frames: int
     """Means of messages that were evaluated."""
-    touched: int
+    frames_with_contact: int
     """How many of them have a contact."""
     averaged: int
     """Messages of each."""
@@ -160,7 +160,7 @@ class SkinWrench(DrawnResult):
             yield f"{len(self.lives) - _SHOWN} more contacts"
         yield (
             f"{self.patch} on {self.link}, method {self.method}: {self.taxels - len(self.left_out)} of {self.taxels} "
-            f"taxels; touched in {self.touched} of {self.frames} means of {self.averaged} messages, with "
+            f"taxels; touched in {self.frames_with_contact} of {self.frames} means of {self.averaged} messages, with "
             f"{self.mean_force_N:.2f} N on average and {self.largest_force_N:.2f} N at most; heat: {self.temperature}"
         )
         if self.releases:
@@ -264,7 +264,7 @@ def _result(content: PatchExperiment, frames: PatchFrames, chosen: WrenchChoice)
         taxels=len(skin.layout),
         left_out=tuple(skin.layout.taxels[~read.reader.live].tolist()),
         frames=len(read.frames),
-        touched=int(touched.sum()),
+        frames_with_contact=int(touched.sum()),
         averaged=chosen.averaged,
         largest_force_N=float(force.max()),
         mean_force_N=float(force[touched].mean()) if touched.any() else 0.0,
