@@ -247,11 +247,11 @@ TABLES = {
     'kind = "state_ext"': (r"recording.stream\[1\]", "joints, kind, name, port"),
     "[[sensor]]": (
         r"sensor\[0\]",
-        "allowed_gains, amplifier_gain, frame, full_scale, joint, limit_counts, measure_direction, mount, name, prior, "
-        "measurement_offset_sd, measurement_noise, serial, stream, variable",
+        "allowed_gains, amplifier_gain, frame, full_scale, joint, limit_counts, measure_direction, measurement_noise, "
+        "measurement_offset_sd, mount, name, prior, serial, stream, variable",
     ),
     "[[support]]": (r"support\[0\]", "frame, gravity_direction, imu"),
-    'label = "judge"': (r"interval\[1\]", "end_s, kind, label, load, session, start_s, support, touched, use"),
+    'label = "judge"': (r"interval\[1\]", "contact_links, end_s, kind, label, load, session, start_s, support, use"),
     "[processing]": ("processing", "derivatives, smoothing"),
     "[calibration]": (
         "calibration",

@@ -192,7 +192,7 @@ def test_a_list_that_is_too_short_is_named_with_what_it_lacks(
 ) -> None:
     """One line of place, expectation and what came, for lists of every length; the whole lists are accepted."""
     edit(scenario, '[[recording]]\nname = "fit"', f'{ERROR}gravity_direction = [0.0, 0.0, 1.0]\nname = "fit"')
-    edit(scenario, "mounting_sd", "screw_torque_Nm = [2.0, 2.0, 2.0, 1.0]\nmounting_spread")
+    edit(scenario, "mounting_sd", "screw_torque_Nm = [2.0, 2.0, 2.0, 1.0]\nmounting_sd")
     load_scenario(scenario)
     edit(scenario, old, short)
     error = run("simulate", scenario, "-o", "out").error()
