@@ -207,6 +207,7 @@ def _add(
 ) -> None:
     """Add the equations of a part, each row by the noise that is left over, less what noise adds."""
     changes, scale = part.noise.shape[1], float(part.common @ mean[own])
+    weighed, response = np.zeros((len(own), len(own))), np.zeros(len(own))
     for row in range(6):
         weight = 1.0 / (variance[row] * _REPEATS)
         noise = part.noise[row]
@@ -217,8 +218,10 @@ def _add(
         right[:changes] += share * noise @ one[:changes]  # the same noise stands in coefficients and right side
         # what else is left over grows with all sensors and masses together: a fit would shrink them alike for nothing
         right += max(variance[row] - share * claimed, 0.0) * part.count * (1.0 + scale) * part.common
-        products[np.ix_(own, own)] += weight * left
-        shared[own] += weight * right
+        weighed += weight * left
+        response += weight * right
+    products[np.ix_(own, own)] += weighed
+    shared[own] += response
 
 
 def _prior_root(places: Places, spreads: Sequence[ChangeSpread], size: FloatArray) -> FloatArray:
