@@ -406,7 +406,8 @@ def _ascend(rows: Sequence[_Row], model: Sizes, sizes: FloatArray, freedom: int)
     chosen = np.zeros(len(rows), dtype=np.int64)
     unknowns: list[Unknowns] = []
     deviance = 0.0
-    choices = _CHOICES_TOGETHER if model.coupled else _CHOICES
+    coupled = model.coupled
+    choices = _CHOICES_TOGETHER if coupled else _CHOICES
     # an unknown that rows share comes once
     places, once = np.unique(model.places.ravel(), return_index=True)
     for sweep in range(_SWEEPS):
@@ -417,7 +418,7 @@ def _ascend(rows: Sequence[_Row], model: Sizes, sizes: FloatArray, freedom: int)
                 values, _, along = row.spectra(deviations[model.places[k]], candidates)
                 _, of_shapes = row.settle(values, along, candidates, freedom, 4)
                 chosen[k] = candidates[np.argmin(of_shapes)]
-        if model.coupled:
+        if coupled:
             unknowns, deviance = _given_together(rows, model, deviations, chosen, freedom)
         else:
             solved = [
@@ -451,6 +452,8 @@ def _given_together(
     rows: Sequence[_Row], model: Sizes, deviations: FloatArray, chosen: IntArray, freedom: int
 ) -> tuple[list[Unknowns], float]:
     """The unknowns of all rows under sizes and the noise so far, with the deviance; and their noise anew."""
+    from scipy.linalg.lapack import dtrtri  # here because importing it takes longer than most commands
+
     products, shared = np.zeros((len(deviations), len(deviations))), np.zeros(len(deviations))
     deviance = 0.0
     for row, places, k in zip(rows, model.places, chosen, strict=True):
@@ -460,7 +463,8 @@ def _given_together(
         deviance += freedom * np.log(variance) + row.log_determinant[k] + row.response[k] / variance
     scaled = products * np.outer(deviations, deviations)
     factor = np.linalg.cholesky(scaled + np.eye(len(scaled)))
-    half = np.linalg.inv(factor) * deviations
+    inverse, _ = dtrtri(factor, lower=1)
+    half = inverse * deviations
     along = half @ shared
     coefficients, covariance = along @ half, half.T @ half
     deviance += 2.0 * float(np.log(np.diag(factor)).sum()) - float(along @ along)
