@@ -130,7 +130,8 @@ def test_a_load_that_samples_agree_on_may_be_written(tmp_path: Path) -> None:
         answer = _answer(weighed, disagreeing=(row,) * count)
         assert answer.concern is Concern.NONE
         assert answer.why[0].startswith("bias to be subtracted")
-        assert len(answer.why) == 2
+        assert answer.why[1].startswith("that interval holds within this recording")
+        assert len(answer.why) == 3
         assert "--to" in answer.command
     answer = _answer(weighed, disagreeing=(row,) * 3)
     assert (answer.concern, answer.why[0]) == (Concern.UNCERTAIN, "3 of 40 samples disagree with the others")

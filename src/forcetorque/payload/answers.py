@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from forcetorque.base.wrench import FORCE_AND_MOMENT
+from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.payload.result import fitted_drifts
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.tare_offset import STILL
@@ -70,8 +70,8 @@ def _reasons(weighed: WeighedLoad) -> tuple[str, ...]:
     if _disagree(weighed):
         count = f"{len(weighed.disagreeing)} of {weighed.rows} samples disagree with the others"
         first = "; ".join((*weighed.disagreements[:1], *((count,) if weighed.disagreeing else ())))
-        return (first, _bias(weighed), *_drift(weighed))
-    return (_bias(weighed), *_drift(weighed), _samples(weighed))
+        return (first, _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed))
+    return (_bias(weighed), *_drift(weighed), _bias_elsewhere(weighed), _samples(weighed))
 
 
 def _worst_session(weighed: WeighedLoad) -> str | None:
@@ -107,6 +107,24 @@ def _bias(weighed: WeighedLoad) -> str:
         "" if len(weighed.sessions) == 1 else f" of {last.session!r}, the last of {len(weighed.sessions)} power cycles,"
     )
     return f"bias{of} to be subtracted from measurements: {', '.join(parts) or 'not identifiable'}"
+
+
+def _bias_elsewhere(weighed: WeighedLoad) -> str:
+    """The interval of a bias knows noise within a recording, and not what another day or power cycle changes."""
+    between = [test.largest_difference for test in weighed.bias_tests if test.of == "sessions"]
+    moved = [value for value in between[0] if value is not None] if between else []
+    if len(moved) < len(WRENCH_COMPONENTS):
+        return "that interval holds within this recording: another day moves the bias further, so tare before use"
+    within = [max(moved[part]) <= _largest_half_width(weighed, part) for part in FORCE_AND_MOMENT]
+    if all(within):
+        return "power cycles moved the bias within that interval"
+    force, moment = (max(moved[part]) for part in FORCE_AND_MOMENT)
+    moves = f"{amount(force, 'N')} and {amount(moment, 'N m')}"
+    return f"between power cycles the bias moved by up to {moves}: tare before use"
+
+
+def _largest_half_width(weighed: WeighedLoad, part: slice) -> float:
+    return max((value or 0.0 for value in weighed.sessions[-1].bias_half_width_95[part]), default=0.0)
 
 
 def _samples(weighed: WeighedLoad) -> str:

@@ -139,7 +139,7 @@ def payload(
         if output is not None and to is not None:
             together = load if len(runs) > 1 else None
             robot = robot_load(runs[-1], load.sessions[-1].bias, weighed=together)
-            log.info("the bias is that of %r, the last power-up", load.sessions[-1].session)
+            log.info("the bias is that of %r, the last power-up; tare before use", load.sessions[-1].session)
             write_load(robot, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)
     if output == STANDARD_OUTPUT:  # the file itself went there
         show_warnings(load)
