@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
+from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree
 from forcetorque.payload.result import fitted_drifts
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.tare_offset import STILL
@@ -17,10 +18,6 @@ from forcetorque.results.table import short_names
 if TYPE_CHECKING:
     from forcetorque.payload.result import LoadRow, WeighedLoad
     from forcetorque.payload.tare_offset import Tare
-
-
-_MANY = 0.05
-"""Share of samples that disagree with the others, from which on something else than the load acts (heuristic)."""
 
 
 def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
@@ -36,7 +33,7 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
     step, command = _payload_step(weighed)
     for load in weighed.loads:
         name = "" if load.load == "load" else f", {load.load}"
-        doubtful = bool(contradicted or weighed.open or load.mass_kg is None or _disagree(weighed))
+        doubtful = bool(contradicted or weighed.open or load.mass_kg is None or samples_disagree(weighed))
         yield Answer(
             subject=f"{weighed.sensor} ({weighed.serial}){name}",
             verdict=_load_verdict(load),
@@ -61,15 +58,9 @@ def _load_verdict(load: LoadRow) -> str:
     return f"{mass} at {plus_minus(known, max(halves) if len(halves) == len(known) else None, 'mm')}"
 
 
-def _disagree(weighed: WeighedLoad) -> bool:
-    """Whether recordings, or too many samples, disagree for one load to explain them."""
-    return bool(weighed.disagreements) or len(weighed.disagreeing) > _MANY * weighed.rows
-
-
 def _reasons(weighed: WeighedLoad) -> tuple[str, ...]:
-    if _disagree(weighed):
-        count = f"{len(weighed.disagreeing)} of {weighed.rows} samples disagree with the others"
-        first = "; ".join((*weighed.disagreements[:1], *((count,) if weighed.disagreeing else ())))
+    if samples_disagree(weighed):
+        first = reason_to_withhold(weighed.model_copy(update={"hypotheses": ()})) or ""
         return (first, _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed))
     return (_bias(weighed), *_drift(weighed), _bias_elsewhere(weighed), _samples(weighed))
 
@@ -139,7 +130,7 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
     if weighed.hypotheses:
         first = weighed.hypotheses[0]
         return f"check for {first.name}: {first.words}", ""
-    if _disagree(weighed):
+    if samples_disagree(weighed):
         worst = _worst_session(weighed)
         which = "what disagrees, in --details" if worst is None else f"{worst!r}, which disagrees"
         words = f"look at {which}: contact is the likely cause; leave that out of the fit, and repeat"
