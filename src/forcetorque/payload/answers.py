@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree
-from forcetorque.payload.result import fitted_drifts
+from forcetorque.payload.result import fitted_drifts, mount_words, tilt_words
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.tare_offset import STILL
 from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
@@ -61,8 +61,16 @@ def _load_verdict(load: LoadRow) -> str:
 def _reasons(weighed: WeighedLoad) -> tuple[str, ...]:
     if samples_disagree(weighed):
         first = reason_to_withhold(weighed.model_copy(update={"hypotheses": ()})) or ""
-        return (first, _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed))
-    return (_bias(weighed), *_drift(weighed), _bias_elsewhere(weighed), _samples(weighed))
+        return (first, *_turned(weighed), _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed))
+    return (*_turned(weighed), _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed), _samples(weighed))
+
+
+def _turned(weighed: WeighedLoad) -> Iterator[str]:
+    """Mount and tilt, where the file asks for them."""
+    if weighed.mount_rad is not None:
+        yield mount_words(weighed.mount_rad, weighed.mount_half_width_rad)
+    if weighed.tilt_rad is not None:
+        yield tilt_words(weighed.tilt_rad, weighed.tilt_half_width_rad)
 
 
 def _worst_session(weighed: WeighedLoad) -> str | None:

@@ -196,6 +196,23 @@ def mount_words(mount_rad: Sequence[float], half_width_rad: Three | None) -> str
     return f"mount: the sensor is turned by ({parts}) deg (rotation vector) against the axes of the motion"
 
 
+def tilt_words(tilt_rad: Sequence[float], half_width_rad: Sequence[float | None] | None) -> str:
+    """Say how the world of the orientation streams is tilted against gravity.
+
+    Args:
+        tilt_rad: Rotation vector of gravity about x and y of the world; rad.
+        half_width_rad: Half-widths of 95 % intervals; rad; None where they are open.
+
+    Returns:
+        Both angles in degrees, with intervals.
+    """
+    parts = ", ".join(
+        f"{axis} {np.rad2deg(value):.2f} {'(open)' if half is None else f'±{np.rad2deg(half):.2f}'}"
+        for axis, value, half in zip("xy", tilt_rad, half_width_rad or (None, None), strict=True)
+    )
+    return f"tilt: gravity is turned about axes of the world by {parts} deg (95 %)"
+
+
 def drift_words(drift: DriftRow) -> str:
     """Say whether a drift was taken, and why.
 
@@ -348,6 +365,8 @@ class WeighedLoad(Result):
     """Half-widths of 95 % intervals of small rotations about the sensor's axes; rad; None where `mount_rad` is."""
     tilt_rad: tuple[float, float] | None
     """Rotation vector of gravity about x and y of the world; none where it was not asked for."""
+    tilt_half_width_rad: tuple[float | None, float | None] | None = None
+    """Half-widths of its 95 % intervals; rad; None where it is open, or `tilt_rad` is."""
     open: tuple[str, ...]
     """What the rows leave open, in sentences."""
     disagreeing: tuple[OutlierRow, ...]
@@ -381,6 +400,8 @@ class WeighedLoad(Result):
             yield table_of(self.variables, "what variables add to the reading, per unit")
         if self.mount_rad is not None:
             yield mount_words(self.mount_rad, self.mount_half_width_rad)
+        if self.tilt_rad is not None:
+            yield tilt_words(self.tilt_rad, self.tilt_half_width_rad)
         yield drift_words(self.drift)
         yield from (text for session in self.sessions if (text := _drift_text(session)) is not None)
         yield from (bias_words(test, self.loads) for test in self.bias_tests)
