@@ -121,7 +121,7 @@ def test_a_tilt_that_is_asked_for_stands_in_answer_and_details(tmp_path: Path) -
     weighed = _weighed(path)
     assert weighed.tilt_rad is not None
     assert weighed.tilt_half_width_rad is not None
-    text = f"tilt: gravity is turned about axes of the world by x {np.rad2deg(weighed.tilt_rad[0]):.2f} ±"
+    text = f"tilt of gravity about axes of the world: x {np.rad2deg(weighed.tilt_rad[0]):.2f} ±"
     assert any(line.startswith(text) for line in _answer(weighed).why)
     assert any(isinstance(block, str) and block.startswith(text) for block in weighed.blocks())
     # without the key nothing is said
@@ -147,7 +147,7 @@ def test_a_load_that_samples_agree_on_may_be_written(tmp_path: Path) -> None:
         answer = _answer(weighed, disagreeing=(row,) * count)
         assert answer.concern is Concern.NONE
         assert answer.why[0].startswith("bias to be subtracted")
-        assert answer.why[1].startswith("that interval holds within this recording")
+        assert answer.why[1].startswith("its interval holds in this recording")
         assert len(answer.why) == 3
         assert "--to" in answer.command
     answer = _answer(weighed, disagreeing=(row,) * 3)

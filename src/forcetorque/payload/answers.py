@@ -113,13 +113,12 @@ def _bias_elsewhere(weighed: WeighedLoad) -> str:
     between = [test.largest_difference for test in weighed.bias_tests if test.of == "sessions"]
     moved = [value for value in between[0] if value is not None] if between else []
     if len(moved) < len(WRENCH_COMPONENTS):
-        return "that interval holds within this recording: another day moves the bias further, so tare before use"
+        return "its interval holds in this recording, not on another day: tare before use"
     within = [max(moved[part]) <= _largest_half_width(weighed, part) for part in FORCE_AND_MOMENT]
     if all(within):
-        return "power cycles moved the bias within that interval"
+        return "power cycles moved the bias by no more than its interval"
     force, moment = (max(moved[part]) for part in FORCE_AND_MOMENT)
-    moves = f"{amount(force, 'N')} and {amount(moment, 'N m')}"
-    return f"between power cycles the bias moved by up to {moves}: tare before use"
+    return f"power cycles moved the bias by up to {amount(force, 'N')}, {amount(moment, 'N m')}: tare before use"
 
 
 def _largest_half_width(weighed: WeighedLoad, part: slice) -> float:

@@ -210,7 +210,7 @@ def tilt_words(tilt_rad: Sequence[float], half_width_rad: Sequence[float | None]
         f"{axis} {np.rad2deg(value):.2f} {'(open)' if half is None else f'±{np.rad2deg(half):.2f}'}"
         for axis, value, half in zip("xy", tilt_rad, half_width_rad or (None, None), strict=True)
     )
-    return f"tilt: gravity is turned about axes of the world by {parts} deg (95 %)"
+    return f"tilt of gravity about axes of the world: {parts} deg (95 %)"
 
 
 def drift_words(drift: DriftRow) -> str:
