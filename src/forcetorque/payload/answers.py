@@ -122,7 +122,7 @@ def _bias_elsewhere(weighed: WeighedLoad) -> str:
 
 
 def _largest_half_width(weighed: WeighedLoad, part: slice) -> float:
-    return max((value or 0.0 for value in weighed.sessions[-1].bias_half_width_95[part]), default=0.0)
+    return max((value or 0.0 for value in list(weighed.sessions[-1].bias_half_width_95)[part]), default=0.0)
 
 
 def _samples(weighed: WeighedLoad) -> str:

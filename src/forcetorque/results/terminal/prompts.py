@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import select
 import sys
+from io import BufferedReader
 
 import typer
 
@@ -28,7 +29,7 @@ def has_piped_lines() -> bool:
         return False
     try:
         ready, _, _ = select.select([sys.stdin], [], [], 0.0)
-        return bool(ready) and bool(sys.stdin.buffer.peek(1))
+        return bool(ready) and isinstance(sys.stdin.buffer, BufferedReader) and bool(sys.stdin.buffer.peek(1))
     except (OSError, ValueError, AttributeError):
         return False
 
