@@ -13,8 +13,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import Evaluation
-from forcetorque.evaluation.load_cases.validation_evidence import HARDLY
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.excitation import HARDLY
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Recording, Use

@@ -43,6 +43,25 @@ def test_findings_of_one_contact_are_one_event() -> None:
     ]
 
 
+def test_the_event_that_spoils_the_fit_most_is_first() -> None:
+    """By its force and the time that it acts in intervals in use; a contact outside of them and a gap come after."""
+    rows = (
+        _row("contact", 0.0, 15.0, size=160.0, unit="N"),
+        _row("gap", 20.0, 40.0, stream="joints", size=20.0, unit="s"),
+        _row("off_level", 41.0, 44.0, channel="fy", size=12.0, unit="N"),
+        _row("step", 50.0, 50.0, channel="tx", size=0.9, unit="N m"),
+        _row("outlier", 58.0, 58.0, channel="fx", size=90.0, unit="N"),
+    )
+    inspection = _inspection(*rows)
+    used = inspection.model_copy(update={"in_use_s": ((16.0, 60.0),)})
+    kinds = [
+        [line.split(": ")[1].split(" in ")[0].split(" up")[0] for line in inspection_answer(one).why[:4]]
+        for one in (used, inspection)
+    ]
+    assert kinds == [["step", "off level", "outlier", "contact"], ["contact", "step", "off level", "outlier"]]
+    assert "1 less harmful one(s)" in inspection_answer(used).why
+
+
 def test_the_bar_shows_the_time_without_events() -> None:
     """A third of a minute in the middle is not usable; a finding of the whole log takes nothing from it."""
     answer = inspection_answer(_inspection(_row("contact", 20.0, 40.0), _row("not_estimated", 0.0, 59.9)))

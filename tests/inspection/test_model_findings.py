@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -92,6 +94,38 @@ def test_a_contact_that_carries_the_limb_is_a_contact_and_nothing_else() -> None
     assert [finding.kind for finding in found if finding.start_ns < 19 * SECOND_NS] == ["contact"]
     assert found[0].size == pytest.approx(30.0, abs=1.5)
     assert found[0].start_ns == pytest.approx(10 * SECOND_NS, abs=0.3 * SECOND_NS)
+
+
+def test_a_contact_is_one_event_though_it_fills_most_of_the_log_and_lifts_only_at_times() -> None:
+    """35 of 60 s, in which the limb is lifted, pushed sideways, and lifted again; the level is that beside it."""
+    _, measured, expected, _ = _reading()
+    push = np.zeros(6)
+    push[[1, 3]] = 30.0, 4.0
+    measured[_span(15, 25)] -= 0.75 * expected[_span(15, 25)]
+    measured[_span(25, 40)] += push
+    measured[_span(40, 50)] -= 0.75 * expected[_span(40, 50)]
+    (contact,) = _find(measured)
+    assert contact.kind == "contact"
+    assert contact.start_ns == pytest.approx(15 * SECOND_NS, abs=0.3 * SECOND_NS)
+    assert contact.end_ns == pytest.approx(50 * SECOND_NS, abs=0.3 * SECOND_NS)
+
+
+@pytest.mark.real_data
+def test_the_contact_of_a_tool_is_one_event(data_dir: Path) -> None:
+    """A Gamma on a KUKA that rubs from 0.6 to 4.1 s of 6.3 s, under a load that was weighed in still poses."""
+    run = data_dir / "ati_gamma_kuka_med14_skrede" / "3-vibrations-contact"
+    wrench = np.loadtxt(f"{run}_wrench.csv", delimiter=",", skiprows=1)
+    turn = np.loadtxt(f"{run}_orientations.csv", delimiter=",", skiprows=1)
+    stamps = wrench[:, 0].astype(np.int64) * 1000
+    down = np.column_stack([np.interp(wrench[:, 0], turn[:, 0], -9.82085 * turn[:, column]) for column in (7, 8, 9)])
+    weight = 0.932 * down
+    expected = np.hstack([weight, np.cross([0.0003, 0.0, 0.0439], weight)])
+    found = model_findings("wrist", stamps, wrench[:, 1:], expected, in_use=np.ones(len(stamps), dtype=bool))
+    (contact,) = [one for one in found if one.kind != "outlier"]
+    assert contact.kind == "contact"
+    assert contact.size == pytest.approx(17.0, abs=1.0)
+    seconds = [(instant - stamps[0]) * 1e-9 for instant in (contact.start_ns, contact.end_ns)]
+    assert seconds == pytest.approx([0.6, 4.15], abs=0.2)
 
 
 def test_a_light_lift_leaves_both_readings_open() -> None:

@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError
 from forcetorque.calibration.calibrate import calibrate_sensor, data_doubts
@@ -28,6 +29,7 @@ from forcetorque.payload.result import WeighedLoad
 from forcetorque.recording.recording import Use
 from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import plus_minus
+from tests.scenes.wrist_postures import write_postures
 
 MASS, CENTRE = 1.1, np.array([0.01, -0.005, 0.07])
 BIAS = np.array([4.0, -2.0, 9.0, 0.3, 0.1, -0.2])
@@ -112,6 +114,21 @@ def test_the_load_is_estimated_on_the_calibration_poses(tmp_path: Path) -> None:
     np.testing.assert_allclose(session.bias, BIAS, atol=4 * NOISE.max())
 
 
+def test_a_tilt_that_is_asked_for_stands_in_answer_and_details(tmp_path: Path) -> None:
+    """A world that is level, by orientations: no tilt, with its interval."""
+    path = write_postures(tmp_path, seed=5, postures=Rotation.random(8, random_state=4), known=False)
+    path.write_text(path.read_text().replace("[load]\n", '[load]\ntilt = "unknown"\n'))
+    weighed = _weighed(path)
+    assert weighed.tilt_rad is not None
+    assert weighed.tilt_half_width_rad is not None
+    text = f"tilt of gravity about axes of the world: x {np.rad2deg(weighed.tilt_rad[0]):.2f} ±"
+    assert any(line.startswith(text) for line in _answer(weighed).why)
+    assert any(isinstance(block, str) and block.startswith(text) for block in weighed.blocks())
+    # without the key nothing is said
+    path.write_text(path.read_text().replace('tilt = "unknown"\n', ""))
+    assert not any(line.startswith("tilt") for line in _answer(_weighed(path)).why)
+
+
 def _weighed(path: Path) -> WeighedLoad:
     experiment = load_experiment(path)
     return weigh_load(SensorRun(experiment, experiment.sensors[0]))
@@ -130,7 +147,8 @@ def test_a_load_that_samples_agree_on_may_be_written(tmp_path: Path) -> None:
         answer = _answer(weighed, disagreeing=(row,) * count)
         assert answer.concern is Concern.NONE
         assert answer.why[0].startswith("bias to be subtracted")
-        assert len(answer.why) == 2
+        assert answer.why[1].startswith("its interval holds in this recording")
+        assert len(answer.why) == 3
         assert "--to" in answer.command
     answer = _answer(weighed, disagreeing=(row,) * 3)
     assert (answer.concern, answer.why[0]) == (Concern.UNCERTAIN, "3 of 40 samples disagree with the others")

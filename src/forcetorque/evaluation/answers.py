@@ -12,6 +12,7 @@ from forcetorque.evaluation.load_cases.verdict import (
     CORRECT_DATA,
     KEEP_PRIOR,
     LOOK_FOR_CAUSE,
+    RECORDED,
     Decision,
     LoadCaseError,
     LoadCaseVerdict,
@@ -83,11 +84,12 @@ def _of_uses(
     predicted = "; ".join(_predicted(error) for error in worst.errors)
     # what was measured speaks in the second line; other reasons, such as warnings, are said here
     first = f"{worst.loads}: {predicted or worst.message}"
+    beyond = () if worst.beyond_range is None else (worst.beyond_range,)
     step, command = _step(worst)
     return Answer(
         subject=subject,
-        verdict=decision if agree else f"{decision} for {worst.load_case}",
-        why=(first, *(() if _is_predicted(worst) else (reason.text,)), *_measured(row, compared)),
+        verdict=decision if agree and worst.load_case != RECORDED else f"{decision} for {worst.load_case}",
+        why=(first, *beyond, *(() if _is_predicted(worst) else (reason.text,)), *_measured(row, compared)),
         step=step,
         command=command,
         concern=CONCERN[worst.decision],
@@ -126,6 +128,10 @@ def _measured(row: CalibrationErrors, compared: Sequence[PriorComparison]) -> It
 
 def _step(use: LoadCaseVerdict) -> tuple[str, str]:
     """What to do next, and the command for it."""
+    if use.beyond_range is not None and use.decision == "not enough data":
+        return "state your loads as [[load_case]], and evaluate again", typed(
+            "evaluate", EXPERIMENT, "-c", use.calibration
+        )
     remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
     if remedy is None:
         return to_export(use.calibration, use.sensor)

@@ -54,6 +54,45 @@ class Event:
         words = "; ".join(_kind_text(kind, rows) for kind, rows in kinds.items())
         return f"{self.start_s:.1f}-{self.end_s:.1f} s, {self.findings[0].stream}: {words}"
 
+    def harm(self, in_use_s: Sequence[tuple[float, float]]) -> tuple[float, float, float]:
+        """Estimate how much it spoils a fit and its validation (a heuristic).
+
+        Args:
+            in_use_s: Begin and end of the intervals for calibration and validation; s.
+
+        Returns:
+            What orders events: largest force times the time in these intervals in which it acts; the force; the time
+            of the event. A step acts from its instant to the nearer end of an interval. Samples that every fit leaves
+            out, as in a gap, spoil none.
+        """
+        forces = [(row, _force(row)) for row in self.findings if row.kind not in _LEFT_OUT]
+        spoilt = max((force * sum(_acts_s(row, *one) for one in in_use_s) for row, force in forces), default=0.0)
+        return spoilt, max((force for _, force in forces), default=0.0), self.end_s - self.start_s
+
+
+_LEFT_OUT: Final = frozenset({"gap", "frozen", "stuck", "saturation", "lost_messages", "missing", "backward_stamp"})
+"""Kinds whose samples no fit has, or measures no force by."""
+_LEVER_M: Final = 0.1
+"""Lever by which a moment counts as a force."""
+_SAMPLE_S: Final = 0.01
+"""Time that an outlier acts for; s."""
+
+
+def _force(row: FindingRow) -> float:
+    """Size of a finding as a force; N; 0 of what is none."""
+    size = abs(row.size or 0.0)
+    return {"N": size, "N m": size / _LEVER_M}.get(row.unit or "", 0.0)
+
+
+def _acts_s(row: FindingRow, start_s: float, end_s: float) -> float:
+    """How long a finding acts in an interval; s."""
+    first, last = row.start_s or 0.0, row.end_s or 0.0
+    if not start_s <= last or not first <= end_s:
+        return 0.0
+    if row.kind == "step":
+        return min(first - start_s, end_s - first)
+    return max(min(last, end_s) - max(first, start_s), _SAMPLE_S)
+
 
 def _kind_text(kind: str, rows: Sequence[FindingRow]) -> str:
     """Such as `step in fx, fy up to 25 N`."""
@@ -149,7 +188,7 @@ def inspection_answer(inspection: Inspection) -> Answer:
         inspection: What was found in it.
 
     Returns:
-        Number of events, the longest of them, and a bar of the time that none of them takes.
+        Number of events, the most harmful of them first, and a bar of the time that none of them takes.
     """
     grouped = events(inspection.findings, inspection.duration_s)
     notes = [row.message for row in inspection.findings if is_about_all(row, inspection.duration_s)]
@@ -175,15 +214,15 @@ def inspection_answer(inspection: Inspection) -> Answer:
             command=typed("run", source, "-o", "results") if is_experiment else begin,
             concern=Concern.UNCERTAIN if notes else Concern.NONE,
         )
-    longest = sorted(grouped, key=lambda event: event.start_s - event.end_s)[:_MOST]
-    shown = [event.text for event in grouped if event in longest]
+    in_use = inspection.in_use_s or ((0.0, inspection.duration_s),)
+    shown = [event.text for event in sorted(grouped, key=lambda event: event.harm(in_use), reverse=True)[:_MOST]]
     rest = len(grouped) - len(shown)
     usable = _usable(grouped, inspection.duration_s)
     bar = f"0 s |{''.join('█' if cell else '░' for cell in usable)}| {inspection.duration_s:.0f} s; █ no event"
     return Answer(
         subject=subject,
         verdict=f"{len(grouped)} EVENT{'S' * (len(grouped) > 1)}",
-        why=(*shown, *((f"{rest} shorter one(s)",) if rest else ()), bar, *more),
+        why=(*shown, *((f"{rest} less harmful one(s)",) if rest else ()), bar, *more),
         step="leave these events out of every [[interval]]" if is_experiment else _NEXT[False],
         command=typed("init", "--resume", source) if is_experiment else begin,
         concern=Concern.UNCERTAIN,

@@ -52,6 +52,9 @@ def init(
     no_input: Annotated[
         bool, typer.Option("--no-input", help="With --resume: ask nothing, list questions or proposals.")
     ] = False,
+    yes: Annotated[
+        bool, typer.Option("--yes", help="With --resume: accept all proposals, of which each is tried first.")
+    ] = False,
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
@@ -76,7 +79,7 @@ def init(
             "--force": force,
         }
         _refuse_beside(resume, [name for name, value in of_log.items() if value])
-        _resume(resume, output_format, no_input=no_input, details=details)
+        _resume(resume, output_format, no_input=no_input, yes=yes, details=details)
         return
     from forcetorque.inspection.draft.draft import draft_experiment
 
@@ -109,14 +112,28 @@ def _refuse_beside(file: Path, options: list[str]) -> None:
         raise ExperimentError(f"--resume {file}: expected nothing of a log beside it, got {', '.join(options)}")
 
 
-def _resume(file: Path, output_format: Format, *, no_input: bool, details: bool) -> None:
+def _resume(file: Path, output_format: Format, *, no_input: bool, yes: bool, details: bool) -> None:
     from forcetorque.inspection.draft.questions import OPEN_QUESTIONS
     from forcetorque.inspection.draft.resume import resume_experiment
-    from forcetorque.results.terminal.prompts import accepts, ask, is_terminal
+    from forcetorque.results.terminal.prompts import accepts, ask, has_piped_lines, is_terminal
 
-    start_logging().info("reading %s", file)
-    asks = is_terminal() and not no_input
-    draft = resume_experiment(file, ask=ask if asks else None, accepts=accepts if asks else None)
+    if yes and no_input:
+        raise ExperimentError("--yes: expected without --no-input, which changes nothing")
+    if not (yes or no_input) and has_piped_lines():
+        raise ExperimentError(
+            "standard input: expected a terminal to answer in, got piped lines, which are not read; accept all "
+            "proposals by --yes, or list questions and proposals by --no-input"
+        )
+    log = start_logging()
+    log.info("reading %s", file)
+    asks = is_terminal() and not (no_input or yes)
+
+    def accepted(proposal: str) -> bool:
+        log.info("accepted: %s", proposal)
+        return True
+
+    consents = accepted if yes else accepts if asks else None
+    draft = resume_experiment(file, ask=ask if asks else None, accepts=consents)
     show(draft, output_format, details=details)
     if draft.questions or draft.proposals:
         raise typer.Exit(OPEN_QUESTIONS)

@@ -40,7 +40,7 @@ from forcetorque.inspection.file_contents import (
 )
 from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
 from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
-from forcetorque.recording.recording import Finding, Recording
+from forcetorque.recording.recording import Finding, Recording, Use
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Table, table_of
 from forcetorque.skin.experiment import PATCHES, PatchExperiment, load_patches
@@ -106,6 +106,8 @@ class Inspection(Result):
     """Rows of the smallest, largest and mean numbers, where these are not all rows, and the reason."""
     calibration: MakerCalibration | None = None
     """The calibration of the maker, where the file is one."""
+    in_use_s: tuple[tuple[float, float], ...] = ()
+    """Begin and end of the intervals for calibration and validation; s from the earliest stamp; none of a log."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.
@@ -210,6 +212,11 @@ def _inspection(source: str, recording: Recording, findings: Iterable[Finding]) 
         duration_s=(end - start) * 1e-9,
         findings=finding_rows(start, findings),
         clocks=clock_rows(recording.clocks),
+        in_use_s=tuple(
+            ((one.start_ns - start) * 1e-9, (min(one.end_ns, end) - start) * 1e-9)
+            for one in recording.intervals
+            if one.use is not Use.IGNORE
+        ),
     )
 
 

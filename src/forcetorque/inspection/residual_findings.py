@@ -4,7 +4,8 @@
 The residual is measurement minus expectation, less its median over the samples that are in use. A running median of
 half a second takes vibration out and keeps steps sharp. The limit is a tenth of the load of the limb on the sensor, or
 four times the usual scatter if that is more: heuristics, chosen so that a log of a laboratory gives few and useful
-findings.
+findings. A contact in samples in use shifts their median and widens their scatter, so that both are taken again
+without it.
 """
 
 from __future__ import annotations
@@ -39,6 +40,13 @@ UNEXPLAINED = frozenset({"contact", "light_contact", "off_level", "step"})
 
 _SMOOTH_S, _LEVEL_S, _EDGE_S, _MERGE_S, _SHORTEST_S = 0.5, 1.0, 0.25, 1.0, 0.5
 _LONGEST_OUTLIER = 3
+_QUICK_S, _SHORTEST_PUSH_S, _LONGEST_PUSH_S, _QUIET_S = 0.2, 0.25, 20.0, 0.5
+"""Length of the running median that keeps pushes of half a second, how long a push is, and for how long all axes are
+back at their level before and after it; s."""
+_ALONG = 0.9
+"""Cosine from which on a force acts along the weight: more weight, not a push."""
+_ROUNDS, _LEAST_AT_LEVEL = 4, 0.1
+"""How often the level is taken without contacts, and the least share of samples in use that is left for it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -48,6 +56,7 @@ class _Residual:
     rate_hz: float
     values: FloatArray
     smooth: FloatArray
+    quick: FloatArray
     limit: FloatArray
     least: FloatArray
     expected: FloatArray
@@ -91,7 +100,8 @@ def model_findings(
 
     Returns:
         Findings of the kinds `drift`, `contact` and `light_contact` (something carries part of the limb's
-        weight), `step`, `off_level` and `outlier`; each with its time and size.
+        weight, or pushes several axes; from its begin to its end), `step`, `off_level` and `outlier`; each with its
+        time and size.
 
     Raises:
         ShapeError: If the shapes differ or no sample is in use.
@@ -104,31 +114,69 @@ def model_findings(
     residual = _residual(stream, stamp_ns, measured, expected, in_use)
     errors = ModelErrors(residual=residual.smooth, expected=expected, usable=in_use)
     drifts, residual = _drifts(residual, errors, np.zeros(6) if stability is None else stability)
-    carried, weight = _carried(residual.smooth, expected), np.linalg.norm(expected[:, :3], axis=1)
-    usual = CONTACT_SCATTERS * MAD_TO_DEVIATION * float(np.median(np.abs(carried[in_use])))
-    least = np.maximum(LOAD_SHARE * weight, usual)
-    errors = replace(errors, residual=residual.smooth)
-    contacts = [
-        run for run in _merged(residual, carried > least) if not _is_no_contact(residual, expected, least, errors, *run)
-    ]
-    free = np.ones(len(stamp_ns), dtype=bool)
-    for first, last in contacts:
-        # a light contact may as well be a step of the sensor: its axes are then reported too
-        free[first : last + 1] &= not _is_firm(residual, expected, first, last)
-    if (in_use & free).any():
-        errors = replace(errors, usable=in_use & free)
-    pushes = _pushes(residual, expected, contacts, errors)
-    untouched = np.ones(len(stamp_ns), dtype=bool)
-    for first, last in pushes:
-        untouched[first : last + 1] = False
+    contacts, pushes = _contacts_and_pushes(residual)
+    for _ in range(_ROUNDS):
+        # what carries or moves the limb is no level of the sensor
+        firm = [run for run in (*contacts, *pushes) if _is_firm(residual, *run)]
+        at_level = in_use & ~_inside(firm, len(stamp_ns))
+        if np.count_nonzero(at_level) < max(_LEAST_AT_LEVEL * np.count_nonzero(in_use), residual.samples(_LEVEL_S)):
+            break
+        if (at_level == residual.in_use).all():
+            break
+        residual = _at_level(residual, at_level)
+        contacts, pushes = _contacts_and_pushes(residual)
+    # a light contact may as well be a step of the sensor: its axes are then reported too
+    free = ~_inside([run for run in contacts if _is_firm(residual, *run)], len(stamp_ns))
+    untouched = ~_inside(pushes, len(stamp_ns))
+    usable = residual.in_use & free
+    errors = ModelErrors(
+        residual=residual.smooth, expected=expected, usable=usable if usable.any() else residual.in_use
+    )
     return (
         *drifts,
         *_push_findings(residual, pushes),
-        *_contact_findings(residual, contacts, expected),
+        *_contact_findings(residual, contacts),
         *_off_level(residual, free & untouched, errors),
-        *_steps(residual, free, untouched, errors),
+        *_steps(residual, free & untouched, errors),
         *_outliers(residual, free & untouched),
     )
+
+
+def _contacts_and_pushes(residual: _Residual) -> tuple[list[tuple[int, int]], list[tuple[int, int]]]:
+    """Runs in which something carries part of the weight, and those of other forces, each from its begin to its end."""
+    errors = ModelErrors(residual=residual.smooth, expected=residual.expected, usable=residual.in_use)
+    carried = _carried(residual.smooth, residual.expected)
+    weight = np.linalg.norm(residual.expected[:, :3], axis=1)
+    usual = CONTACT_SCATTERS * MAD_TO_DEVIATION * float(np.median(np.abs(carried[residual.in_use])))
+    least = np.maximum(LOAD_SHARE * weight, usual)
+    contacts = [run for run in _merged(residual, carried > least) if not _is_no_contact(residual, least, errors, *run)]
+    free = residual.in_use & ~_inside([run for run in contacts if _is_firm(residual, *run)], len(weight))
+    if free.any():
+        errors = replace(errors, usable=free)
+    contacts = _whole(residual, contacts, errors)
+    return contacts, _pushes(residual, contacts, errors)
+
+
+def _inside(runs: Sequence[tuple[int, int]], count: int) -> BoolArray:
+    """Samples of any of the runs; shape (count,)."""
+    inside = np.zeros(count, dtype=bool)
+    for first, last in runs:
+        inside[first : last + 1] = True
+    return inside
+
+
+def _whole(residual: _Residual, contacts: Sequence[tuple[int, int]], errors: ModelErrors) -> list[tuple[int, int]]:
+    """Contacts with the time before and after in which they push several axes without carrying weight."""
+    if not contacts:
+        return []
+    together = (np.abs(residual.quick) > residual.limit).sum(axis=1) > 1
+    grown = _inside(contacts, len(together))
+    reach = residual.samples(_QUIET_S)
+    for first, last in _joined(residual, together, _QUIET_S):
+        beside = grown[max(0, first - reach) : last + 1 + reach].any() and not grown[first : last + 1].all()
+        if beside and len(_unexplained(residual, errors, first, last)) > 1:
+            grown[first : last + 1] = True
+    return _joined(residual, grown, _QUIET_S)
 
 
 def _residual(
@@ -139,8 +187,10 @@ def _residual(
     values = measured - expected
     values = values - np.median(values[in_use], axis=0)
     rate_hz = 1e9 / float(np.median(np.diff(stamp_ns))) if len(stamp_ns) > 1 else 1.0
-    size = max(1, round(_SMOOTH_S * rate_hz))
-    smooth: FloatArray = median_filter(values, size=(size, 1), mode="nearest")
+    smooth, quick = (
+        median_filter(values, size=(max(1, round(seconds * rate_hz)), 1), mode="nearest")
+        for seconds in (_SMOOTH_S, _QUICK_S)
+    )
     scatter = MAD_TO_DEVIATION * np.median(np.abs(smooth[in_use]), axis=0)
     load = np.repeat([np.percentile(np.linalg.norm(expected[:, part], axis=1), 95) for part in FORCE_AND_MOMENT], 3)
     return _Residual(
@@ -149,10 +199,26 @@ def _residual(
         rate_hz=rate_hz,
         values=values,
         smooth=smooth,
+        quick=quick,
         limit=np.maximum(LOAD_SHARE * load, SCATTERS * scatter),
         least=LOAD_SHARE * load,
         expected=expected,
         in_use=in_use,
+    )
+
+
+def _at_level(residual: _Residual, at_level: BoolArray) -> _Residual:
+    """The residual less its median over some samples, by whose scatter its limits are."""
+    level = np.median(residual.values[at_level], axis=0)
+    smooth = residual.smooth - level
+    scatter = MAD_TO_DEVIATION * np.median(np.abs(smooth[at_level]), axis=0)
+    return replace(
+        residual,
+        values=residual.values - level,
+        smooth=smooth,
+        quick=residual.quick - level,
+        limit=np.maximum(residual.least, SCATTERS * scatter),
+        in_use=at_level,
     )
 
 
@@ -199,60 +265,50 @@ def _drifts(residual: _Residual, errors: ModelErrors, stability: FloatArray) -> 
         for axis in np.flatnonzero(slopes)
     ]
     taken = np.outer(seconds - seconds.mean(), slopes)
-    values, smooth = residual.values - taken, residual.smooth - taken
+    values, smooth, quick = residual.values - taken, residual.smooth - taken, residual.quick - taken
     scatter = MAD_TO_DEVIATION * np.median(np.abs(smooth[residual.in_use]), axis=0)
     limit = np.maximum(residual.least, SCATTERS * scatter)
-    return findings, replace(residual, values=values, smooth=smooth, limit=limit)
+    return findings, replace(residual, values=values, smooth=smooth, quick=quick, limit=limit)
 
 
-_QUICK_S, _SHORTEST_PUSH_S, _LONGEST_PUSH_S, _QUIET_S = 0.2, 0.25, 20.0, 0.5
-"""Length of the running median that keeps pushes of half a second, how long a push is, and for how long all axes are
-back at their level before and after it; s."""
-_ALONG = 0.9
-"""Cosine from which on a force acts along the weight: more weight, not a push."""
-
-
-def _pushes(
-    residual: _Residual, expected: FloatArray, contacts: Sequence[tuple[int, int]], errors: ModelErrors
-) -> list[tuple[int, int]]:
+def _pushes(residual: _Residual, contacts: Sequence[tuple[int, int]], errors: ModelErrors) -> list[tuple[int, int]]:
     """Runs in which several axes are off together and come back: a force on the limb that is not one of `contacts`."""
-    from scipy.ndimage import median_filter  # here because importing it takes longer than most commands
-
-    quick = median_filter(residual.values, size=(residual.samples(_QUICK_S), 1), mode="nearest")
-    beside = replace(errors, residual=quick)
-    off = np.abs(quick) > residual.limit
-    quiet = residual.samples(_QUIET_S)
+    off = np.abs(residual.quick) > residual.limit
     pushes = []
-    for first, last in true_runs(np.asarray(off.any(axis=1))):
+    for first, last in _joined(residual, np.asarray(off.any(axis=1)), _QUIET_S):
         length_s = (residual.stamp_ns[last] - residual.stamp_ns[first]) * 1e-9
         own = slice(first, last + 1)
         if not _SHORTEST_PUSH_S <= length_s <= _LONGEST_PUSH_S or first == 0 or last == len(off) - 1:
             continue
-        if off[max(0, first - quiet) : first].any() or off[last + 1 : last + 1 + quiet].any():
-            continue
         if off[own].any(axis=0).sum() < 2 or any(first <= end and last >= start for start, end in contacts):
             continue
-        force, weight = quick[own, :3].mean(axis=0), expected[own, :3].mean(axis=0)
+        force, weight = residual.quick[own, :3].mean(axis=0), residual.expected[own, :3].mean(axis=0)
         if force @ weight >= _ALONG * np.linalg.norm(force) * np.linalg.norm(weight):
             continue
-        unexplained = [
-            axis
-            for axis in np.flatnonzero(off[own].any(axis=0))
-            if not _is_explained(residual, beside, first, last, int(axis), _SHORTEST_PUSH_S)
-        ]
-        if len(unexplained) > 1:
+        if len(_unexplained(residual, errors, first, last)) > 1:
             pushes.append((first, last))
     return pushes
 
 
+def _unexplained(residual: _Residual, errors: ModelErrors, first: int, last: int) -> list[int]:
+    """Axes that are off in a run by more than errors of the model leave."""
+    beside = replace(errors, residual=residual.quick)
+    off = (np.abs(residual.quick[first : last + 1]) > residual.limit).any(axis=0)
+    return [
+        axis
+        for axis in np.flatnonzero(off).tolist()
+        if not _is_explained(residual, beside, first, last, axis, _SHORTEST_PUSH_S)
+    ]
+
+
 def _push_findings(residual: _Residual, pushes: Sequence[tuple[int, int]]) -> list[Finding]:
     text = "several axes are off together for a while: something pushes the limb"
-    return [
-        residual.finding(
-            "light_contact", text, a, b, None, float(np.linalg.norm(residual.values[a : b + 1, :3], axis=1).max())
-        )
-        for a, b in pushes
-    ]
+    findings = []
+    for a, b in pushes:
+        largest = float(np.linalg.norm(residual.values[a : b + 1, :3], axis=1).max())
+        kind = "contact" if _is_firm(residual, a, b) else "light_contact"
+        findings.append(residual.finding(kind, text, a, b, None, largest))
+    return findings
 
 
 def _is_explained(
@@ -278,31 +334,35 @@ def _carried(residual: FloatArray, expected: FloatArray) -> FloatArray:
 
 def _merged(residual: _Residual, mask: BoolArray) -> list[tuple[int, int]]:
     """Runs of true values, joined across short pauses, without short ones."""
+    shortest = residual.samples(_SHORTEST_S)
+    return [run for run in _joined(residual, mask, _MERGE_S) if run[1] - run[0] + 1 >= shortest]
+
+
+def _joined(residual: _Residual, mask: BoolArray, pause_s: float) -> list[tuple[int, int]]:
+    """Runs of true values, joined across shorter pauses."""
     joined: list[tuple[int, int]] = []
     for first, last in true_runs(mask):
-        if joined and residual.stamp_ns[first] - residual.stamp_ns[joined[-1][1]] < _MERGE_S * 1e9:
+        if joined and residual.stamp_ns[first] - residual.stamp_ns[joined[-1][1]] < pause_s * 1e9:
             joined[-1] = (joined[-1][0], last)
         else:
             joined.append((first, last))
-    shortest = residual.samples(_SHORTEST_S)
-    return [(first, last) for first, last in joined if last - first + 1 >= shortest]
+    return joined
 
 
-def _is_firm(residual: _Residual, expected: FloatArray, first: int, last: int) -> bool:
-    part = slice(first, last + 1)
-    weight = np.linalg.norm(expected[part, :3], axis=1)
-    return bool((_carried(residual.smooth, expected)[part] > FIRM_SHARE * weight).any())
+def _is_firm(residual: _Residual, first: int, last: int) -> bool:
+    """Whether the force of a run is so large against the weight that it is no step of the sensor."""
+    own = slice(first, last + 1)
+    weight = np.linalg.norm(residual.expected[own, :3], axis=1)
+    return bool((np.linalg.norm(residual.smooth[own, :3], axis=1) > FIRM_SHARE * weight).any())
 
 
-def _is_no_contact(
-    residual: _Residual, expected: FloatArray, least: FloatArray, errors: ModelErrors, first: int, last: int
-) -> bool:
+def _is_no_contact(residual: _Residual, least: FloatArray, errors: ModelErrors, first: int, last: int) -> bool:
     """Whether errors of the model explain that the limb seems to be lifted."""
     own = slice(first, last + 1)
     return errors.explain_level(
         first,
         last,
-        lambda values: _carried(values, expected[own]),
+        lambda values: _carried(values, residual.expected[own]),
         least[own],
         is_moment=False,
         margin=residual.samples(_LEVEL_S),
@@ -310,12 +370,11 @@ def _is_no_contact(
     )
 
 
-def _contact_findings(residual: _Residual, contacts: Sequence[tuple[int, int]], expected: FloatArray) -> list[Finding]:
-    carried = _carried(residual.smooth, expected)
+def _contact_findings(residual: _Residual, contacts: Sequence[tuple[int, int]]) -> list[Finding]:
     findings = []
     for first, last in contacts:
-        largest = float(carried[first : last + 1].max())
-        if _is_firm(residual, expected, first, last):
+        largest = float(np.linalg.norm(residual.smooth[first : last + 1, :3], axis=1).max())
+        if _is_firm(residual, first, last):
             kind, text = "contact", "the limb touches something, which carries part of its weight"
         else:
             kind, text = "light_contact", "the limb is lifted a little: a light contact, or a step of the sensor"
@@ -336,9 +395,9 @@ def _off_level(residual: _Residual, free: BoolArray, errors: ModelErrors) -> lis
     return findings
 
 
-def _steps(residual: _Residual, free: BoolArray, untouched: BoolArray, errors: ModelErrors) -> list[Finding]:
+def _steps(residual: _Residual, free: BoolArray, errors: ModelErrors) -> list[Finding]:
     """Differences between the levels of a second before and a second after, each off by a quarter second."""
-    from scipy.ndimage import binary_erosion, median_filter  # here because importing it takes longer than most commands
+    from scipy.ndimage import median_filter  # here because importing it takes longer than most commands
 
     width = residual.samples(_LEVEL_S)
     shift = width // 2 + residual.samples(_EDGE_S)
@@ -346,11 +405,7 @@ def _steps(residual: _Residual, free: BoolArray, untouched: BoolArray, errors: M
     if len(free) <= 2 * shift:
         return findings
     levels = median_filter(residual.values, size=(width, 1), mode="nearest")
-    away = binary_erosion(
-        free, structure=np.ones(2 * shift + 1, dtype=np.bool_), border_value=1
-    )  # both levels free of contact
-    # and free of pushes to their ends: what is short and comes back is no step
-    away &= binary_erosion(untouched, structure=np.ones(2 * (shift + width // 2) + 1, dtype=np.bool_), border_value=1)
+    away = _away(free, shift + width // 2)  # both levels free of contact to their ends
     for axis, name in enumerate(WRENCH_COMPONENTS):
         change = np.zeros(len(free))
         change[shift:-shift] = levels[2 * shift :, axis] - levels[: -2 * shift, axis]
@@ -371,6 +426,13 @@ def _steps(residual: _Residual, free: BoolArray, untouched: BoolArray, errors: M
     return sorted(findings, key=lambda finding: finding.start_ns or 0)
 
 
+def _away(free: BoolArray, margin: int) -> BoolArray:
+    """Free samples that are farther than a number of samples from any other; shape (n,)."""
+    from scipy.ndimage import binary_erosion  # here because importing it takes longer than most commands
+
+    return np.asarray(binary_erosion(free, structure=np.ones(2 * margin + 1, dtype=np.bool_), border_value=1))
+
+
 def _steepest(residual: _Residual, axis: int, peak: int, shift: int, sign: float) -> int:
     """Index at which the smoothed residual changes fastest near a step."""
     first, last = max(0, peak - shift), min(len(residual.smooth), peak + shift + 1)
@@ -383,6 +445,7 @@ def _steepest(residual: _Residual, axis: int, peak: int, shift: int, sign: float
 
 def _outliers(residual: _Residual, free: BoolArray) -> list[Finding]:
     quick = residual.values - residual.smooth
+    free = _away(free, residual.samples(_QUIET_S))  # a limb that is let go rings
     scatter = MAD_TO_DEVIATION * np.median(np.abs(quick[residual.in_use]), axis=0)
     findings: list[Finding] = []
     for axis, name in enumerate(WRENCH_COMPONENTS):

@@ -6,8 +6,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.payload.result import fitted_drifts
+from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
+from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree
+from forcetorque.payload.result import fitted_drifts, mount_words, tilt_words
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.tare_offset import STILL
 from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
@@ -17,10 +18,6 @@ from forcetorque.results.table import short_names
 if TYPE_CHECKING:
     from forcetorque.payload.result import LoadRow, WeighedLoad
     from forcetorque.payload.tare_offset import Tare
-
-
-_MANY = 0.05
-"""Share of samples that disagree with the others, from which on something else than the load acts (heuristic)."""
 
 
 def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
@@ -36,7 +33,7 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
     step, command = _payload_step(weighed)
     for load in weighed.loads:
         name = "" if load.load == "load" else f", {load.load}"
-        doubtful = bool(contradicted or weighed.undetermined or load.mass_kg is None or _disagree(weighed))
+        doubtful = bool(contradicted or weighed.undetermined or load.mass_kg is None or samples_disagree(weighed))
         yield Answer(
             subject=f"{weighed.sensor} ({weighed.serial}){name}",
             verdict=_load_verdict(load),
@@ -61,17 +58,19 @@ def _load_verdict(load: LoadRow) -> str:
     return f"{mass} at {plus_minus(known, max(halves) if len(halves) == len(known) else None, 'mm')}"
 
 
-def _disagree(weighed: WeighedLoad) -> bool:
-    """Whether recordings, or too many samples, disagree for one load to explain them."""
-    return bool(weighed.disagreements) or len(weighed.disagreeing) > _MANY * weighed.observations
-
-
 def _reasons(weighed: WeighedLoad) -> tuple[str, ...]:
-    if _disagree(weighed):
-        count = f"{len(weighed.disagreeing)} of {weighed.observations} samples disagree with the others"
-        first = "; ".join((*weighed.disagreements[:1], *((count,) if weighed.disagreeing else ())))
-        return (first, _bias(weighed), *_drift(weighed))
-    return (_bias(weighed), *_drift(weighed), _samples(weighed))
+    if samples_disagree(weighed):
+        first = reason_to_withhold(weighed.model_copy(update={"hypotheses": ()})) or ""
+        return (first, *_turned(weighed), _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed))
+    return (*_turned(weighed), _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed), _samples(weighed))
+
+
+def _turned(weighed: WeighedLoad) -> Iterator[str]:
+    """Mount and tilt, where the file asks for them."""
+    if weighed.mount_rad is not None:
+        yield mount_words(weighed.mount_rad, weighed.mount_half_width_rad)
+    if weighed.tilt_rad is not None:
+        yield tilt_words(weighed.tilt_rad, weighed.tilt_half_width_rad)
 
 
 def _worst_session(weighed: WeighedLoad) -> str | None:
@@ -109,6 +108,23 @@ def _bias(weighed: WeighedLoad) -> str:
     return f"bias{of} to be subtracted from measurements: {', '.join(parts) or 'not identifiable'}"
 
 
+def _bias_elsewhere(weighed: WeighedLoad) -> str:
+    """The interval of a bias knows noise within a recording, and not what another day or power cycle changes."""
+    between = [test.largest_difference for test in weighed.bias_tests if test.of == "sessions"]
+    moved = [value for value in between[0] if value is not None] if between else []
+    if len(moved) < len(WRENCH_COMPONENTS):
+        return "its interval holds in this recording, not on another day: tare before use"
+    within = [max(moved[part]) <= _largest_half_width(weighed, part) for part in FORCE_AND_MOMENT]
+    if all(within):
+        return "power cycles moved the bias by no more than its interval"
+    force, moment = (max(moved[part]) for part in FORCE_AND_MOMENT)
+    return f"power cycles moved the bias by up to {amount(force, 'N')}, {amount(moment, 'N m')}: tare before use"
+
+
+def _largest_half_width(weighed: WeighedLoad, part: slice) -> float:
+    return max((value or 0.0 for value in list(weighed.sessions[-1].bias_half_width_95)[part]), default=0.0)
+
+
 def _samples(weighed: WeighedLoad) -> str:
     disagreeing = len(weighed.disagreeing)
     count = f"{weighed.observations} samples" + (
@@ -121,7 +137,7 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
     if weighed.hypotheses:
         first = weighed.hypotheses[0]
         return f"check for {first.name}: {first.description}", ""
-    if _disagree(weighed):
+    if samples_disagree(weighed):
         worst = _worst_session(weighed)
         which = "what disagrees, in --details" if worst is None else f"{worst!r}, which disagrees"
         words = f"look at {which}: contact is the likely cause; leave that out of the fit, and repeat"

@@ -42,6 +42,10 @@ LoadFormatOption = Annotated[
 LoadFileOption = Annotated[
     Path | None, typer.Option("--output", "-o", help="File for a robot, in the form of --to; - for standard output.")
 ]
+OverrideOption = Annotated[
+    str | None,
+    typer.Option("--override", help="Reason to write a load that the answer withholds; it is written with it."),
+]
 WorldFrameOption = Annotated[
     str | None, typer.Option("--world-frame", help="Frame of tf whose z axis points up, for gravity-filter.")
 ]
@@ -100,6 +104,8 @@ def write_load(
     pose = None if sensor_pose is None else make_pose(rotation_from_rpy(sensor_pose[3:]), sensor_pose[:3])
     convention = export_load(load, output, to, world_frame=world_frame, body_H_sensor=pose)
     log.info("%s, for readings of %s: %s", output, load.direction, convention)
+    if load.override is not None:
+        log.warning("%s", load.override)
 
 
 def payload(
@@ -108,6 +114,7 @@ def payload(
     output: LoadFileOption = None,
     world_frame: WorldFrameOption = None,
     sensor_pose: SensorPoseOption = None,
+    override: OverrideOption = None,
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
@@ -137,9 +144,8 @@ def payload(
     with stated_in(", ".join(str(path) for path in experiments)):
         load = weigh_load(runs)
         if output is not None and to is not None:
-            together = load if len(runs) > 1 else None
-            robot = robot_load(runs[-1], load.sessions[-1].bias, weighed=together)
-            log.info("the bias is that of %r, the last power-up", load.sessions[-1].session)
+            robot = robot_load(runs[-1], load.sessions[-1].bias, weighed=load, override=override)
+            log.info("the bias is that of %r, the last power-up; tare before use", load.sessions[-1].session)
             write_load(robot, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)
     if output == STANDARD_OUTPUT:  # the file itself went there
         show_warnings(load)
@@ -159,6 +165,7 @@ def tare(
     output: LoadFileOption = None,
     world_frame: WorldFrameOption = None,
     sensor_pose: SensorPoseOption = None,
+    override: OverrideOption = None,
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
@@ -190,7 +197,8 @@ def tare(
             for run, name in zip(runs, names, strict=True)
         )
     if output is not None and to is not None:
-        load = robot_load(runs[0], result.sensors[0].bias)
+        doubt = next(iter(result.warnings), None)
+        load = robot_load(runs[0], result.sensors[0].bias, doubt=doubt, override=override)
         write_load(load, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)
     if output == STANDARD_OUTPUT:
         show_warnings(result)

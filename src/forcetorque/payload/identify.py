@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.noise.means import means_over
 from forcetorque.experiment.additions import with_recording_notes
@@ -21,7 +22,7 @@ from forcetorque.payload.load_warnings import load_doubts, overweight_loads, pay
 from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import LoadRow, RecordingLoadRow, ValidationLoadRow, WeighedLoad, disagreements
 from forcetorque.recording.recording import Use
-from forcetorque.results.number_text import plus_minus
+from forcetorque.results.number_text import finite_or_none, plus_minus
 from forcetorque.robot.mounting import rotation_vector
 
 
@@ -149,6 +150,7 @@ def weigh_load(runs: Runs) -> WeighedLoad:
     solution, first, links = weighed(campaign), campaign.runs[0], links_of(campaign)
     table = None if (wrist := wrist_loads(first.experiment)) is None else wrist.table
     with_mount = first.sensor.mount_is_unknown or (table is not None and table.mount is not None)
+    with_tilt = table is not None and table.tilt is not None
     alone = [RecordingLoadRow.by(name, load, links.get(load.name)) for name, load in weighed_alone(campaign)]
     result = WeighedLoad(
         experiment=", ".join(campaign.experiments),
@@ -163,7 +165,8 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         bias_tests=solution.bias_tests,
         mount_rad=_vector(solution) if with_mount else None,
         mount_half_width_rad=three(solution.mount_half_width) if with_mount else None,
-        tilt_rad=None if table is None or table.tilt is None else (float(solution.tilt[0]), float(solution.tilt[1])),
+        tilt_rad=(float(solution.tilt[0]), float(solution.tilt[1])) if with_tilt else None,
+        tilt_half_width_rad=_two(solution.tilt_half_width) if with_tilt else None,
         undetermined=solution.open_directions,
         disagreeing=solution.disagreeing,
         hypotheses=solution.hypotheses,
@@ -204,6 +207,11 @@ def _require_weight(weighed: WeighedLoad) -> None:
 def _vector(solution: LoadSolution) -> tuple[float, float, float]:
     x, y, z = rotation_vector(solution.mount)
     return float(x), float(y), float(z)
+
+
+def _two(values: FloatArray) -> tuple[float | None, float | None]:
+    x, y = map(finite_or_none, values.tolist())
+    return x, y
 
 
 def _judged(campaign: Campaign, run: SensorRun, solution: LoadSolution) -> Iterator[ValidationLoadRow]:

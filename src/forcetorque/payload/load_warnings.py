@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.errors import ExperimentError
 from forcetorque.base.wrench import MeasureDirection, reading_sign
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.draft.gravity import fit_gravity
@@ -211,6 +212,67 @@ def _estimated(run: SensorRun) -> LoadSolution | None:
         return None if wrist.are_stated else wrist.solution(experiment)
     hung = link_loads(experiment)
     return None if hung is None or all(load.is_known for load in hung.loads) else hung.solution(experiment)
+
+
+_MANY = 0.05
+"""Share of samples that disagree with the others, from which on something else than the load acts (heuristic)."""
+
+
+def samples_disagree(weighed: WeighedLoad) -> bool:
+    """Decide whether recordings, or too many samples, disagree for one load to explain them.
+
+    Args:
+        weighed: The load.
+
+    Returns:
+        Whether they do.
+    """
+    return bool(weighed.disagreements) or len(weighed.disagreeing) > _MANY * weighed.observations
+
+
+def reason_to_withhold(weighed: WeighedLoad) -> str | None:
+    """Say why a robot is not to be told of a load.
+
+    Args:
+        weighed: The load.
+
+    Returns:
+        The first reason; None where there is none. That nothing hangs there is none where the file states it.
+    """
+    is_stated = not any(load.estimated for load in weighed.loads)
+    for hypothesis in weighed.hypotheses:
+        if not (is_stated and hypothesis.name == "no load"):
+            return f"{hypothesis.name}: {hypothesis.description}"
+    if samples_disagree(weighed):
+        count = f"{len(weighed.disagreeing)} of {weighed.observations} samples disagree with the others"
+        return "; ".join((*weighed.disagreements[:1], *((count,) if weighed.disagreeing else ())))
+    return weighed.undetermined[0] if weighed.undetermined else None
+
+
+def overruled(doubt: str | None, override: str | None, *, where: str) -> str | None:
+    """Refuse to tell a robot of something doubtful, unless a person gives a reason.
+
+    Args:
+        doubt: What is doubtful; None for nothing.
+        override: The reason of a person; None for none.
+        where: What is told, for the message.
+
+    Returns:
+        What the file has to say of it; None without doubt.
+
+    Raises:
+        ExperimentError: If there is a doubt without a reason, or the reason is empty.
+    """
+    if override is not None and not override.strip():
+        raise ExperimentError("override: expected the reason to write a doubtful load, in words; got an empty one")
+    if doubt is None:
+        return None
+    if override is None:
+        raise ExperimentError(
+            f"{where}: expected what the measurements agree on, got: {doubt}; correct it, or write it with --override "
+            '"reason"'
+        )
+    return f"written by override ({' '.join(override.split())}), although: {' '.join(doubt.split())}"
 
 
 _RARE = 0.01

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import statistics
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 from math import floor, hypot, log10
@@ -11,6 +12,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 from pydantic import Field
 
+from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.payload.identification.load_estimates import (
     BiasRow,
@@ -194,6 +196,23 @@ def mount_words(mount_rad: Sequence[float], half_width_rad: Three | None) -> str
     return f"mount: the sensor is turned by ({parts}) deg (rotation vector) against the axes of the motion"
 
 
+def tilt_words(tilt_rad: Sequence[float], half_width_rad: Sequence[float | None] | None) -> str:
+    """Say how the world of the orientation streams is tilted against gravity.
+
+    Args:
+        tilt_rad: Rotation vector of gravity about x and y of the world; rad.
+        half_width_rad: Half-widths of 95 % intervals; rad; None where they are open.
+
+    Returns:
+        Both angles in degrees, with intervals.
+    """
+    parts = ", ".join(
+        f"{axis} {np.rad2deg(value):.2f} {'(open)' if half is None else f'±{np.rad2deg(half):.2f}'}"
+        for axis, value, half in zip("xy", tilt_rad, half_width_rad or (None, None), strict=True)
+    )
+    return f"tilt of gravity about axes of the world: {parts} deg (95 %)"
+
+
 def drift_words(drift: DriftRow) -> str:
     """Say whether a drift was taken, and why.
 
@@ -265,6 +284,10 @@ def bias_words(test: BiasTestRow, loads: Sequence[LoadRow]) -> str:
     return f"the biases of the sessions differ {difference}{error}"
 
 
+_RARE = 0.01
+"""How often recordings of one load are said to disagree."""
+
+
 def disagreements(rows: Sequence[RecordingLoadRow]) -> Iterator[str]:
     """Name what recordings say of a load beyond their intervals.
 
@@ -274,9 +297,10 @@ def disagreements(rows: Sequence[RecordingLoadRow]) -> Iterator[str]:
     Yields:
         A sentence for every two that differ.
     """
-    for first, second in combinations(rows, 2):
-        if first.load != second.load:
-            continue
+    pairs = [(first, second) for first, second in combinations(rows, 2) if first.load == second.load]
+    # each of four numbers of every pair may be off by chance: together they are in one of a hundred
+    allowance = statistics.NormalDist().inv_cdf(1.0 - 0.5 * _RARE / (4 * max(len(pairs), 1))) / NORMAL_95
+    for first, second in pairs:
         halves = (first.mass_half_width_95_kg, second.mass_half_width_95_kg)
         named = [("mass", "kg", 1.0, _difference(first.mass_kg, second.mass_kg, *halves))]
         for k, axis in enumerate("xyz"):
@@ -286,7 +310,7 @@ def disagreements(rows: Sequence[RecordingLoadRow]) -> Iterator[str]:
         words = [
             f"{name} by {factor * value[0]:.3g} {unit}, where {factor * value[1]:.2g} are expected"
             for name, unit, factor, value in named
-            if value is not None
+            if value is not None and value[0] > allowance * value[1]
         ]
         if words:
             yield f"{first.recording} and {second.recording} disagree beyond their intervals: {'; '.join(words)}"
@@ -295,11 +319,10 @@ def disagreements(rows: Sequence[RecordingLoadRow]) -> Iterator[str]:
 def _difference(
     first: float | None, second: float | None, first_half: float | None, second_half: float | None
 ) -> tuple[float, float] | None:
-    """How far two numbers are apart and what their intervals allow; None where they allow it."""
+    """How far two numbers are apart and what their intervals allow; None where one is open."""
     if first is None or second is None or first_half is None or second_half is None:
         return None
-    apart, allowed = abs(first - second), hypot(first_half, second_half)
-    return (apart, allowed) if apart > allowed else None
+    return abs(first - second), hypot(first_half, second_half)
 
 
 def _masses(masses: Sequence[float | None]) -> str:
@@ -342,6 +365,8 @@ class WeighedLoad(Result):
     """Half-widths of 95 % intervals of small rotations about the sensor's axes; rad; None where `mount_rad` is."""
     tilt_rad: tuple[float, float] | None
     """Rotation vector of gravity about x and y of the world; none where it was not asked for."""
+    tilt_half_width_rad: tuple[float | None, float | None] | None = None
+    """Half-widths of its 95 % intervals; rad; None where it is open, or `tilt_rad` is."""
     undetermined: tuple[str, ...]
     """What the rows leave open, in sentences."""
     disagreeing: tuple[OutlierRow, ...]
@@ -375,6 +400,8 @@ class WeighedLoad(Result):
             yield table_of(self.variables, "what variables add to the reading, per unit")
         if self.mount_rad is not None:
             yield mount_words(self.mount_rad, self.mount_half_width_rad)
+        if self.tilt_rad is not None:
+            yield tilt_words(self.tilt_rad, self.tilt_half_width_rad)
         yield drift_words(self.drift)
         yield from (text for session in self.sessions if (text := _drift_text(session)) is not None)
         yield from (bias_words(test, self.loads) for test in self.bias_tests)

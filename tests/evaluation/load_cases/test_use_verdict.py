@@ -13,6 +13,7 @@ from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatErr
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
+from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.load_cases.load_case import operating_load_cases
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
@@ -225,6 +226,20 @@ def test_a_use_that_cannot_be_may_leave_the_others_to_be_judged(arm: Path) -> No
         verdicts = use_verdicts(run, {"new": calibration}, refuse=errors.append)
         assert [verdict.load_case for verdict in verdicts] == judged
         assert [str(error).split("'")[1] for error in errors] == refused
+
+
+def test_a_default_load_case_that_the_sensor_cannot_read_is_no_part_of_the_verdict(arm: Path) -> None:
+    """The answer names it, and the verdict is about the loads of the data that were not fitted, which it could read."""
+    edit(arm / PARQUET, 'prior = "', 'full_scale = [300.0, 300.0, 300.0, 7.5, 7.5, 7.5]\nprior = "')
+    run = _run(arm, "")
+    evaluation = evaluate(run, {"new": _fit(run)})
+    (verdict,), (answer,) = evaluation.load_cases, evaluation.answers()
+    assert (verdict.load_case, verdict.specified) == ("recorded loads", False)
+    assert answer.verdict.endswith("for recorded loads")
+    assert re.match(
+        r"pushes of \d.* N, .*, reaches .* in t[xyz], the full scale of 'arm_ft' is 7.5: not used", answer.why[1]
+    )
+    assert answer.why[1].endswith("state your loads as [[load_case]]")
 
 
 def test_two_load_cases_of_one_name_are_refused(arm: Path) -> None:

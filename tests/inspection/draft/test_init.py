@@ -395,6 +395,19 @@ def test_a_wrist_sensor_without_a_robot_has_a_load(tmp_path: Path) -> None:
         draft_experiment([tmp_path / "wrench.csv"], tmp_path / "x.toml")
 
 
+def test_logged_gravity_stands_beside_an_orientation(tmp_path: Path) -> None:
+    """As a comment that may take its place, which a turn rate does not; full scale may be left out."""
+    head = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,qx,qy,qz,qw,gx,gy,gz\n"
+    row = ",1,2,3,4,5,6,0,0,0,1"
+    for down, is_gravity in ((9.81, True), (1.0, True), (0.4, False)):
+        (tmp_path / "log.csv").write_text(f"{head}0{row},0,0,-{down}\n1{row},0,{down},0\n")
+        draft = draft_experiment([tmp_path / "log.csv"])
+        assert ('# quantity = "gravity"\n# columns = ["gx", "gy", "gz"]' in draft.content) is is_gravity
+        assert ("# not read: gx, gy, gz" in draft.content) is not is_gravity
+    (scale,) = (one.question for one in draft.questions if one.key == "full_scale")
+    assert scale.endswith("`payload` needs none: delete the line if you do not calibrate")
+
+
 @pytest.mark.parametrize("kept", ["orientation", "proper_acceleration"])
 def test_an_acceleration_beside_an_orientation_is_no_second_motion(tmp_path: Path, kept: str) -> None:
     """The answered file loads as drafted, and with the alternative that stands in its comments."""

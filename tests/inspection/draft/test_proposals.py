@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +17,7 @@ from forcetorque.inspection.draft.edits import Edit
 from forcetorque.inspection.draft.proposals import Proposal, proposals, settle
 from forcetorque.inspection.draft.resume import resume_experiment
 from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.results.terminal.prompts import has_piped_lines
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.trace import simulate_recording
@@ -230,6 +233,30 @@ def test_a_push_is_cut_out_of_the_interval(pushed: Path) -> None:
     assert (proposal.residuals.after < 0.1 * proposal.residuals.before).all()
     before = file.read_text(encoding="utf-8")
     _require_cut(proposal.edit.applied(before), before)
+
+
+def test_piped_answers_are_refused_and_yes_accepts(
+    pushed: Path, run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Lines on standard input would be lost; an empty one has none, and --yes needs none."""
+    shutil.copytree(pushed, tmp_path / "own")
+    file = tmp_path / "own" / "all.toml"
+    before = file.read_text(encoding="utf-8")
+    for piped, is_refused in (("y\n", True), ("", False)):
+        reading, writing = os.pipe()
+        os.write(writing, piped.encode())
+        os.close(writing)
+        with os.fdopen(reading) as stdin, monkeypatch.context() as patch:
+            patch.setattr("sys.stdin", stdin)
+            assert has_piped_lines() is is_refused
+            if is_refused:
+                assert "got piped lines, which are not read" in run("init", "--resume", file).error()
+    assert file.read_text(encoding="utf-8") == before
+    assert "expected without --no-input" in run("init", "--resume", file, "--yes", "--no-input").error()
+    accepted = run("init", "--resume", file, "--yes")
+    assert accepted.code == 0
+    assert any("accepted: intervals free of contact" in line for line in accepted.log)
+    _require_cut(file.read_text(encoding="utf-8"), before)
 
 
 def test_intervals_in_one_line_are_changed_by_hand(pushed: Path) -> None:

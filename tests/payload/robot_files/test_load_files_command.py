@@ -12,10 +12,13 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.app.python.experiment import load_experiment
 from forcetorque.base.errors import ExperimentError
+from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.robot_files.export import robot_load
+from forcetorque.payload.load_warnings import overruled
+from forcetorque.payload.robot_files.export import robot_load, write_load_file
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import read_mc_rtc
+from forcetorque.payload.robot_files.robot_load import RobotLoad
 from forcetorque.payload.robot_files.ros import read_ft_tools
 from tests.app.outcome import Run
 from tests.scenes.wrist_postures import BIAS, CENTRE, HELD_S, MASS, SLOW, write_postures
@@ -163,8 +166,8 @@ def test_a_tare_under_a_load_that_the_readings_contradict_writes_no_file(run: Ru
     assert run(*words).code == 0
 
 
-def test_a_robot_may_be_told_of_a_jump_and_that_nothing_hangs_there(run: Run, tmp_path: Path) -> None:
-    """These are warnings: a jump changes the load little, and a stated mass of 0 is what the user wants."""
+def test_a_jump_takes_a_reason_and_that_nothing_hangs_there_takes_none(run: Run, tmp_path: Path) -> None:
+    """A jump makes the bias wrong; a stated mass of 0 is what the user wants. The reason stands beside the file."""
     jumped = write_postures(tmp_path, seed=9, postures=POSTURES)
     rows = np.loadtxt(tmp_path / "log.csv", delimiter=",", skiprows=1)
     rows[len(rows) // 2 :, 3] += 0.8
@@ -174,11 +177,49 @@ def test_a_robot_may_be_told_of_a_jump_and_that_nothing_hangs_there(run: Run, tm
     jumped.write_text(
         text.split("[[interval]]")[0] + '[[interval]]\nlabel = "all"\nstart_s = 0.0\nuse = "calibration"\n'
     )
-    outcome = run("payload", jumped, "--to", "hrpsys", "-o", tmp_path / "load")
-    assert (outcome.code, "jump: the bias jumps in fz" in outcome.err) == (0, True)
+    words = ("payload", jumped, "--to", "hrpsys", "-o", tmp_path / "load")
+    assert "jump: the bias jumps in fz" in run(*words).error()
+    assert not (tmp_path / "load").exists()
+    assert run(*words, "--override", "taken before the jump").code == 0
+    assert "override (taken before the jump), although: jump" in (tmp_path / "load.override.txt").read_text()
     jumped.write_text(text.replace(f"mass_kg = {MASS}", "mass_kg = 0.0"))
     outcome = run("payload", jumped, "--to", "hrpsys", "-o", tmp_path / "load", "--force")
     assert (outcome.code, "all masses are stated as 0" in outcome.err) == (0, True)
+
+
+def test_the_reason_to_write_a_doubtful_load_is_a_comment(tmp_path: Path) -> None:
+    """A form without comments has it in a file beside it, which standard output has not; no reason is refused."""
+    note = overruled("a jump", "taken\nbefore it", where="load")
+    assert note == "written by override (taken before it), although: a jump"
+    assert overruled(None, "in any case", where="load") is None
+    for reason, match in ((None, "expected what the measurements agree on, got: a jump"), (" ", "got an empty one")):
+        with pytest.raises(ExperimentError, match=match):
+            overruled("a jump", reason, where="load")
+    load = RobotLoad(
+        sensor="wrist",
+        frame="tool",
+        direction=MeasureDirection.CHILD_TO_PARENT,
+        mass=MASS,
+        centre_of_mass=CENTRE,
+        bias=BIAS,
+        override=note,
+    )
+    write_load_file(tmp_path / "load.yaml", load, LoadFormat.FT_TOOLS)
+    assert (tmp_path / "load.yaml").read_text().splitlines()[1] == f"# {note}"
+    assert read_ft_tools(tmp_path / "load.yaml", sensor="wrist", frame="tool").mass == MASS
+    with pytest.raises(ExperimentError, match="expected a file, beside which the reason is written"):
+        write_load_file("-", load, LoadFormat.HRPSYS)
+
+
+def test_a_tare_under_a_load_that_moves_takes_a_reason(tmp_path: Path, run: Run) -> None:
+    """Its offset has errors of the load in it."""
+    path = write_postures(tmp_path, seed=6, postures=POSTURES)
+    text = path.read_text().replace(f"end_s = {HELD_S}", f"end_s = {2 * HELD_S}")
+    path.write_text(text.replace(f"start_s = {HELD_S}", f"start_s = {2 * HELD_S}"))
+    words = ("tare", path, "--interval", "first", "--to", "ft-tools", "-o", tmp_path / "load.yaml")
+    assert "the load moves by" in run(*words).error()
+    assert run(*words, "--override", "a test").code == 0
+    assert "although: wrist: the load moves by" in (tmp_path / "load.yaml").read_text()
 
 
 def test_tare_shows_and_writes_the_offset(tmp_path: Path, run: Run) -> None:

@@ -9,6 +9,7 @@ from importlib.metadata import version
 from pathlib import Path
 from time import monotonic
 
+from forcetorque.app.run.double_support import double_support
 from forcetorque.app.run.result import Stage, StageName, WholeRun
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, OutputError
 from forcetorque.base.output_file import refuse_output
@@ -66,6 +67,8 @@ class _Way:
     written: list[str] = field(default_factory=list)
     doubts: list[str] = field(default_factory=list)
     """What a person overruled, in words for the calibrations."""
+    double_support: list[str] = field(default_factory=list)
+    """What phases in which several links bear the robot say against the calibrations, or why they were not checked."""
     results: list[Result] = field(default_factory=list)
     answers: tuple[Answer, ...] = ()
     uses: tuple[LoadCaseVerdict, ...] = ()
@@ -218,6 +221,7 @@ def _of_experiments(
         _weigh(way, campaigns[names[0]])
         return
     fitted = _calibrate(way, campaigns, list(experiments.values()))
+    fitted = _held_against_double_support(way, list(experiments.values()), fitted)
     _evaluate(way, campaigns, fitted)
     fitted = fitted.model_copy(
         update={"calibrations": tuple(_with_doubts(one, way.doubts) for one in fitted.calibrations)}
@@ -373,6 +377,35 @@ def _calibrate_jointly(
     return fitted
 
 
+def _held_against_double_support(
+    way: _Way, experiments: Sequence[Experiment], fitted: SensorCalibrations
+) -> SensorCalibrations:
+    """Doubt calibrations with which the feet together bear the robot's weight worse than with the priors."""
+    doubts: dict[str, str] = {}
+    for experiment in experiments:
+        own = {e.file: e.calibration for e in fitted.calibrations if e.calibration.sensor.name in _names(experiment)}
+        try:
+            text = double_support(experiment, own)
+        except ForceTorqueError as error:
+            way.double_support.append(f"double support not checked: {error}")
+            continue
+        if text is not None:
+            way.double_support.append(text)
+            doubts |= dict.fromkeys(own, text)
+    calibrations = (_with_doubts(one, [doubts[one.file]] if one.file in doubts else []) for one in fitted.calibrations)
+    return fitted.model_copy(update={"calibrations": tuple(calibrations)})
+
+
+def _with_double_support(way: _Way) -> tuple[Answer, ...]:
+    """The answers, of which one names what double support says, where no verdict does."""
+    missing = [text for text in way.double_support if not any(text in why for one in way.answers for why in one.why)]
+    if not missing or not way.answers:
+        return way.answers
+    first, *others = way.answers
+    concern = Concern.UNCERTAIN if first.concern is Concern.NONE else first.concern
+    return (replace(first, why=(*first.why[:1], *missing, *first.why[1:]), concern=concern), *others)
+
+
 def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibrations) -> None:
     """Evaluate on data that were not fitted; a calibration that must not be used is withheld."""
     way.begin("evaluate")
@@ -401,6 +434,7 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
         way.answers = (*evaluation.answers(), *without)
     elif without:
         way.answers = tuple(without)
+    way.answers = _with_double_support(way)
     forbidden = [use for use in uses if use.decision == "do not use"]
     if forbidden:
         worst = forbidden[0]
@@ -408,14 +442,15 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
         way.stop("evaluate", "; ".join(f"{use.sensor}: {use.message}" for use in forbidden), remedy.rstrip("."))
     elif evaluations or without:
         texts = [f"{use.sensor}: {use.decision}" for use in uses]
-        way.end("evaluate", ", ".join([*texts, *(f"{one.subject.split()[0]}: no verdict" for one in without)]))
+        texts += [f"{one.subject.split()[0]}: no verdict" for one in without]
+        way.end("evaluate", "; ".join([", ".join(texts), *way.double_support]))
     else:
         way.end("evaluate", 'no interval with use = "validation": nothing tests the calibrations', skipped=True)
 
 
 def _with_doubts(entry: SensorCalibration, doubts: Sequence[str]) -> SensorCalibration:
     calibration = entry.calibration
-    doubted = calibration.model_copy(update={"warnings": (*calibration.warnings, *doubts)})
+    doubted = calibration.model_copy(update={"warnings": tuple(dict.fromkeys((*calibration.warnings, *doubts)))})
     return entry.model_copy(update={"calibration": doubted}) if doubts else entry
 
 

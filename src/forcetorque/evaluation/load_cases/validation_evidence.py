@@ -16,6 +16,7 @@ from forcetorque.base.noise.means import joined_times, mean_error, means_over
 from forcetorque.base.noise.paired_comparison import Conclusion, ErrorRatio, PairedErrors, compare_errors
 from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.excitation import hardly_moved
 from forcetorque.experiment.calibrations_under_test import EvaluatedWrenches
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.sensor_run import SensorRun
@@ -158,10 +159,6 @@ def _sessions(campaign: Campaign, run: SensorRun, judged: EvaluatedWrenches) -> 
     return {session: np.concatenate(parts) for session, parts in indices.items()}
 
 
-HARDLY = 0.05
-"""Share of the load below which it hardly moved."""
-
-
 MovedAndLoad = tuple[float, float]
 """Standard deviation of a load in the validation data, all three components together, and its size; N or N m."""
 
@@ -208,19 +205,6 @@ def static_loads_text(force: MovedAndLoad, moment: MovedAndLoad) -> str | None:
     what = "loads" if len(static) == len(kinds) else next(iter(static))
     wrong = "a wrong matrix" if what == "loads" else f"a matrix that is wrong for {what}"
     return f"the {what} hardly moved in the validation samples ({of}): {wrong} would show nothing"
-
-
-def hardly_moved(moved: float, load: float) -> bool:
-    """Check whether a load moved too little to show a wrong matrix.
-
-    Args:
-        moved: Standard deviation of the load.
-        load: Size of loads, in the same unit.
-
-    Returns:
-        Whether it did.
-    """
-    return moved <= HARDLY * load
 
 
 def fewest_independent(error: FloatArray, time_s: FloatArray) -> float | None:

@@ -132,6 +132,8 @@ class LoadCaseVerdict(Row):
     """Predicted probability that the error is no more than allowed; None where nothing predicts it."""
     errors: tuple[LoadCaseError, ...]
     """Predicted errors of force and moment; none without a covariance."""
+    beyond_range: str | None = None
+    """Why the default load case is not that of the verdict: the sensor cannot read it; None where it can."""
 
     @property
     def tone(self) -> Tone:
@@ -416,6 +418,8 @@ def use_verdicts(
 ) -> tuple[LoadCaseVerdict, ...]:
     """Decide for every calibration and load case whether it may be used.
 
+    A default load case that the sensor cannot read gives way to the loads of the validation data.
+
     It may where the predicted error is within the allowed one with 95 %, and the loads of the validation data moved and
     their errors agree. It may not where measured errors contradict that: they are beyond what is allowed, or larger
     than those of the prior. A prediction alone never forbids a use: where it is too large, data are lacking.
@@ -444,7 +448,9 @@ def use_verdicts(
     verdicts = []
     for name, calibration in judged.items():
         notes = tuple(dict.fromkeys(_notes(campaign, name, calibration)))
-        for case in operating_load_cases(campaign.runs, more, matrix=calibration.matrix, refuse=refuse):
+        for usual in operating_load_cases(campaign.runs, more, matrix=calibration.matrix, refuse=refuse):
+            beyond = beyond_range(usual, campaign.runs[0], calibration.matrix)
+            case = usual if beyond is None else _recorded(measured.get(name)) or usual
             try:
                 assessment = LoadCaseAssessment(
                     case,
@@ -455,10 +461,29 @@ def use_verdicts(
             except FitError as error:
                 refuse(error)
             else:
-                beyond = beyond_range(case, campaign.runs[0], calibration.matrix)
-                unreadable = () if beyond is None else (Reason(against=None, text=f"{_ASSUMED} {beyond}"),)
-                verdicts.append(_verdict(campaign, name, assessment, (*unreadable, *notes)))
+                verdict = _verdict(campaign, name, assessment, notes)
+                verdicts.append(verdict if beyond is None else _without(verdict, usual, beyond))
     return tuple(verdicts)
+
+
+RECORDED: Final = "recorded loads"
+"""Name of the load case in place of a default one that the sensor cannot read."""
+
+
+def _recorded(measured: Evidence | None) -> LoadCase | None:
+    """The loads of the data that were not fitted; None where there are none, or nothing moves."""
+    if measured is None or not measured.moved.any():
+        return None
+    return LoadCase(
+        name=RECORDED, words="the loads of the data that were not fitted", wrench=measured.moved, is_stated=False
+    )
+
+
+def _without(verdict: LoadCaseVerdict, usual: LoadCase, beyond: str) -> LoadCaseVerdict:
+    """The verdict with the reason that it is not about the default load case."""
+    text = f"{usual.words}, {beyond}: not used for the verdict; state your loads as [[load_case]]"
+    reasons = (*verdict.reasons, Reason(against=None, text=text))
+    return verdict.model_copy(update={"reasons": reasons, "beyond_range": text})
 
 
 def _notes(campaign: Campaign, name: str, calibration: Calibration) -> Iterator[Reason]:
@@ -470,9 +495,6 @@ def _notes(campaign: Campaign, name: str, calibration: Calibration) -> Iterator[
             if sentence not in calibration.warnings:  # which are reasons of the verdict
                 yield Reason(against=None, text=sentence)
 
-
-_ASSUMED: Final = "the assumed load case is more than the sensor can read, so specify your loads as [[load_case]]: it"
-"""How the reason begins that a default load case is beyond the range of the sensor; one that is stated is refused."""
 
 _COMPARED: Final = {LoadCaseOffset.FITTED: Offset.FITTED, LoadCaseOffset.TARED: Offset.JUDGED_MEAN}
 """Offset with which validation data compare a calibration and its prior for a load case."""

@@ -13,6 +13,23 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moments import Moments
 
+HARDLY = 0.05
+"""Share of the load below which it hardly moved."""
+
+
+def hardly_moved(moved: float, load: float) -> bool:
+    """Check whether a load moved too little to show a wrong matrix.
+
+    Args:
+        moved: Standard deviation of the load.
+        load: Size of loads, in the same unit.
+
+    Returns:
+        Whether it did.
+    """
+    return moved <= HARDLY * load
+
+
 EXPLAINED_SHARE = 0.5
 """A direction is excited if the reference explains at least this share of its variance."""
 

@@ -315,7 +315,8 @@ def _written(
         lines += standing_lines(log, sensors, model, base)
     lines += ["", *recorded, *clock_lines(log, first_look)]
     for sensor in sensors:
-        lines += sensor_lines(sensor, prior_lines(sensor, sensors, priors, folder), on_robot=model is not None)
+        own = prior_lines(sensor, sensors, priors, folder, on_robot=model is not None)
+        lines += sensor_lines(sensor, own, on_robot=model is not None)
     extra: list[str] = []
     if model is None:
         lines += _wrist_lines(log, sensors)

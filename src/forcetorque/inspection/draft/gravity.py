@@ -70,10 +70,15 @@ class GravityFit:
     """Standard deviation of that mass; kg."""
     left: FloatArray
     """Magnitude of the residual force; shape (n,); N."""
-    turned: float
-    """Standard deviation of the force that the orientation explains; N."""
+    load: FloatArray
+    """Force that the orientation explains; shape (n, 3); N."""
     tolerance: float
     """Largest residual force without contact; N."""
+
+    @property
+    def turned(self) -> float:
+        """Standard deviation of the force that the orientation explains; N."""
+        return float(np.sqrt(self.load.var(axis=0).sum()))
 
     @property
     def is_free(self) -> BoolArray:
@@ -316,14 +321,13 @@ def _fitted(at_ns: IntArray, wrench: FloatArray, link_R_support: FloatArray, mov
     tolerance = max(_DEVIATIONS * noise, LARGE_SHARE * float(np.linalg.norm(weight)))
     rows = np.vstack([design[np.repeat(left <= tolerance, 3)], prior])
     covariance = np.linalg.pinv(rows.T @ rows) * noise**2
-    turned = link_R_support @ weight
     return GravityFit(
         stamp_ns=at_ns,
         weight=weight,
         inertia=float(size * coefficients[3]),
         inertia_deviation=float(size * np.sqrt(covariance[3, 3])),
         left=left,
-        turned=float(np.sqrt(turned.var(axis=0).sum())),
+        load=link_R_support @ weight,
         tolerance=float(tolerance),
     )
 

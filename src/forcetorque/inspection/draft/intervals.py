@@ -8,7 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.wrench import FORCE_AND_MOMENT
+from forcetorque.experiment.calibration.excitation import hardly_moved
 from forcetorque.inspection.draft.gravity import SHORTEST_S, WINDOW_S, GravityFit, free_intervals, joint_speed
 from forcetorque.inspection.draft.streams import DraftedLog
 from forcetorque.inspection.draft.toml_lines import line, question, remark
@@ -20,9 +22,18 @@ WHOLE_LOG = "all of the log: put it where nothing touches, and cut out what does
 MOST_SPANS = 12
 """Largest number of intervals that are proposed."""
 _HALF_WINDOW_NS = round(5e8 * WINDOW_S)
-_CALIBRATION_SHARE = 2.0 / 3.0
+_CALIBRATION_SHARES = (2.0 / 3.0, 0.6, 0.75, 0.5, 0.8, 0.4)
+"""Shares of the time that are tried for calibration, the usual one first."""
+_ENOUGH = 1.5
+"""Movement that intervals are proposed for, in that below which `evaluate` says that the load hardly moved."""
 _MOVING_SPEED = 0.02
 """Speed of the fastest joint above which the robot moves; rad/s or m/s."""
+Piece = tuple[int, int, str]
+"""First and last instant of an interval, in ns, and its use."""
+NOT_ENOUGH_MOTION = (
+    "the load hardly moves in what is to fit or to validate, however the log is divided: record more motion"
+)
+"""Remark on intervals that validate nothing."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,12 +77,14 @@ def draft_intervals(
 
     Returns:
         The longest intervals in the order of time, the first two thirds of them for calibration and the rest for
-        validation; none where no interval is long enough.
+        validation, or as the load moves in both; none where no interval is long enough.
     """
     spans = _common([free_intervals(fit.stamp_ns, fit.is_free & ~_within(fit.stamp_ns, contacts)) for fit in fits])
     longest = sorted(sorted(spans, key=lambda span: span[0] - span[1])[:MOST_SPANS])
     start = recording.start_ns
-    pieces = divided(longest)
+    loads = [MovingLoad(stamp_ns=fit.stamp_ns, load=fit.load) for fit in fits]
+    pieces = divided(longest, loads)
+    validates = all(load.moves(pieces) for load in loads)
     intervals = []
     for k, (first, last, use) in enumerate(pieces, start=1):
         low, high = _outward(first - start), _inward(last - start)
@@ -83,7 +96,7 @@ def draft_intervals(
                 start_s=low,
                 end_s=high,
                 use=use,
-                words=f"{motion}nothing seems to touch",
+                words=f"{motion}nothing seems to touch{'' if validates else f'; {NOT_ENOUGH_MOTION}'}",
             )
         )
     return tuple(intervals)
@@ -126,23 +139,86 @@ def _common(several: Sequence[list[tuple[int, int]]]) -> list[tuple[int, int]]:
     return common
 
 
-def divided(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int, str]]:
-    """Intervals with their use: first calibration, then validation; an interval across the border is cut."""
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class MovingLoad:
+    """Expected load of a sensor over time."""
+
+    stamp_ns: IntArray
+    """Instants; shape (n,); ns."""
+    load: FloatArray
+    """Expected force, or wrench; shape (n, 3) or (n, 6); N, N m."""
+
+    def moves(self, pieces: Sequence[Piece]) -> bool:
+        """Whether it moves enough in the intervals of either use, forces and moments each.
+
+        Args:
+            pieces: First and last instant, and use, of intervals.
+
+        Returns:
+            Whether `evaluate` would not say that it hardly moved.
+        """
+        calibration, validation = (
+            self.load[_inside(self.stamp_ns, [(first, last) for first, last, use in pieces if use == one])]
+            for one in ("calibration", "validation")
+        )
+        if not len(calibration) or not len(validation):
+            return False
+        for part in FORCE_AND_MOMENT[: self.load.shape[1] // 3]:
+            size = float(np.sqrt((validation[:, part] ** 2).sum(axis=1).mean()))
+            fitted, judged = (float(np.sqrt(one[:, part].var(axis=0).sum())) for one in (calibration, validation))
+            if any(hardly_moved(moved, _ENOUGH * max(size, fitted)) for moved in (fitted, judged)):
+                return False
+        return True
+
+
+def divided(spans: Sequence[tuple[int, int]], loads: Sequence[MovingLoad] = ()) -> list[Piece]:
+    """Divide intervals into those for calibration and those for validation.
+
+    Args:
+        spans: First and last instant of intervals, in the order of time; ns.
+        loads: Expected loads, which are to move in both uses.
+
+    Returns:
+        Intervals with their use: calibration in the first two thirds and validation after it, unless a load hardly
+        moves in one of them and another border, or the other order, is better; an interval across the border is cut.
+    """
+    usual = _cut(spans, _CALIBRATION_SHARES[0])
+    orders = (("calibration", "validation"), ("validation", "calibration"))
+    for uses in orders:
+        for share in _CALIBRATION_SHARES:
+            pieces = _cut(spans, share, uses)
+            if all(load.moves(pieces) for load in loads):
+                return pieces
+    return usual
+
+
+def _cut(
+    spans: Sequence[tuple[int, int]], share: float, uses: tuple[str, str] = ("calibration", "validation")
+) -> list[Piece]:
+    """Intervals of one use, then of the other; the calibration has a share of the time."""
+    before, after = uses
     total = sum(last - first for first, last in spans)
-    border = int(_CALIBRATION_SHARE * total)
-    pieces: list[tuple[int, int, str]] = []
+    border = int((share if before == "calibration" else 1.0 - share) * total)
+    pieces: list[Piece] = []
     used = 0
     for first, last in spans:
         cut = first + border - used
         used += last - first
         shortest = SHORTEST_S * 1e9
         if cut - first < shortest:
-            pieces.append((first, last, "calibration" if cut > first and not pieces else "validation"))
+            pieces.append((first, last, before if cut > first and not pieces else after))
         elif last - cut < shortest:
-            pieces.append((first, last, "calibration"))
+            pieces.append((first, last, before))
         else:
-            pieces += [(first, cut, "calibration"), (cut, last, "validation")]
+            pieces += [(first, cut, before), (cut, last, after)]
     return pieces
+
+
+def _inside(stamp_ns: IntArray, spans: Sequence[tuple[int, int]]) -> BoolArray:
+    inside = np.zeros(len(stamp_ns), dtype=np.bool_)
+    for first, last in spans:
+        inside |= (stamp_ns >= first) & (stamp_ns <= last)
+    return inside
 
 
 def _outward(ns: int) -> float:

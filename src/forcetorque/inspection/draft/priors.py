@@ -86,7 +86,12 @@ def matrix_of(
 
 
 def prior_lines(
-    sensor: DraftedSensor, sensors: Sequence[DraftedSensor], files: Sequence[MatrixFile], folder: Path
+    sensor: DraftedSensor,
+    sensors: Sequence[DraftedSensor],
+    files: Sequence[MatrixFile],
+    folder: Path,
+    *,
+    on_robot: bool = True,
 ) -> list[str]:
     """Write serial number, prior and full scale of a `[[sensor]]`.
 
@@ -95,6 +100,7 @@ def prior_lines(
         sensors: All sensors.
         files: Calibrations that the user named; none if empty.
         folder: Folder of the experiment file, from which paths count.
+        on_robot: Whether there is a robot; the load of a wrist sensor by itself is estimated without full scale.
 
     Returns:
         Its lines; full scale is a question where a calibration of a single sensor needs it.
@@ -115,7 +121,8 @@ def prior_lines(
     words = "the reading itself takes the place of counts; the file of the matrix that made it is better"
     lines = [serial, line("prior", "identity", words)]
     if len(sensors) == 1:
-        return [*lines, question("full_scale", _SCALES)]
+        without = "" if on_robot else "; `payload` needs none: delete the line if you do not calibrate"
+        return [*lines, question("full_scale", f"{_SCALES}{without}")]
     return [
         *lines,
         f"# full_scale = [300, 300, 300, 30, 30, 30]  {remark(f'{_SCALES}; left out: no load is too large')}",

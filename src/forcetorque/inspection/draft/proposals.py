@@ -28,7 +28,7 @@ from forcetorque.inspection.draft.corrections import correction_of
 from forcetorque.inspection.draft.edited_file import tables_of, text_of, write_text_of
 from forcetorque.inspection.draft.edits import Edit, interval_edit
 from forcetorque.inspection.draft.gravity import SHORTEST_S
-from forcetorque.inspection.draft.intervals import divided
+from forcetorque.inspection.draft.intervals import NOT_ENOUGH_MOTION, MovingLoad, divided
 from forcetorque.inspection.draft.residuals import Improvement, Residual, comparison_of, experiment_of
 from forcetorque.inspection.fault_messages import fault_text, remedy
 from forcetorque.inspection.plausibility.hypotheses import Explanation
@@ -133,7 +133,10 @@ def _interval_proposal(file: Path, text: str, experiment: Experiment, runs: Sequ
     if not used or any(one.support is None for one in used):
         return None
     free = free_time(runs)
-    pieces = _pieces(experiment, free)
+    own = [run for run in runs if run.sensor.name in free.sensors]
+    compared = [one for one in map(comparison_of, own) if one is not None]
+    loads = [MovingLoad(stamp_ns=one.at_ns, load=one.expected) for one in compared]
+    pieces = _pieces(experiment, free, loads)
     if not free.spans or not any(pieces.values()):
         return None
     touched_ns = sum((one.end_ns - one.start_ns) - _shared_ns(one, free) for one in used)
@@ -146,9 +149,8 @@ def _interval_proposal(file: Path, text: str, experiment: Experiment, runs: Sequ
     changed = experiment_of(file, content)
     if changed is None:
         return None
-    own = [run for run in runs if run.sensor.name in free.sensors]
     after = Residual.of(comparison_of(SensorRun(changed, run.sensor.name), run) for run in own)
-    before = Residual.of(map(comparison_of, own))
+    before = Residual.of(compared)
     improved = Improvement.between(before, after, _FREES)
     if after is None or (improved is None and not _lacks_validation(used)):
         return None
@@ -162,6 +164,9 @@ def _interval_proposal(file: Path, text: str, experiment: Experiment, runs: Sequ
     what = "intervals free of contact" if improved else "no interval validates the fit; one of both uses"
     edit = interval_edit(text, changes)
     edit = edit if edit is not None and edit.results_in(content, text) else None
+    flat = [piece for own_pieces in pieces.values() for piece in own_pieces]
+    if _lacks_validation(used) and not all(load.moves(flat) for load in loads):
+        shown += f"; {NOT_ENOUGH_MOTION}"
     hand = "" if edit is not None else "; write label, start_s, end_s and use of each in interval by hand"
     return Proposal(kind="interval", about="", text=f"{what}{by}: {shown}{hand}", edit=edit, residuals=improved)
 
@@ -175,7 +180,9 @@ def _shared_ns(interval: Interval, free: FreeTime) -> int:
     return sum(max(0, min(interval.end_ns, b) - max(interval.start_ns, a)) for a, b in free.spans)
 
 
-def _pieces(experiment: Experiment, free: FreeTime) -> dict[str, list[tuple[int, int, str]]]:
+def _pieces(
+    experiment: Experiment, free: FreeTime, loads: Sequence[MovingLoad]
+) -> dict[str, list[tuple[int, int, str]]]:
     """Free parts of every interval in use, with their use: that of the interval, or both where it is the only one."""
     used = [one for one in experiment.recording.intervals if one.use is not Use.IGNORE]
     spans = {
@@ -190,7 +197,7 @@ def _pieces(experiment: Experiment, free: FreeTime) -> dict[str, list[tuple[int,
         return {one.label: [(a, b, str(one.use)) for a, b in spans[one.label]] for one in used}
     owners = {span: label for label, own in spans.items() for span in own}
     pieces: dict[str, list[tuple[int, int, str]]] = {one.label: [] for one in used}
-    for first, last, use in divided(sorted(owners)):
+    for first, last, use in divided(sorted(owners), loads):
         owner = next(label for (a, b), label in owners.items() if a <= first and last <= b)
         pieces[owner].append((first, last, use))
     return pieces

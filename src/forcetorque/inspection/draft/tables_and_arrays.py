@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from forcetorque.base.toml_file import OPEN
+from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.formats.headings import Heading, read_heading
 from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_message
@@ -48,6 +50,8 @@ _SHOWN = 60
 """Characters that are shown of a line in front of a table."""
 _FEW = 9
 """Units that are written out in a question."""
+_LIKE_GRAVITY = 0.02
+"""Share by which the largest component of gravity differs from its magnitude, at most."""
 _BEGIN_AGAIN = "`forcetorque init` --column-names begins the file again with them, and finds the sensor by them"
 _SENSE = "sensor_to_world where it turns vectors along the frame's axes to the world's, else world_to_sensor"
 _EULER_LINES = (
@@ -94,10 +98,11 @@ def _one_motion(
 ) -> tuple[tuple[ColumnMatch, ...], tuple[ColumnMatch, ...]]:
     """Groups, and those that determine the motion a second time: a motion has an orientation or inertial signals."""
     # a support that moves needs inertial signals; a wrist sensor has the orientation, whose origin is no matter
-    inertial = {group.quantity for group in groups} & set(INERTIAL)
-    if "orientation" not in {group.quantity for group in groups} or not inertial:
+    quantities = {group.quantity for group in groups}
+    inertial = quantities & set(INERTIAL)
+    if "orientation" not in quantities or not inertial | (quantities & {"gravity"}):
         return tuple(groups), ()
-    second = {"orientation"} if on_robot and inertial == set(INERTIAL) else inertial
+    second = {"orientation"} if on_robot and inertial == set(INERTIAL) else {*inertial, "gravity"}
     return (
         tuple(group for group in groups if group.quantity not in second),
         tuple(group for group in groups if group.quantity in second),
@@ -123,9 +128,18 @@ def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[ColumnMatch, ...]
     if "position" in groups:  # which tell the pose
         groups = {name: group for name, group in groups.items() if group.form is not OrientationForm.EULER}
     if "orientation" in groups:
-        groups.pop("gravity", None)
-        groups.pop(OPEN, None)
+        unclear = groups.pop(OPEN, None)
+        if joints:
+            groups.pop("gravity", None)
+        elif unclear is not None and "gravity" not in groups and _is_gravity(sketch, unclear):
+            groups["gravity"] = replace(unclear, quantity="gravity", words="")
     return tuple(groups.values())
+
+
+def _is_gravity(sketch: LogSketch, group: ColumnMatch) -> bool:
+    """Whether the largest component is as large as gravity, in m/s2 or g, which a turn rate hardly is."""
+    largest = _largest(sketch, group)
+    return largest is not None and any(abs(largest / size - 1.0) < _LIKE_GRAVITY for size in (STANDARD_GRAVITY, 1.0))
 
 
 def table_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames: Mapping[str, str]) -> list[str]:
@@ -221,7 +235,11 @@ def _signal_lines(
         lines += ["", "[[recording.stream.signal]]", *_group_lines(group, sketch, model, stream.name, frames)]
     for group in stream.alternatives:
         other = " and ".join(INERTIAL) if group.quantity == "orientation" else "orientation"
-        lines += ["", remark(f"the motion is that of {other}; a file has only one of both, so in its place may stand:")]
+        direct = ", and needs no sense" if group.quantity == "gravity" else ""
+        lines += [
+            "",
+            remark(f"the motion is that of {other}; a file has only one of both, so in its place may stand{direct}:"),
+        ]
         signal = ["[[recording.stream.signal]]", *_group_lines(group, sketch, model, stream.name, frames)]
         lines += [f"# {text}" for text in "\n".join(signal).splitlines() if text]
     used = {k for group in (*stream.groups, *stream.alternatives) for k in group.columns}

@@ -10,12 +10,13 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.output_file import refuse_output, write_bytes_atomically
+from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_bytes_atomically
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.load_estimates import HypothesisRow
+from forcetorque.payload.identify import weigh_load
 from forcetorque.payload.load_on_wrist_sensor import LOAD_LINK, WristLoads, wrist_loads
-from forcetorque.payload.load_warnings import overweight_loads
+from forcetorque.payload.load_warnings import overruled, overweight_loads, reason_to_withhold
 from forcetorque.payload.result import WeighedLoad
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
@@ -41,6 +42,9 @@ def write_load_file(
 ) -> None:
     """Write a load for a robot; on any error the file keeps what it held before.
 
+    The reason to tell of a doubtful load is a comment, or, of a form without comments, a file beside it that ends in
+    `.override.txt`.
+
     Args:
         path: File to write or to replace, in an existing folder; `-` is standard output.
         load: The load.
@@ -56,12 +60,30 @@ def write_load_file(
         LoadFormat.MC_RTC: lambda: mc_rtc_text(load, body_H_sensor=body_H_sensor),
         LoadFormat.HRPSYS: lambda: hrpsys_text(load),
     }
-    mark = "" if form in _WITHOUT_COMMENTS else f"# forcetorque {form}\n"
-    write_bytes_atomically(Path(path), (mark + texts[form]()).encode())
+    if form in _WITHOUT_COMMENTS:
+        mark, beside = "", load.override
+    else:
+        mark, beside = f"# forcetorque {form}\n" + (f"# {load.override}\n" if load.override else ""), None
+    text = mark + texts[form]()
+    if beside is not None:
+        write_bytes_atomically(_override_file(path), f"{path}: {beside}\n".encode())
+    write_bytes_atomically(Path(path), text.encode())
+
+
+def _override_file(path: Path | str) -> Path:
+    """The file beside one without comments, which says why a doubtful load was written."""
+    if str(path) == str(STANDARD_OUTPUT):
+        raise ExperimentError("--output: expected a file, beside which the reason is written, got standard output")
+    return Path(f"{path}.override.txt")
 
 
 def robot_load(
-    run: SensorRun, bias: Sequence[float | None] | FloatArray, *, weighed: WeighedLoad | None = None
+    run: SensorRun,
+    bias: Sequence[float | None] | FloatArray,
+    *,
+    weighed: WeighedLoad | None = None,
+    doubt: str | None = None,
+    override: str | None = None,
 ) -> RobotLoad:
     """Give the load of a wrist sensor, estimated or stated, with a bias of the sensor.
 
@@ -70,13 +92,16 @@ def robot_load(
         bias: Reading without load, such as that of `weigh_load`, or minus the offset of `tare`; shape (6,); N, N m;
             None where the data leave it open.
         weighed: What several recordings say together, as `weigh_load` gives it; the run alone if None.
+        doubt: What else is doubtful, such as a tare under a load that moves; None for nothing.
+        override: Reason to tell of a doubtful load, which is written with it; refused if None.
 
     Returns:
         The load, to write it for a robot (`export_load`).
 
     Raises:
         ExperimentError: If the experiment is of a robot with links, has several loads, leaves load or bias open, or if
-            the readings contradict the frames, senses and units by which the load was weighed.
+            the readings contradict the frames, senses and units by which the load was weighed, or, without a reason,
+            if the load is doubtful.
     """
     experiment, known = run.experiment, np.array(bias, dtype=np.float64)
     wrist = wrist_loads(experiment)
@@ -100,6 +125,11 @@ def robot_load(
             f"expected a load that the readings agree with, of which a robot is told, they say: {contradiction}; mend "
             "that, and weigh again"
         )
+    if weighed is None and not wrist.are_stated and run.has(Use.CALIBRATION):
+        doubt = doubt or reason_to_withhold(weigh_load(run))
+    elif weighed is not None:
+        doubt = doubt or reason_to_withhold(weighed)
+    note = overruled(doubt, override, where=f"load of {run.sensor.name!r}")
     if weighed is None:
         (support,) = supports.values()
         inertia = experiment.model_on(support).links[LOAD_LINK]
@@ -121,6 +151,7 @@ def robot_load(
         centre_of_mass=centre,
         bias=known,
         matrix=np.eye(6) if matrix is None else matrix,
+        override=note,
     )
 
 

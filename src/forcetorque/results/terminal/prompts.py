@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import select
 import sys
+from io import BufferedReader
 
 import typer
 
@@ -12,9 +14,24 @@ def is_terminal() -> bool:
     """Tell whether a person can answer.
 
     Returns:
-        Whether standard input is a terminal.
+        Whether standard input is a terminal; none that is closed.
     """
-    return sys.stdin.isatty()
+    return sys.stdin is not None and not sys.stdin.closed and sys.stdin.isatty()
+
+
+def has_piped_lines() -> bool:
+    """Tell whether lines wait on a standard input that is no terminal.
+
+    Returns:
+        Whether there are; an empty or closed one, such as `/dev/null`, has none, and so has one that cannot be asked.
+    """
+    if is_terminal():
+        return False
+    try:
+        ready, _, _ = select.select([sys.stdin], [], [], 0.0)
+        return bool(ready) and isinstance(sys.stdin.buffer, BufferedReader) and bool(sys.stdin.buffer.peek(1))
+    except (OSError, ValueError, AttributeError):
+        return False
 
 
 def ask(question: str) -> str:
