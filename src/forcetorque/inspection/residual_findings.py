@@ -134,13 +134,11 @@ def model_findings(
 def _residual(
     stream: str, stamp_ns: IntArray, measured: FloatArray, expected: FloatArray, in_use: BoolArray
 ) -> _Residual:
-    from scipy.ndimage import median_filter  # here because importing it takes longer than most commands
-
     values = measured - expected
     values = values - np.median(values[in_use], axis=0)
     rate_hz = 1e9 / float(np.median(np.diff(stamp_ns))) if len(stamp_ns) > 1 else 1.0
     size = max(1, round(_SMOOTH_S * rate_hz))
-    smooth: FloatArray = median_filter(values, size=(size, 1), mode="nearest")
+    smooth = _running_median(values, size)
     scatter = MAD_TO_DEVIATION * np.median(np.abs(smooth[in_use]), axis=0)
     load = np.repeat([np.percentile(np.linalg.norm(expected[:, part], axis=1), 95) for part in FORCE_AND_MOMENT], 3)
     return _Residual(
@@ -154,6 +152,16 @@ def _residual(
         expected=expected,
         in_use=in_use,
     )
+
+
+def _running_median(values: FloatArray, size: int) -> FloatArray:
+    """Median over windows of samples, shape (n, k); the first and last sample are repeated beyond the ends."""
+    from scipy.ndimage import median_filter  # here because importing it takes longer than most commands
+
+    result = np.empty_like(values)
+    for k, column in enumerate(values.T):  # of a single axis SciPy sorts no window anew
+        result[:, k] = median_filter(np.ascontiguousarray(column), size=size, mode="nearest")
+    return result
 
 
 _SEGMENTS = 12
@@ -216,9 +224,7 @@ def _pushes(
     residual: _Residual, expected: FloatArray, contacts: Sequence[tuple[int, int]], errors: ModelErrors
 ) -> list[tuple[int, int]]:
     """Runs in which several axes are off together and come back: a force on the limb that is not one of `contacts`."""
-    from scipy.ndimage import median_filter  # here because importing it takes longer than most commands
-
-    quick = median_filter(residual.values, size=(residual.samples(_QUICK_S), 1), mode="nearest")
+    quick = _running_median(residual.values, residual.samples(_QUICK_S))
     beside = replace(errors, residual=quick)
     off = np.abs(quick) > residual.limit
     quiet = residual.samples(_QUIET_S)
@@ -263,6 +269,7 @@ def _is_explained(
         last,
         itemgetter((slice(None), axis)),
         np.full(last - first + 1, residual.limit[axis]),
+        axes=slice(axis, axis + 1),
         is_moment=axis >= 3,
         margin=residual.samples(_LEVEL_S),
         shortest=residual.samples(shortest_s),
@@ -304,6 +311,7 @@ def _is_no_contact(
         last,
         lambda values: _carried(values, expected[own]),
         least[own],
+        axes=slice(0, 3),
         is_moment=False,
         margin=residual.samples(_LEVEL_S),
         shortest=residual.samples(_SHORTEST_S),
@@ -338,14 +346,14 @@ def _off_level(residual: _Residual, free: BoolArray, errors: ModelErrors) -> lis
 
 def _steps(residual: _Residual, free: BoolArray, untouched: BoolArray, errors: ModelErrors) -> list[Finding]:
     """Differences between the levels of a second before and a second after, each off by a quarter second."""
-    from scipy.ndimage import binary_erosion, median_filter  # here because importing it takes longer than most commands
+    from scipy.ndimage import binary_erosion  # here because importing it takes longer than most commands
 
     width = residual.samples(_LEVEL_S)
     shift = width // 2 + residual.samples(_EDGE_S)
     findings: list[Finding] = []
     if len(free) <= 2 * shift:
         return findings
-    levels = median_filter(residual.values, size=(width, 1), mode="nearest")
+    levels = _running_median(residual.values, width)
     away = binary_erosion(
         free, structure=np.ones(2 * shift + 1, dtype=np.bool_), border_value=1
     )  # both levels free of contact

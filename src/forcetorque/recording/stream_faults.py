@@ -248,7 +248,11 @@ def _seconds(stream: Stream, run: Run) -> float:
 
 def _stuck_runs(stream: Stream, column: FloatArray, alone: BoolArray) -> list[Run]:
     """Runs of equal values of one channel, other than of all, that are too long for noise."""
-    runs = [(first, last + 1) for first, last in true_runs(alone)]
-    short = [run for run in runs if STUCK_NOISY_SECONDS < _seconds(stream, run) <= STUCK_SECONDS]
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], alone, [False]]).astype(np.int8)))
+    seconds = (stream.stamp_ns[edges[1::2]] - stream.stamp_ns[edges[::2]]) * 1e-9
+    # of millions of samples two in a row are often equal
+    long = seconds > STUCK_NOISY_SECONDS
+    runs: list[Run] = list(zip(edges[::2][long].tolist(), edges[1::2][long].tolist(), strict=True))
+    short = [run for run in runs if _seconds(stream, run) <= STUCK_SECONDS]
     surely = set(noisy_runs(stream.stamp_ns, column, short))
     return [run for run in runs if _seconds(stream, run) > STUCK_SECONDS or run in surely]
