@@ -133,8 +133,7 @@ class ModelErrors(ArrayRecord):
         return np.asarray(np.median(self.expected[self.usable], axis=0))
 
     def _predicted(self, first: int, last: int, margin: int, axes: slice) -> FloatArray | None:
-        """Residual of an interval by the rest of the log, 0 but of `axes`; None where that is short or has no such
-        loads."""
+        """Residual of an interval by the rest of the log, in `axes` alone; None where that has no such loads."""
         rest = np.array(self.usable)
         rest[max(0, first - margin) : last + margin + 1] = False
         rows = np.flatnonzero(rest)

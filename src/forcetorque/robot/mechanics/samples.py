@@ -17,11 +17,11 @@ from forcetorque.recording.frozen_and_saturated_samples import SampleQuality, Un
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.smoothing import DERIVATIVE_WINDOW, EvenGrid, SavitzkyGolay, smooth
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.mechanics.estimate import Evaluator, estimate
+from forcetorque.robot.mechanics.estimate import Evaluator, estimate, evaluator_of_samples
 from forcetorque.robot.mechanics.question import Question, required_joints_of
-from forcetorque.robot.mechanics.root_motion import joints_to_support, support_motion_at
+from forcetorque.robot.mechanics.root_motion import LoggedSupport, joints_to_support
 from forcetorque.robot.model import RobotModel
-from forcetorque.robot.motion import JointMotion, RootMotion, joint_motion_at, require_joints_in_radians
+from forcetorque.robot.motion import JointMotion, JointUnits, LoggedJoints, RootMotion, blocks_of
 from forcetorque.robot.tree import build_tree
 
 
@@ -356,9 +356,72 @@ def _expected(
     """Expected wrench of a sensor at given instants, and the joints it needed."""
     name = model.sensor(sensor).name
     question = Question(tree=build_tree(model, support.frame), expected=(name,), equations=())
-    needed = required_joints_of(question)
-    joints, root = robot_motion_at(recording, model, support, needed, source, at_ns, processing=processing)
-    return estimate(question, joints, root, evaluator=evaluator).expected_of(name), joints.names
+    robot = LoggedRobot(recording, model, support, required_joints_of(question), source, processing=processing)
+    if evaluator is None:
+        evaluator = evaluator_of_samples(len(at_ns))
+    expected = np.empty((len(at_ns), 6))
+    for block in blocks_of(len(at_ns)):
+        joints, root = robot.at(at_ns[block])
+        expected[block] = estimate(question, joints, root, evaluator=evaluator).expected_of(name)
+    robot.require_radians()
+    return expected, robot.joints
+
+
+class LoggedRobot:
+    """Joints and support of a recording, whose motion can be had at any instants of a stream."""
+
+    def __init__(
+        self,
+        recording: Recording,
+        model: RobotModel,
+        support: Support | MovingSupport,
+        joints: Sequence[str],
+        source: Stream,
+        *,
+        processing: Processing,
+    ) -> None:
+        """Find the streams of the joints and of the IMU.
+
+        Args:
+            recording: Streams of the joints and of the IMU, on the clock of `source`.
+            model: The robot.
+            support: The support.
+            joints: Joints whose motion is wanted.
+            source: Stream that the instants are of.
+            processing: Filters and gravity.
+        """
+        self.joints = tuple(dict.fromkeys((*joints, *joints_to_support(model, recording, support))))
+        """Joints whose motion is given: those that are wanted, and those between an IMU and the support."""
+        for used in ("position", "velocity", "acceleration") if processing.logged_derivatives else ("position",):
+            holders = recording.joint_signals(used)
+            for holder in dict.fromkeys(holders[joint][0].name for joint in self.joints if joint in holders):
+                require_overlap(source, recording.stream(holder))
+        if isinstance(support, MovingSupport):
+            for stream in support.motion_streams:
+                require_overlap(source, recording.stream(stream))
+        window = processing.derivative_window
+        self._joints = LoggedJoints(
+            recording, self.joints, window=window, logged_derivatives=processing.logged_derivatives
+        )
+        self._support = LoggedSupport(model, recording, support, window=window, gravity=processing.gravity)
+        self._units = JointUnits(model, self.joints)
+
+    def at(self, at_ns: IntArray) -> tuple[JointMotion, RootMotion]:
+        """Give the motion at instants.
+
+        Args:
+            at_ns: Instants; shape (n,); ns.
+
+        Returns:
+            Motion of `joints`; motion of the support frame.
+        """
+        motion = self._joints.at(at_ns)
+        self._units.add(motion)
+        return motion, self._support.at(motion, at_ns)
+
+    def require_radians(self) -> None:
+        """Refuse positions, of all instants so far, far beyond the limits of the robot, and within them as degrees."""
+        self._units.require_radians()
 
 
 def robot_motion_at(
@@ -384,20 +447,8 @@ def robot_motion_at(
 
     Returns:
         Motion of the joints, and of those between an IMU and the support; motion of the support frame.
-
-    Raises:
-        RecordingError: If positions are far beyond the limits of the robot, and within them as degrees.
     """
-    needed = tuple(dict.fromkeys((*joints, *joints_to_support(model, recording, support))))
-    for used in ("position", "velocity", "acceleration") if processing.logged_derivatives else ("position",):
-        holders = recording.joint_signals(used)
-        for holder in dict.fromkeys(holders[joint][0].name for joint in needed if joint in holders):
-            require_overlap(source, recording.stream(holder))
-    if isinstance(support, MovingSupport):
-        for stream in support.motion_streams:
-            require_overlap(source, recording.stream(stream))
-    window = processing.derivative_window
-    motion = joint_motion_at(recording, needed, at_ns, window=window, logged_derivatives=processing.logged_derivatives)
-    require_joints_in_radians(model, motion)
-    root = support_motion_at(model, recording, support, motion, at_ns, window=window, gravity=processing.gravity)
-    return motion, root
+    robot = LoggedRobot(recording, model, support, joints, source, processing=processing)
+    motion = robot.at(at_ns)
+    robot.require_radians()
+    return motion
