@@ -78,7 +78,10 @@ def compared(run: SensorRun, correction: Correction, *, whole: IntervalSamples |
     known = run.known(supported)
     alone = tuple(one for one in known if not run.possibly_touched(one)) or known
     if whole is None:
-        parts = tuple(run.interval_samples(one, variables=correction.variables, smoothed=False) for one in alone)
+        parts = tuple(
+            run.interval_samples(one, variables=correction.variables, smoothed=False, with_flattening=False)
+            for one in alone
+        )
     else:
         parts = tuple(part for one in alone if len((part := _within(whole, one)).samples))
     total = sum(len(part.samples) for part in parts)
@@ -119,7 +122,7 @@ def _within(whole: IntervalSamples, interval: Interval) -> IntervalSamples:
         stamp_ns=samples.stamp_ns[rows],
         reading=replace(samples.reading, values=samples.reading.values[rows]),
         reference=samples.reference[rows],
-        flattening=samples.flattening[rows],
+        flattening=None if samples.flattening is None else samples.flattening[rows],
         variables=samples.variables[rows],
     )
     return IntervalSamples(interval=interval, samples=own, readings=whole.readings.at(rows))

@@ -199,7 +199,7 @@ def _causes(
 
 
 def _samples(run: SensorRun, interval: Interval, correction: Correction) -> IntervalSamples:
-    return run.interval_samples(interval, variables=correction.variables, smoothed=False)
+    return run.interval_samples(interval, variables=correction.variables, smoothed=False, with_flattening=False)
 
 
 def _implausible(run: SensorRun, comparison: Comparison) -> Iterator[Finding]:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -55,6 +55,26 @@ class PaddedSamples:
         if self.window is not None:
             values = smooth(self.stamp_ns, values, self.window, grid=self.grid)
         return values[self.inside]
+
+    def smoothed_together(self, columns: Mapping[str, FloatArray]) -> tuple[dict[str, FloatArray], BoolArray]:
+        """Filter several quantities as `smoothed` does, as if they were columns of one.
+
+        Args:
+            columns: Quantities by name; shape (n, k) each.
+
+        Returns:
+            The same in the interval, shape (m, k) each, and which samples have all of them; shape (m,).
+        """
+        if self.window is None:
+            inside = {name: self.smoothed(values) for name, values in columns.items()}
+        else:
+            ends = np.cumsum([values.shape[1] for values in columns.values()])[:-1]
+            split = np.split(self.smoothed(np.hstack(list(columns.values()))), ends, axis=1)
+            inside = dict(zip(columns, split, strict=True))
+        complete = np.ones(int(np.count_nonzero(self.inside)), dtype=bool)
+        for values in inside.values():
+            complete &= np.isfinite(values).all(axis=1)
+        return inside, complete
 
 
 def padded_samples(
@@ -186,8 +206,8 @@ class SensorSamples(ArrayRecord):
     """What the sensor read, `raw` or `wrench`; n samples."""
     reference: FloatArray = field(metadata=array("n", 6))
     """Expected wrench in the sensor's frame and direction; shape (n, 6); N, N m."""
-    flattening: FloatArray = field(metadata=array("n", 6))
-    """What a derivative window of twice the length would take from it; shape (n, 6); N, N m.
+    flattening: FloatArray | None = field(metadata=array("n", 6))
+    """What a derivative window of twice the length would take from it; shape (n, 6); N, N m; None where no fit asks.
 
     The window that is used has flattened the accelerations already, by about a third of that where motions are smooth.
     """
@@ -221,6 +241,7 @@ def sensor_samples(
     evaluator: Evaluator | None = None,
     applied: str | None = None,
     quality: SampleQuality | None = None,
+    with_flattening: bool = True,
 ) -> SensorSamples:
     """Pair the readings of a sensor in an interval with the wrenches expected from the robot model.
 
@@ -239,6 +260,7 @@ def sensor_samples(
         evaluator: Who computes the reference; by the number of samples of the interval if None.
         applied: Stream with the `applied_wrench`, which is the reference in place of the model's; none if None.
         quality: What is wrong with each sample of the stream; what the board and the stamps say if None.
+        with_flattening: Whether the flattening is evaluated, for a fit.
 
     Returns:
         Samples of the interval that lie in no ignored interval and have a finite reading, reference and variables.
@@ -252,42 +274,44 @@ def sensor_samples(
     source = recording.stream(stream)
     padded = padded_samples(recording, source, interval, processing.smoothing, apart=apart)
     at_ns = padded.stamp_ns
+    columns = {}
     if applied is None:
         robot = (recording, model, sensor, source, interval.support, at_ns)
-        reference, joints = _expected(*robot, processing, evaluator)
-        flattening = np.zeros_like(reference)
-        if not processing.logged_derivatives:
+        columns["reference"], joints = _expected(*robot, processing, evaluator)
+        if with_flattening and not processing.logged_derivatives:
             longer = replace(processing, derivative_window=processing.derivative_window.doubled())
             # near the end of a log there may be no room for the longer window
-            flattening = np.nan_to_num(reference - _expected(*robot, longer, evaluator)[0])
+            flattening = np.nan_to_num(columns["reference"] - _expected(*robot, longer, evaluator)[0])
+            columns["flattening"] = flattening
     else:
-        reference, joints = _applied(recording, source, applied, at_ns), ()
-        flattening = np.zeros_like(reference)  # no filter has flattened it
+        columns["reference"], joints = _applied(recording, source, applied, at_ns), ()
     reading = source.signal(quantity)
     if quality is None:
         nothing = np.zeros(len(source), dtype=bool)
         quality = SampleQuality(frozen=nothing, saturated=source.held, repeated=repeated_samples(source.stamp_ns))
-    values = np.where(quality.unusable[padded.rows, None], np.nan, reading.values[padded.rows])
-    extra = _variables(recording, source, variables, at_ns)
+    columns["reading"] = np.where(quality.unusable[padded.rows, None], np.nan, reading.values[padded.rows])
+    if variables:
+        columns["variables"] = _variables(recording, source, variables, at_ns)
     # together, because a sample that only one of them lacks would give them different filters
-    whole = padded.smoothed(np.hstack([values, reference, flattening, extra]))
-    values, reference, flattening, extra = np.split(whole, values.shape[1] + np.array([0, 6, 12]), axis=1)
-    complete = np.isfinite(whole).all(axis=1)
+    columns, complete = padded.smoothed_together(columns)
     unusable = quality.counted(padded.among)
     if not complete.any():
         needed = ", ".join((*joints, *(f"{v.stream} {v.column}" for v in variables))) or "motion of the support"
         raise RecordingError(
-            f"interval {interval.label!r}: none of {len(whole)} samples of {stream!r} has both a reading and the "
+            f"interval {interval.label!r}: none of {len(complete)} samples of {stream!r} has both a reading and the "
             f"joint(s) {needed}; the streams have gaps or missing values all over it, or samples that say nothing "
             f"of the load: {unusable}"
         )
+    kept = {name: values[complete] for name, values in columns.items()}
+    if with_flattening and "flattening" not in kept:
+        kept["flattening"] = np.zeros_like(kept["reference"])  # no filter has flattened it
     return SensorSamples(
         label=interval.label,
         stamp_ns=at_ns[padded.inside][complete],
-        reading=replace(reading, values=values[complete]),
-        reference=reference[complete],
-        flattening=flattening[complete],
-        variables=extra[complete],
+        reading=replace(reading, values=kept["reading"]),
+        reference=kept["reference"],
+        flattening=kept.get("flattening"),
+        variables=kept.get("variables", np.empty((len(kept["reference"]), 0))),
         dropped=int(np.count_nonzero(padded.among)) - int(np.count_nonzero(complete)),
         unusable=unusable,
     )
