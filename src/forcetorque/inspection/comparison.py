@@ -199,7 +199,11 @@ def _shift(comparison: Comparison, delay_s: float) -> FloatArray:
         own, stamps = comparison.part_of == number, part.samples.stamp_ns
         seconds = (stamps - stamps[0]) * 1e-9
         at_s = (comparison.at_ns[own] - stamps[0]) * 1e-9 - delay_s
-        shifted[own] = np.column_stack([np.interp(at_s, seconds, column) for column in part.samples.reference.T])
+        # of a long log only the samples beside the compared instants
+        before = np.clip(np.searchsorted(seconds, at_s, side="right") - 1, 0, max(len(stamps) - 2, 0))
+        rows = np.unique(np.concatenate([before, np.minimum(before + 1, len(stamps) - 1)]))
+        reference = part.samples.reference[rows]
+        shifted[own] = np.column_stack([np.interp(at_s, seconds[rows], column) for column in reference.T])
     return shifted
 
 

@@ -346,19 +346,14 @@ def _off_level(residual: _Residual, free: BoolArray, errors: ModelErrors) -> lis
 
 def _steps(residual: _Residual, free: BoolArray, untouched: BoolArray, errors: ModelErrors) -> list[Finding]:
     """Differences between the levels of a second before and a second after, each off by a quarter second."""
-    from scipy.ndimage import binary_erosion  # here because importing it takes longer than most commands
-
     width = residual.samples(_LEVEL_S)
     shift = width // 2 + residual.samples(_EDGE_S)
     findings: list[Finding] = []
     if len(free) <= 2 * shift:
         return findings
     levels = _running_median(residual.values, width)
-    away = binary_erosion(
-        free, structure=np.ones(2 * shift + 1, dtype=np.bool_), border_value=1
-    )  # both levels free of contact
-    # and free of pushes to their ends: what is short and comes back is no step
-    away &= binary_erosion(untouched, structure=np.ones(2 * (shift + width // 2) + 1, dtype=np.bool_), border_value=1)
+    # both levels free of contact, and free of pushes to their ends: what is short and comes back is no step
+    away = _all_around(free, shift) & _all_around(untouched, shift + width // 2)
     for axis, name in enumerate(WRENCH_COMPONENTS):
         change = np.zeros(len(free))
         change[shift:-shift] = levels[2 * shift :, axis] - levels[: -2 * shift, axis]
@@ -377,6 +372,13 @@ def _steps(residual: _Residual, free: BoolArray, untouched: BoolArray, errors: M
                 findings.append(residual.finding("step", f"{name} steps against the model", at, at, axis, size))
             change[max(0, peak - 2 * shift) : peak + 2 * shift + 1] = 0.0
     return sorted(findings, key=lambda finding: finding.start_ns or 0)
+
+
+def _all_around(mask: BoolArray, reach: int) -> BoolArray:
+    """Whether all samples within a reach are true, of those that there are; shape (n,)."""
+    untrue = np.concatenate([[0], np.cumsum(~mask)])
+    at = np.arange(len(mask))
+    return np.asarray(untrue[np.minimum(at + reach + 1, len(mask))] == untrue[np.maximum(at - reach, 0)])
 
 
 def _steepest(residual: _Residual, axis: int, peak: int, shift: int, sign: float) -> int:

@@ -244,12 +244,22 @@ class _Columns:
     grid: EvenGrid
     length: int
     """Instants of the grid in a window."""
+    segment: IntArray
+    """Number of the segment between gaps that each of the rows lies in."""
 
     def is_gap_before(self, place: int) -> bool:
         """Whether a segment begins at a place among the rows, or the last one ended."""
-        if place in (0, len(self.rows)):
-            return True
-        return bool(self.stamp_ns[place] - self.stamp_ns[place - 1] > self.grid.gap_ns)
+        return place in (0, len(self.rows)) or self.segment[place] != self.segment[place - 1]
+
+    def around(self, places: IntArray) -> IntArray:
+        """Places of the samples that the filter takes for results at some increasing places."""
+        # two windows: where a segment ends, the last whole one is used, and steps of the grid are near its period
+        reach = round(2.0 * (self.length + 1) * self.grid.period_s * 1e9) + self.grid.gap_ns
+        stamps = self.stamp_ns[places]
+        apart = np.flatnonzero(np.diff(stamps) > 2 * reach)
+        first = np.searchsorted(self.stamp_ns, stamps[np.concatenate([[0], apart + 1])] - reach, side="left")
+        after = np.searchsorted(self.stamp_ns, stamps[np.concatenate([apart, [-1]])] + reach, side="right")
+        return np.concatenate([np.arange(a, b) for a, b in zip(first.tolist(), after.tolist(), strict=True)])
 
 
 class FilteredColumns:
@@ -301,7 +311,9 @@ class FilteredColumns:
             stamps = stamp_ns[rows]
             own_grid = EvenGrid.of(stamps) if grid is None else grid
             length = own_grid.length_of(window)
-            self._groups.append(_Columns(columns=own, rows=rows, stamp_ns=stamps, grid=own_grid, length=length))
+            segment = np.concatenate([[0], np.cumsum(np.diff(stamps) > own_grid.gap_ns)])
+            group = _Columns(columns=own, rows=rows, stamp_ns=stamps, grid=own_grid, length=length, segment=segment)
+            self._groups.append(group)
 
     def _complete(self, usable: IntArray, *, together: bool) -> Iterable[tuple[list[int], BoolArray]]:
         """Positions of columns that lack the same samples, with marks of usable samples that they do not lack."""
@@ -326,7 +338,7 @@ class FilteredColumns:
         """
         results = [np.full((len(self._values), len(self._columns)), np.nan) for _ in self._derivatives]
         for group in self._groups:
-            filtered = self._between_gaps(group, 0, len(group.rows))
+            filtered = self._filtered(group, np.arange(len(group.rows)))
             for result, values in zip(results, filtered, strict=True):
                 result[np.ix_(group.rows, group.columns)] = values
         return results
@@ -344,28 +356,28 @@ class FilteredColumns:
         for group in self._groups:
             places = np.minimum(np.searchsorted(group.rows, rows), len(group.rows) - 1)
             present = np.flatnonzero(group.rows[places] == rows)
-            for some in _close_together(group, places[present]):
-                wanted = present[some]
-                first, after = _around(group, places[wanted[[0, -1]]])
-                filtered = self._between_gaps(group, first, after)
-                for result, values in zip(results, filtered, strict=True):
-                    result[np.ix_(wanted, group.columns)] = values[places[wanted] - first]
+            if not len(present):
+                continue
+            wanted = places[present]
+            around = group.around(wanted)
+            filtered = self._filtered(group, around)
+            for result, values in zip(results, filtered, strict=True):
+                result[np.ix_(present, group.columns)] = values[np.searchsorted(around, wanted)]
         return results
 
-    def _between_gaps(self, group: _Columns, first: int, after: int) -> list[FloatArray]:
-        """Filter a range of the complete samples of a group; those close to its ends only at gaps."""
-        stamps = group.stamp_ns[first:after]
+    def _filtered(self, group: _Columns, places: IntArray) -> list[FloatArray]:
+        """Filter ranges of the complete samples of a group; what is close to their ends is right only at gaps."""
         columns = [self._columns[k] for k in group.columns]
-        samples = self._values[group.rows[first:after, None], columns]
+        samples = self._values[group.rows[places][:, None], columns]
         results = [np.full(samples.shape, np.nan) for _ in self._derivatives]
-        ends = [0, *(np.flatnonzero(np.diff(stamps) > group.grid.gap_ns) + 1).tolist(), len(stamps)]
+        ends = [0, *(np.flatnonzero(np.diff(group.segment[places])) + 1).tolist(), len(places)]
         for start, end in pairwise(ends):
-            positions, step = group.grid.positions(stamps[start:end])
-            low, high = math.ceil(positions[0] - _COINCIDENCE), math.floor(positions[-1] + _COINCIDENCE)
-            if high - low + 1 < max(group.length, 2):
+            own = places[start:end]
+            positions, step = group.grid.positions(group.stamp_ns[own])
+            even = _instants(positions, np.flatnonzero(np.diff(own) > 1) + 1)
+            if len(even) < max(group.length, 2):
                 continue
-            at_ends = (group.is_gap_before(first + start), group.is_gap_before(first + end))
-            even = np.arange(low, high + 1, dtype=np.float64)
+            at_ends = (group.is_gap_before(int(own[0])), group.is_gap_before(int(own[-1]) + 1))
             on_grid = np.column_stack([np.interp(even, positions, column) for column in samples[start:end].T])
             for derivative, result in zip(self._derivatives, results, strict=True):
                 filtered = polynomials_through_windows(
@@ -375,27 +387,11 @@ class FilteredColumns:
         return results
 
 
-def _close_together(group: _Columns, places: IntArray) -> list[IntArray]:
-    """Indices of places, in runs whose surroundings overlap."""
-    if not len(places):
-        return []
-    apart = np.flatnonzero(np.diff(group.stamp_ns[places]) > 2 * _reach_ns(group)) + 1
-    return np.split(np.arange(len(places)), apart)
-
-
-def _around(group: _Columns, places: IntArray) -> tuple[int, int]:
-    """First place, and that after the last, of the samples that the filter takes from the first to the last place."""
-    reach = _reach_ns(group)
-    start, end = group.stamp_ns[places] + np.array([-reach, reach])
-    return (
-        int(np.searchsorted(group.stamp_ns, start, side="left")),
-        int(np.searchsorted(group.stamp_ns, end, side="right")),
-    )
-
-
-def _reach_ns(group: _Columns) -> int:
-    """Two windows: where a segment ends, the last whole one is used, and steps of the grid are near its period."""
-    return round(2.0 * (group.length + 1) * group.grid.period_s * 1e9) + group.grid.gap_ns
+def _instants(positions: FloatArray, holes: IntArray) -> FloatArray:
+    """Instants of a grid between positions, without those in holes; their windows are not looked at."""
+    first = np.ceil(positions[np.concatenate([[0], holes])] - _COINCIDENCE)
+    last = np.floor(positions[np.concatenate([holes - 1, [-1]])] + _COINCIDENCE)
+    return np.concatenate([np.arange(a, b + 1.0) for a, b in zip(first.tolist(), last.tolist(), strict=True)])
 
 
 def _off_grid(grid: FloatArray, positions: FloatArray, filtered: FloatArray) -> FloatArray:

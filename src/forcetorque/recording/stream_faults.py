@@ -205,7 +205,8 @@ def _missing_values(stream: Stream, signal: Signal) -> list[Finding]:
 
 def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
     """Runs of one value; one finding where all channels rest together."""
-    whole: BoolArray = (np.diff(signal.values, axis=0) == 0.0).all(axis=1)
+    same: BoolArray = np.diff(signal.values, axis=0) == 0.0
+    whole: BoolArray = same.all(axis=1)
     runs = equal_runs(stream.stamp_ns, signal.values)
     frozen = noisy_runs(stream.stamp_ns, signal.values, runs)
     findings = [frozen_finding(stream, signal.quantity, run) for run in frozen]
@@ -218,7 +219,7 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
     ]
     for k, (name, unit) in enumerate(zip(signal.columns, signal.units, strict=True)):
         column = signal.values[:, k]
-        alone: BoolArray = (np.diff(column) == 0.0) & ~whole
+        alone: BoolArray = same[:, k] & ~whole
         for at, last in _stuck_runs(stream, signal.values[:, [k]], alone):
             text = f"{name} stays at {column[at]:g} {unit}"
             seconds = _seconds(stream, (at, last))
