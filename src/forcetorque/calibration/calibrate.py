@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
@@ -438,9 +437,9 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
 
 def _found(run: SensorRun, *, by_model: bool) -> Iterator[str]:
     """Findings in fitted intervals; a channel that saturates in every swing does not hide the others."""
-    start_ns, alone = run.experiment.recording.start_ns, replace(run.experiment, sensors=(run.sensor,))
+    start_ns, sensors = run.experiment.recording.start_ns, (run.sensor.name,)
     alike: dict[str, list[str]] = {}
-    for interval, finding in unreliable_intervals(alone, Use.CALIBRATION, by_model=by_model):
+    for interval, finding in unreliable_intervals(run.experiment, Use.CALIBRATION, by_model=by_model, sensors=sensors):
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
         kind = f"interval {interval.label!r}: {finding.stream} {finding.kind}"
         alike.setdefault(kind, []).append(f"{kind} at {start:.2f}-{end:.2f} s: {finding.message}")
