@@ -369,6 +369,8 @@ def calibrate_for_file(
 ) -> SensorCalibrations:
     """Fit a sensor, and say what makes the calibration doubtful.
 
+    Of several recordings those that cannot be evaluated are left out, and named in the warnings.
+
     Args:
         runs: The sensor, in one experiment or several.
         file: File that `save` of the result writes.
@@ -382,8 +384,9 @@ def calibrate_for_file(
     Returns:
         The calibration, which no file holds yet.
     """
+    campaign = None if runs is None else Campaign.of(runs).usable()
     calibration = calibrate_sensor(
-        runs,
+        campaign,
         code_version=code_version,
         created=created,
         moments=moments,
@@ -397,13 +400,13 @@ def calibrate_for_file(
         secondary_matrix=calibration.secondary_matrix(),
         learnt=learnt_directions(calibration),
     )
-    campaign = None if runs is None else Campaign.of(runs)
+    left_out = () if campaign is None else campaign.left_out
     doubts = [sentence for run in (campaign.runs if campaign else ()) for sentence in data_doubts(run)]
     doubts += [sentence for sentence in calibration.provenance.added if sentence not in doubts]  # of stored moments
     return SensorCalibrations(
         experiment=calibration.provenance.experiment,
         calibrations=(entry,),
-        warnings=(*doubts, *fit_doubts(calibration, said=doubts)),
+        warnings=(*left_out, *doubts, *fit_doubts(calibration, said=doubts)),
     )
 
 
