@@ -176,9 +176,9 @@ class Campaign:
         if not errors:
             return self
         if not any(run.has(Use.CALIBRATION) for run in kept):
-            file, error = errors[0]
+            file, first = errors[0]
             with stated_in(str(file)):
-                raise error
+                raise first
         return Campaign(kept, left_out=[*self.left_out, *(left_out_message(file, error) for file, error in errors)])
 
     @contextmanager

@@ -167,7 +167,7 @@ def inspect_log(
         path: Experiment file, folder or file of a log, or file of the calibration of a maker.
         log_format: Name of the format of a log; recognised from the files if left out.
         calibration: File of the calibration that reads its sensor; priors, or the logged wrench, if left out.
-        progress: Called with the time that is left, of a log that takes longer than a few seconds.
+        progress: Called with what is read and, of a log that takes longer than a few seconds, the time that is left.
 
     Returns:
         Contents and findings.
@@ -176,6 +176,7 @@ def inspect_log(
         ExperimentError: If there is a calibration for a log without an experiment file.
     """
     source = Path(path)
+    progress(f"reading {source}")
     unread = _without_experiment(source, log_format)
     if unread is None and calibration is None:
         return _inspection(str(source), *_recorded(source, log_format, progress))

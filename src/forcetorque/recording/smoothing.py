@@ -340,7 +340,7 @@ class FilteredColumns:
         for group in self._groups:
             filtered = self._filtered(group, np.arange(len(group.rows)))
             for result, values in zip(results, filtered, strict=True):
-                result[np.ix_(group.rows, group.columns)] = values
+                result[group.rows[:, None], group.columns] = values
         return results
 
     def at(self, rows: IntArray) -> list[FloatArray]:
@@ -362,7 +362,7 @@ class FilteredColumns:
             around = group.around(wanted)
             filtered = self._filtered(group, around)
             for result, values in zip(results, filtered, strict=True):
-                result[np.ix_(present, group.columns)] = values[np.searchsorted(around, wanted)]
+                result[present[:, None], group.columns] = values[np.searchsorted(around, wanted)]
         return results
 
     def _filtered(self, group: _Columns, places: IntArray) -> list[FloatArray]:
