@@ -206,7 +206,7 @@ def _missing_values(stream: Stream, signal: Signal) -> list[Finding]:
 def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
     """Runs of one value; one finding where all channels rest together."""
     same: BoolArray = np.asarray(np.diff(signal.values, axis=0) == 0.0)
-    whole: BoolArray = same.all(axis=1)
+    whole: BoolArray = np.asarray(same.all(axis=1))
     runs = equal_runs(stream.stamp_ns, signal.values)
     frozen = noisy_runs(stream.stamp_ns, signal.values, runs)
     findings = [frozen_finding(stream, signal.quantity, run) for run in frozen]
