@@ -100,3 +100,23 @@ def test_files_that_ask_for_different_estimators_are_refused(days: Path, run: Ru
     assert f"{CALIBRATION[1]}: expected the estimator that [calibration] of {CALIBRATION[0]} asks for" in error
     assert not Path("a.json").exists()
     assert run("calibrate", *CALIBRATION[:2], "-o", "a.json", "--type", "generative").code == 0
+
+
+def test_recordings_that_cannot_be_used_are_left_out_and_named(days: Path, run: Run) -> None:
+    """A damaged log and a robot with another joint: the others are fitted; where all are bad it is an error."""
+    damaged, renamed, *others = CALIBRATION
+    log = sorted((days / damaged.removesuffix(".toml")).glob("*.parquet"))[0]
+    log.write_bytes(log.read_bytes()[:1000])
+    robot = (days / "robot.urdf").read_text(encoding="utf-8")
+    (days / "other.urdf").write_text(robot.replace('"shoulder_yaw"', '"other_joint"'), encoding="utf-8")
+    edit(days / renamed, 'urdf = "robot.urdf"', 'urdf = "other.urdf"')
+    ended = run("calibrate", *CALIBRATION, "-o", "whole.json", "--moments", "kept", "--format", "json")
+    assert ended.code == 0
+    said = " ".join(ended.log)
+    assert f"{damaged}: left out: " in said
+    assert f"{renamed}: left out: no stream holds the position of joint 'other_joint'" in said
+    assert len(read_calibration("whole.json").provenance.intervals) == len(others)
+    assert len(list(Path("kept").iterdir())) == len(others)
+    assert "other_joint" in run("calibrate", damaged, renamed, "-o", "none.json").error()
+    assert "other_joint" in run("calibrate", renamed, "-o", "none.json").error()
+    assert not Path("none.json").exists()

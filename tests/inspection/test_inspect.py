@@ -3,16 +3,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.yarp.log_format import YarpFormat
-from forcetorque.inspection.inspect import finding_rows, finding_table, inspect_log
-from forcetorque.recording.recording import Finding
+from forcetorque.inspection import findings
+from forcetorque.inspection.inspect import finding_rows, finding_table, inspect_log, inspected
+from forcetorque.recording.recording import Finding, Use
 from tests.results.showing import require_shown
-from tests.scenes.experiments import FT_LOG, YARP, edit_lines
+from tests.scenes.experiments import FT_LOG, PARQUET, YARP, edit_lines
 
 
 def test_times_count_from_the_start_of_the_recording() -> None:
@@ -60,3 +65,24 @@ def test_a_dumper_folder_is_a_recording(arm: Path) -> None:
         YarpFormat().describe(port)
     with pytest.raises(MissingFileError, match="expected an experiment file or the folder of a log"):
         inspect_log(arm / "nothing")
+
+
+def test_a_sensor_is_compared_once_however_often_it_is_inspected(intact: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Inspection, warnings of a fit and report share what was found; negative control: another object is another."""
+    compared: list[str] = []
+
+    def counted(run: SensorRun, *given: Any) -> Any:
+        compared.append(run.sensor.name)
+        return against_model(run, *given)
+
+    against_model = findings._against_model
+    monkeypatch.setattr(findings, "_against_model", counted)
+    experiment = load_experiment(intact / PARQUET)
+    lines: list[str] = []
+    first = inspected(experiment, sensors=["arm_ft"], progress=lines.append)
+    found = findings.unreliable_intervals(experiment, Use.CALIBRATION, sensors=["arm_ft"])
+    assert inspected(experiment).findings == first.findings
+    assert compared == ["arm_ft"]
+    assert lines == []  # it takes no time worth a line
+    assert findings.unreliable_intervals(replace(experiment), Use.CALIBRATION) == found
+    assert compared == ["arm_ft"] * 2

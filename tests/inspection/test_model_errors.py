@@ -37,6 +37,7 @@ def _explains(errors: ModelErrors, first: int = RUN[0], last: int = RUN[1], shor
         last,
         itemgetter((slice(None), 0)),
         np.full(last - first + 1, LIMIT_N),
+        axes=slice(0, 1),
         is_moment=False,
         margin=RATE,
         shortest=shortest,

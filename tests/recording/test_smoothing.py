@@ -12,7 +12,14 @@ from scipy.signal import savgol_coeffs
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.recording.alignment import GAP_PERIODS, seconds_since
-from forcetorque.recording.smoothing import DERIVATIVE_WINDOW, EvenGrid, SavitzkyGolay, smooth
+from forcetorque.recording.smoothing import (
+    DERIVATIVE_WINDOW,
+    EvenGrid,
+    FilteredColumns,
+    SavitzkyGolay,
+    smooth,
+    smooth_columns,
+)
 from tests.recording.recordings import EPOCH_NS, even_stamps, jittered_stamps, refused
 
 PERIOD = 0.01
@@ -228,3 +235,21 @@ def test_what_is_no_window_is_refused(window_s: float, order: int) -> None:
     """A window is finite and above zero, an order at least zero."""
     with refused(RecordingError, "expected a finite window above 0 s and an order of at least 0, got"):
         SavitzkyGolay(window_s=window_s, order=order)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_rows_are_filtered_as_all_are(seed: int) -> None:
+    """Bit by bit, scattered or in a run, beside gaps, missing values and late stamps; a neighbour is another number."""
+    rng = np.random.default_rng(seed)
+    stamps = jittered_stamps(1500, seed=seed).copy()
+    for start in rng.integers(0, 1500, size=3):
+        stamps[start:] += int(rng.integers(1, 300)) * 1_000_000
+    stamps[700] = stamps[690]
+    values = rng.normal(size=(1500, 3)).cumsum(axis=0)
+    values[rng.integers(0, 1500, size=20), 1] = np.nan
+    filtered = FilteredColumns(stamps, values, DERIVATIVE_WINDOW, derivatives=(1, 2))
+    whole = [smooth_columns(stamps, values, DERIVATIVE_WINDOW, derivative=derivative) for derivative in (1, 2)]
+    for rows in (np.unique(rng.integers(0, 1500, size=40)), np.arange(650, 760), np.array([0, 1499])):
+        for some, every in zip(filtered.at(rows), whole, strict=True):
+            np.testing.assert_array_equal(some, every[rows])
+    assert not np.array_equal(filtered.at(np.array([300]))[0], whole[0][[301]])

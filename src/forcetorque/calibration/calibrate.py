@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
@@ -372,6 +371,8 @@ def calibrate_for_file(
 ) -> SensorCalibrations:
     """Fit a sensor, and say what makes the calibration doubtful.
 
+    Of several recordings those that cannot be evaluated are left out, and named in the warnings.
+
     Args:
         runs: The sensor, in one experiment or several.
         file: File that `save` of the result writes.
@@ -385,8 +386,9 @@ def calibrate_for_file(
     Returns:
         The calibration, which no file holds yet.
     """
+    campaign = None if runs is None else Campaign.of(runs).usable()
     calibration = calibrate_sensor(
-        runs,
+        campaign,
         code_version=code_version,
         created=created,
         moments=moments,
@@ -400,13 +402,13 @@ def calibrate_for_file(
         secondary_matrix=calibration.secondary_matrix(),
         information_gain=information_gains(calibration),
     )
-    campaign = None if runs is None else Campaign.of(runs)
+    left_out = () if campaign is None else campaign.left_out
     doubts = [sentence for run in (campaign.runs if campaign else ()) for sentence in data_doubts(run)]
     doubts += [sentence for sentence in calibration.provenance.added if sentence not in doubts]  # of stored moments
     return SensorCalibrations(
         experiment=calibration.provenance.experiment,
         calibrations=(entry,),
-        warnings=(*doubts, *fit_doubts(calibration, said=doubts)),
+        warnings=(*left_out, *doubts, *fit_doubts(calibration, said=doubts)),
     )
 
 
@@ -440,9 +442,9 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
 
 def _found(run: SensorRun, *, by_model: bool) -> Iterator[str]:
     """Findings in fitted intervals; a channel that saturates in every swing does not hide the others."""
-    start_ns, alone = run.experiment.recording.start_ns, replace(run.experiment, sensors=(run.sensor,))
+    start_ns, sensors = run.experiment.recording.start_ns, (run.sensor.name,)
     alike: dict[str, list[str]] = {}
-    for interval, finding in unreliable_intervals(alone, Use.CALIBRATION, by_model=by_model):
+    for interval, finding in unreliable_intervals(run.experiment, Use.CALIBRATION, by_model=by_model, sensors=sensors):
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
         kind = f"interval {interval.label!r}: {finding.stream} {finding.kind}"
         alike.setdefault(kind, []).append(f"{kind} at {start:.2f}-{end:.2f} s: {finding.message}")

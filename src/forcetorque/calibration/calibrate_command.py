@@ -113,7 +113,7 @@ def calibrate(
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.results.result import created_now
     from forcetorque.results.terminal.output import refuse_figure
-    from forcetorque.results.terminal.reading import campaign_of, read_experiments, stored_moments
+    from forcetorque.results.terminal.reading import campaign_of, readable_experiments, stored_moments
 
     log = start_logging()
     refuse_standard_output("--output", output)
@@ -126,7 +126,7 @@ def calibrate(
         )
         return
     stored = stored_moments(experiments)
-    contents = read_experiments([path for path in experiments if path.suffix != ".json"], log)
+    contents, left_out = readable_experiments([path for path in experiments if path.suffix != ".json"], log)
     names = _sensors(contents, stored, sensor)
     files = _files(output, names)
     # folders of the others are made when they are written
@@ -144,10 +144,11 @@ def calibrate(
     results, refusals = [], []
     for (name, serial), file in zip(names, files, strict=True):
         log.info("fitting %s (%s)", name, serial)
-        campaign = campaign_of(contents, name) if contents else None
+        campaign = campaign_of(contents, name, left_out=left_out) if contents else None
         own = [one for one in stored.values() if one.sensor.name == name]
         try:
             with stated_in(f"{experiments[0]}: sensor {name!r}" if len(experiments) == 1 else f"sensor {name!r}"):
+                campaign = None if campaign is None else campaign.usable()
                 if moments is not None and campaign is not None:
                     store_moments(campaign, moments, force=force)
                 results.append(fit(campaign, file, moments=own))
@@ -187,6 +188,8 @@ def _warn_of_doubts(campaign: Campaign | None, log: logging.Logger) -> None:
     """Say what is doubtful in the data of a sensor that could not be fitted: it may be the reason."""
     from forcetorque.calibration.calibrate import data_doubts
 
+    for sentence in campaign.left_out if campaign else ():
+        log.warning("%s", sentence)
     for run in campaign.runs if campaign else ():
         for sentence in data_doubts(run):
             log.warning("%s", sentence)

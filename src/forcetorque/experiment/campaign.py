@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
+from pathlib import Path
 
-from forcetorque.base.errors import ExperimentError
+from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.provenance import SensorIdentity
 from forcetorque.experiment.campaign_intervals import (
@@ -25,11 +26,12 @@ from forcetorque.recording.recording import Use
 class Campaign:
     """One sensor over any number of experiments: one matrix, an offset per session."""
 
-    def __init__(self, runs: SensorRun | Sequence[SensorRun]) -> None:
+    def __init__(self, runs: SensorRun | Sequence[SensorRun], *, left_out: Sequence[str] = ()) -> None:
         """Pool runs of one sensor.
 
         Args:
             runs: The sensor in every experiment; at least one, or one by itself.
+            left_out: A message for every recording that was to be pooled and cannot be used.
 
         Raises:
             ExperimentError: If there is none, they are not of one sensor that is mounted, described and read in one
@@ -43,6 +45,8 @@ class Campaign:
                 )
         if not self.runs:
             raise ExperimentError("expected at least one run of a sensor, got none; name an experiment file")
+        self.left_out = tuple(left_out)
+        """A message for every recording that was to be pooled and cannot be used."""
         self._recordings = [CampaignRecording.of(run) for run in self.runs]
         self.names = CampaignNames(self._recordings)
         self.runs = _weighing_together(dict(zip(self.recordings, self.runs, strict=True)))
@@ -145,6 +149,38 @@ class Campaign:
         """
         return tuple(run for run in self.runs if run.has(use)) or self.runs[:1]
 
+    def usable(self) -> Campaign:
+        """Leave out recordings whose samples to fit cannot be evaluated, such as where the log lacks a joint.
+
+        A recording by itself is not left out, nor is any where what the samples need is estimated from all.
+
+        Returns:
+            The recordings that can be fitted, with the others in `left_out`; the same where all can.
+
+        Raises:
+            ForceTorqueError: If none of several can be fitted; that of the first one.
+        """
+        if len(self.runs) + len(self.left_out) == 1 or self.sensor.mount_is_unknown:
+            return self
+        without_variables = self.runs[0].experiment.fit_options.with_variables is False
+        variables = () if without_variables else [variable.linear.name for variable in self.sensor.variables]
+        kept, errors = [], []
+        for run in self.runs:
+            try:
+                if run.has(Use.CALIBRATION):
+                    run.samples(Use.CALIBRATION, variables=variables)
+            except ForceTorqueError as error:
+                errors.append((run.experiment.file, error))
+            else:
+                kept.append(run)
+        if not errors:
+            return self
+        if not any(run.has(Use.CALIBRATION) for run in kept):
+            file, first = errors[0]
+            with stated_in(str(file)):
+                raise first
+        return Campaign(kept, left_out=[*self.left_out, *(left_out_message(file, error) for file, error in errors)])
+
     @contextmanager
     def stated(self, run: SensorRun) -> Iterator[None]:
         """Say of which file an error is, where there are several.
@@ -192,6 +228,20 @@ class Campaign:
             Data per interval, with its label, session and recording by names that are unique in the campaign.
         """
         return [interval.data_set for interval in self.samples(use, variables=variables)]
+
+
+def left_out_message(file: Path, error: ForceTorqueError) -> str:
+    """Name a recording that is left out of several, and the reason in one line.
+
+    Args:
+        file: Its experiment file.
+        error: Why it cannot be used.
+
+    Returns:
+        The message, without what the error lists or proposes.
+    """
+    reason = str(error).splitlines()[0].split("; ")[0].removeprefix(f"{file}: ")
+    return f"{file}: left out: {reason}"
 
 
 def _weighing_together(runs: Mapping[str, SensorRun]) -> tuple[SensorRun, ...]:

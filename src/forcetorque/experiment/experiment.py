@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol, TypeVar, cast
@@ -247,6 +247,8 @@ class Experiment:
     """Mounts of sensors that sit otherwise than the robot model states, stated or estimated, by name."""
     qualities: dict[str, SampleQuality] = field(default_factory=dict, init=False)
     """What is wrong with the samples of every sensor that was read, by its name; filled by `sample_quality`."""
+    inspections: dict[Hashable, Any] = field(default_factory=dict, init=False)
+    """Findings on streams and sensors, by what was compared; filled by `inspect_experiment`."""
 
     def __repr__(self) -> str:
         sensors = ", ".join(f"{sensor.name} ({sensor.serial})" for sensor in self.sensors)

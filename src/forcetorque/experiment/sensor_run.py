@@ -157,7 +157,12 @@ class SensorRun:
         return known
 
     def interval_samples(
-        self, interval: Interval, *, variables: Collection[str] = (), smoothed: bool = True
+        self,
+        interval: Interval,
+        *,
+        variables: Collection[str] = (),
+        smoothed: bool = True,
+        with_flattening: bool = True,
     ) -> IntervalSamples:
         """Pair reading and reference over an interval.
 
@@ -165,17 +170,24 @@ class SensorRun:
             interval: The interval.
             variables: Names of the linear variables that are wanted; samples that lack one are left out.
             smoothed: Whether the filter of the experiment is applied.
+            with_flattening: Whether a fit needs them, and with it the flattening by the derivative window.
 
         Returns:
-            The samples.
+            The samples; with the flattening also where it is not needed, but was before.
         """
         names = self._in_order(variables)
         key = (_key(interval), names, smoothed)
-        if key not in self._samples:
-            self._samples[key] = samples_over(
-                self.experiment, self.sensor, interval, variables=names, smoothed=smoothed
+        kept = self._samples.get(key)
+        if kept is None or (with_flattening and kept.samples.flattening is None):
+            kept = self._samples[key] = samples_over(
+                self.experiment,
+                self.sensor,
+                interval,
+                variables=names,
+                smoothed=smoothed,
+                with_flattening=with_flattening,
             )
-        return self._samples[key]
+        return kept
 
     def interval_readings(self, interval: Interval, *, variables: Collection[str] = ()) -> Readings:
         """Take the readings over an interval, for which no reference is wanted.

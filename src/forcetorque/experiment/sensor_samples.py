@@ -109,6 +109,7 @@ def samples_over(
     *,
     variables: Sequence[str] = (),
     smoothed: bool = True,
+    with_flattening: bool = True,
 ) -> IntervalSamples:
     """Pair the readings of a sensor with what the model expects over one interval.
 
@@ -118,6 +119,7 @@ def samples_over(
         interval: An interval of its recording.
         variables: Names of linear variables of the sensor that are wanted; samples that lack one are left out.
         smoothed: Whether the filter of the experiment is applied.
+        with_flattening: As of `sensor_samples`.
 
     Returns:
         Reading and reference at the same instants.
@@ -146,6 +148,7 @@ def samples_over(
         evaluator=evaluator,
         applied=None if experiment.loads is None else experiment.loads.applied,
         quality=sample_quality(experiment, sensor),
+        with_flattening=with_flattening,
     )
     readings = Readings.of(sensor, samples.reading.values, dict(zip(variables, samples.variables.T, strict=True)))
     content = logged_content(experiment, sensor, interval) if interval.use is Use.CALIBRATION else None

@@ -13,6 +13,7 @@ from forcetorque.results.terminal.options import DetailsOption, ForceOption, For
 from forcetorque.results.terminal.output import Format, refuse_two_on_standard_output, show, start_logging
 
 if TYPE_CHECKING:
+    from forcetorque.base.progress import Progress
     from forcetorque.inspection.inspect import Inspection
 
 
@@ -150,6 +151,7 @@ def inspect(
         "Path | str | None",
         Option("Calibration that reads its sensor. Default: the prior, or as logged.", "--calibration", "-c"),
     ] = None,
+    progress: Annotated["Progress", Option("Called with a line for people as work goes on.")] = lambda _: None,
 ) -> "Inspection":
     """Find faults of a log, its experiment file and the URDF.
 
@@ -162,4 +164,4 @@ def inspect(
     """
     from forcetorque.inspection.inspect import inspect_log
 
-    return inspect_log(log, log_format=log_format, calibration=calibration)
+    return inspect_log(log, log_format=log_format, calibration=calibration, progress=progress)

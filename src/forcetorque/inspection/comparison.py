@@ -78,7 +78,10 @@ def compared(run: SensorRun, correction: Correction, *, whole: IntervalSamples |
     known = run.known(supported)
     alone = tuple(one for one in known if not run.possibly_touched(one)) or known
     if whole is None:
-        parts = tuple(run.interval_samples(one, variables=correction.variables, smoothed=False) for one in alone)
+        parts = tuple(
+            run.interval_samples(one, variables=correction.variables, smoothed=False, with_flattening=False)
+            for one in alone
+        )
     else:
         parts = tuple(part for one in alone if len((part := _within(whole, one)).samples))
     total = sum(len(part.samples) for part in parts)
@@ -119,7 +122,7 @@ def _within(whole: IntervalSamples, interval: Interval) -> IntervalSamples:
         stamp_ns=samples.stamp_ns[rows],
         reading=replace(samples.reading, values=samples.reading.values[rows]),
         reference=samples.reference[rows],
-        flattening=samples.flattening[rows],
+        flattening=None if samples.flattening is None else samples.flattening[rows],
         variables=samples.variables[rows],
     )
     return IntervalSamples(interval=interval, samples=own, readings=whole.readings.at(rows))
@@ -196,7 +199,11 @@ def _shift(comparison: Comparison, delay_s: float) -> FloatArray:
         own, stamps = comparison.part_of == number, part.samples.stamp_ns
         seconds = (stamps - stamps[0]) * 1e-9
         at_s = (comparison.at_ns[own] - stamps[0]) * 1e-9 - delay_s
-        shifted[own] = np.column_stack([np.interp(at_s, seconds, column) for column in part.samples.reference.T])
+        # of a long log only the samples beside the compared instants
+        before = np.clip(np.searchsorted(seconds, at_s, side="right") - 1, 0, max(len(stamps) - 2, 0))
+        rows = np.unique(np.concatenate([before, np.minimum(before + 1, len(stamps) - 1)]))
+        reference = part.samples.reference[rows]
+        shifted[own] = np.column_stack([np.interp(at_s, seconds[rows], column) for column in reference.T])
     return shifted
 
 

@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
+from typing import TypeVar, cast
 
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FitError, ForceTorqueError
+from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
@@ -27,6 +30,8 @@ from forcetorque.recording.stream_faults import frozen_finding, saturation_findi
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.recording import PatchRecording, patch_recordings
+
+_Found = TypeVar("_Found")
 
 _UNRELIABLE = UNEXPLAINED | {"drift", "saturation", "frozen", "stuck", "gap", "backward_stamp"}
 """Kinds of findings that make the samples of their interval unreliable."""
@@ -50,8 +55,10 @@ def inspect_experiment(
     by_model: bool = True,
     with_causes: bool = True,
     calibrations: Mapping[str, Calibration] | None = None,
+    sensors: Collection[str] | None = None,
+    progress: Progress = lambda _: None,
 ) -> tuple[Finding, ...]:
-    """Find faults of the recording of an experiment, with its robot and sensors.
+    """Find faults of the recording of an experiment, with its robot and sensors, each of which is compared once.
 
     The sensors are compared with the model over the whole log where all intervals have one support
     frame, else inside each interval. With a distal contact, or where the model cannot be evaluated, the
@@ -62,12 +69,17 @@ def inspect_experiment(
         by_model: Whether sensors are compared with the model, which has no contact but the support.
         with_causes: Whether faults of experiment file, URDF and log are looked for, about a second per sensor.
         calibrations: Calibrations that read the sensors in place of their priors, by the name of the sensor.
+        sensors: Names of the sensors to inspect; all if None.
+        progress: Called with the time that is left, of a log that takes longer than a few seconds.
 
     Returns:
         Findings in the order of time, those without a time first.
     """
-    findings = list(inspect_recording(experiment.recording))
-    for sensor in experiment.sensors:
+    inspected = [sensor for sensor in experiment.sensors if sensors is None or sensor.name in sensors]
+    time_left = TimeLeft(progress, f"inspecting {experiment.name}", len(inspected) * _STEPS)
+    findings = list(_once(experiment, "streams", lambda: inspect_recording(experiment.recording)))
+    for number, sensor in enumerate(inspected):
+        time_left.at(number * _STEPS)
         findings = _with_all_frozen(experiment, sensor, findings)
         try:
             findings += _saturation(experiment, sensor)
@@ -76,12 +88,25 @@ def inspect_experiment(
             findings.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
         if by_model:
             calibration = (calibrations or {}).get(sensor.name)
-            findings += _model_findings(SensorRun(experiment, sensor), calibration, with_causes=with_causes)
+            run = SensorRun(experiment, sensor)
+            at_half = partial(time_left.at, number * _STEPS + 1)
+            findings += _model_findings(run, calibration, with_causes=with_causes, at_half=at_half)
     return tuple(sorted(findings, key=lambda finding: finding.start_ns or 0))
 
 
+_STEPS = 2
+"""Steps of the inspection of a sensor whose ends are reported: search for causes, and for events."""
+
+
+def _once(experiment: Experiment, key: Hashable, find: Callable[[], _Found]) -> _Found:
+    """What is found of an experiment, computed when it is first needed."""
+    if key not in experiment.inspections:
+        experiment.inspections[key] = find()
+    return cast("_Found", experiment.inspections[key])
+
+
 def unreliable_intervals(
-    experiment: Experiment, use: Use, *, by_model: bool = True
+    experiment: Experiment, use: Use, *, by_model: bool = True, sensors: Collection[str] | None = None
 ) -> tuple[tuple[Interval, Finding], ...]:
     """Select the findings of `inspect_experiment` inside the intervals of one use.
 
@@ -89,11 +114,13 @@ def unreliable_intervals(
         experiment: The experiment.
         use: Use of the intervals.
         by_model: As of `inspect_experiment`.
+        sensors: As of `inspect_experiment`.
 
     Returns:
         Interval and finding, for findings that make its samples unreliable.
     """
-    found = inspect_experiment(experiment, by_model=by_model, with_causes=False)  # a fit checks the causes by itself
+    # a fit checks the causes by itself
+    found = inspect_experiment(experiment, by_model=by_model, with_causes=False, sensors=sensors)
     findings = [finding for finding in found if finding.kind in _UNRELIABLE]
     return tuple(
         (interval, finding)
@@ -134,7 +161,9 @@ def _saturation(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Findi
     return saturation_findings(stream, counts, limit_counts=sensor.limit_counts, recovered=recovered)
 
 
-def _model_findings(run: SensorRun, calibration: Calibration | None, *, with_causes: bool) -> Iterator[Finding]:
+def _model_findings(
+    run: SensorRun, calibration: Calibration | None, *, with_causes: bool, at_half: Callable[[], None]
+) -> Iterator[Finding]:
     stream = run.sensor.stream
     if run.sensor.quantity == "raw" and run.sensor.prior is None and calibration is None:
         return
@@ -145,7 +174,13 @@ def _model_findings(run: SensorRun, calibration: Calibration | None, *, with_cau
     fault = None
     if with_causes and len(unknown) < len(supported):
         over = [] if unknown else over_the_whole_log(run.experiment, supported)
-        fault = yield from _causes(run, correction, over[0] if len(over) == 1 else None)
+        whole = over[0] if len(over) == 1 else None
+        if calibration is None:
+            causes, fault = _once(run.experiment, ("causes", run.sensor.name), lambda: _causes(run, correction, whole))
+        else:
+            causes, fault = _causes(run, correction, whole)
+        yield from causes
+        at_half()
     if unknown:
         names = dict.fromkeys(name for label in unknown for name in touched[label])
         text = (
@@ -160,11 +195,12 @@ def _model_findings(run: SensorRun, calibration: Calibration | None, *, with_cau
         return
     turn = None if fault is None else fault.turn
     for interval in supported:
-        try:
-            yield from _against_model(run, interval, correction, turn)
-        except ForceTorqueError as error:
-            text = f"no comparison with the model over {interval.label}: {error}"
-            yield Finding(stream=stream, kind="not_compared", message=text, count=0)
+        if calibration is None and turn is None:
+            key = ("events", run.sensor.name, interval.label, interval.start_ns, interval.end_ns)
+            against = partial(_against_model_or_reason, run, interval, correction, turn)
+            yield from _once(run.experiment, key, against)
+        else:
+            yield from _against_model_or_reason(run, interval, correction, turn)
 
 
 def _has_motion(support: Support | MovingSupport | None) -> bool:
@@ -174,32 +210,29 @@ def _has_motion(support: Support | MovingSupport | None) -> bool:
 
 def _causes(
     run: SensorRun, correction: Correction, whole_log: Interval | None
-) -> Generator[Finding, None, Explanation | None]:
-    """Faults of experiment file, URDF and log, or why there is no test; the best fault is returned."""
+) -> tuple[tuple[Finding, ...], Explanation | None]:
+    """Faults of experiment file, URDF and log, or why there is no test; and the best fault."""
     try:
         whole = None if whole_log is None else _samples(run, whole_log, correction)
         comparison = compared(run, correction, whole=whole)
         diagnosis = None if comparison is None else diagnosed(comparison)
     except ForceTorqueError:
-        return None  # the comparison of every interval names the reason
+        return (), None  # the comparison of every interval names the reason
     if comparison is None:
-        return None
+        return (), None
     if diagnosis is None:
         text = (
             "sense, gravity, joints, columns, units, mount and delay are not tested: the expected wrench stays the "
             "same; record the limb while it moves"
         )
-        yield Finding(stream=run.sensor.stream, kind="not_compared", message=text, count=0)
-        return None
+        return (Finding(stream=run.sensor.stream, kind="not_compared", message=text, count=0),), None
     if diagnosis.faults:
-        yield fault_finding(comparison, diagnosis)
-        return diagnosis.faults[0]
-    yield from _implausible(run, comparison)
-    return None
+        return (fault_finding(comparison, diagnosis),), diagnosis.faults[0]
+    return tuple(_implausible(run, comparison)), None
 
 
 def _samples(run: SensorRun, interval: Interval, correction: Correction) -> IntervalSamples:
-    return run.interval_samples(interval, variables=correction.variables, smoothed=False)
+    return run.interval_samples(interval, variables=correction.variables, smoothed=False, with_flattening=False)
 
 
 def _implausible(run: SensorRun, comparison: Comparison) -> Iterator[Finding]:
@@ -250,6 +283,16 @@ def over_the_whole_log(experiment: Experiment, supported: Sequence[Interval]) ->
         return list(supported)
     start, end = experiment.recording.span_ns
     return [replace(supported[0], label="the whole log", start_ns=start, end_ns=end + 1, use=Use.VALIDATION)]
+
+
+def _against_model_or_reason(
+    run: SensorRun, interval: Interval, correction: Correction, turn: FloatArray | None
+) -> tuple[Finding, ...]:
+    try:
+        return _against_model(run, interval, correction, turn)
+    except ForceTorqueError as error:
+        text = f"no comparison with the model over {interval.label}: {error}"
+        return (Finding(stream=run.sensor.stream, kind="not_compared", message=text, count=0),)
 
 
 def _against_model(

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import ClassVar, Literal
@@ -12,6 +12,7 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError, RecordingError
+from forcetorque.base.progress import Progress
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.applicability import one_per_sensor
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
@@ -156,7 +157,11 @@ class Inspection(Result):
 
 @with_recording_notes
 def inspect_log(
-    path: Path | str, *, log_format: str | None = None, calibration: Path | str | None = None
+    path: Path | str,
+    *,
+    log_format: str | None = None,
+    calibration: Path | str | None = None,
+    progress: Progress = lambda _: None,
 ) -> Inspection:
     """Inspect an experiment file, a log of any known format, or the calibration of a maker.
 
@@ -164,6 +169,7 @@ def inspect_log(
         path: Experiment file, folder or file of a log, or file of the calibration of a maker.
         log_format: Name of the format of a log; recognised from the files if left out.
         calibration: File of the calibration that reads its sensor; priors, or the logged wrench, if left out.
+        progress: Called with what is read and, of a log that takes longer than a few seconds, the time that is left.
 
     Returns:
         Contents and findings.
@@ -172,9 +178,10 @@ def inspect_log(
         ExperimentError: If there is a calibration for a log without an experiment file.
     """
     source = Path(path)
+    progress(f"reading {source}")
     unread = _without_experiment(source, log_format)
     if unread is None and calibration is None:
-        return _inspection(str(source), *_recorded(source, log_format))
+        return _inspection(str(source), *_recorded(source, log_format, progress))
     if unread is not None and calibration is None:
         return unread
     if unread is not None or log_format is not None or recognised_format(source) is not None:
@@ -182,12 +189,17 @@ def inspect_log(
             f"{source}: expected an experiment file, got a log, where --calibration reads nothing; `forcetorque init "
             f"{source}` drafts one"
         )
-    return inspected(load_experiment(source), calibration, source=str(source))
+    return inspected(load_experiment(source), calibration, source=str(source), progress=progress)
 
 
 @with_recording_notes
 def inspected(
-    experiment: Experiment, calibration: Calibration | Path | str | None = None, *, source: str | None = None
+    experiment: Experiment,
+    calibration: Calibration | Path | str | None = None,
+    *,
+    source: str | None = None,
+    sensors: Collection[str] | None = None,
+    progress: Progress = lambda _: None,
 ) -> Inspection:
     """Inspect the recording of an experiment that is read already, or was made from arrays.
 
@@ -195,12 +207,14 @@ def inspected(
         experiment: The experiment.
         calibration: Calibration that reads its sensor, or its file; priors, or the logged wrench, if left out.
         source: Name for it; that of its file if left out.
+        sensors: Names of the sensors to inspect; all if None.
+        progress: As of `inspect_log`.
 
     Returns:
         Contents and findings.
     """
     read = read_calibration(calibration) if isinstance(calibration, Path | str) else calibration
-    findings = _of_experiment(experiment, experiment.section(PATCHES), read)
+    findings = _of_experiment(experiment, experiment.section(PATCHES), read, sensors=sensors, progress=progress)
     return _inspection(source or str(experiment.file), experiment.recording, findings)
 
 
@@ -258,7 +272,7 @@ def _prior(source: Path) -> PriorFile:
     return replace(file, notes=(words,))
 
 
-def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding, ...]]:
+def _recorded(source: Path, name: str | None, progress: Progress) -> tuple[Recording, tuple[Finding, ...]]:
     if not (source.is_dir() or source.is_file()):
         raise MissingFileError(f"{source}: expected an experiment file or the folder of a log, there is none")
     log_format = recognised_format(source) if name is None else format_named(name)
@@ -285,14 +299,20 @@ def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding,
         if all(clock.undetermined is None for clock in recording.clocks):
             raise
         return recording, inspect_recording(recording)
-    return experiment.recording, _of_experiment(experiment, patches)
+    return experiment.recording, _of_experiment(experiment, patches, progress=progress)
 
 
 def _of_experiment(
-    experiment: Experiment, patches: PatchExperiment | None, calibration: Calibration | None = None
+    experiment: Experiment,
+    patches: PatchExperiment | None,
+    calibration: Calibration | None = None,
+    *,
+    sensors: Collection[str] | None = None,
+    progress: Progress,
 ) -> tuple[Finding, ...]:
     chosen = {} if calibration is None else one_per_sensor(experiment, {"calibration": calibration})
-    findings = inspect_experiment(experiment, calibrations={sensor: one for sensor, (_, one) in chosen.items()})
+    calibrations = {sensor: one for sensor, (_, one) in chosen.items()}
+    findings = inspect_experiment(experiment, calibrations=calibrations, sensors=sensors, progress=progress)
     return findings if patches is None else (*findings, *taxel_findings(patches))
 
 

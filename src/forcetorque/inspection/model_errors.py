@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -33,7 +34,7 @@ _TAIL = 3.0
 """Residual, in robust standard deviations, from which on a sample counts less."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class ModelErrors(ArrayRecord):
     """Residual and expected wrench of a log, to predict the one from the other."""
 
@@ -51,6 +52,7 @@ class ModelErrors(ArrayRecord):
         size_of: Callable[[FloatArray], FloatArray],
         limit: FloatArray,
         *,
+        axes: slice,
         is_moment: bool,
         margin: int,
         shortest: int,
@@ -62,6 +64,7 @@ class ModelErrors(ArrayRecord):
             last: Last sample of the interval.
             size_of: What counts of residuals of shape (m, 6); shape (m,); N, N m.
             limit: Size from which on it counts; shape (m,); N, N m.
+            axes: Components that `size_of` depends on.
             is_moment: Whether that is a moment.
             margin: Samples before and after the interval that are no part of the rest of the log.
             shortest: Number of samples from which on they are an interval.
@@ -71,10 +74,10 @@ class ModelErrors(ArrayRecord):
         """
         own = slice(first, last + 1)
         size = np.abs(size_of(self.residual[own]))
-        change = self.expected[own] - np.median(self.expected[self.usable], axis=0)
+        change = self.expected[own] - self._usual_load
         if (size < _tolerance(change, _USUAL, is_moment=is_moment)).all():
             return True
-        predicted = self._predicted(first, last, margin)
+        predicted = self._predicted(first, last, margin, axes)
         if predicted is None:
             return False
         left = np.abs(size_of(self.residual[own] - predicted))
@@ -99,7 +102,7 @@ class ModelErrors(ArrayRecord):
             return True
         if abs(size) > _tolerance(change, _LARGEST, is_moment=axis >= 3)[0]:
             return False
-        predicted = self._predicted(before.start, after.stop - 1, 0)
+        predicted = self._predicted(before.start, after.stop - 1, 0, slice(axis, axis + 1))
         if predicted is None:
             return False
         levels = [predicted[own.start - before.start : own.stop - before.start, axis].mean() for own in (before, after)]
@@ -124,8 +127,13 @@ class ModelErrors(ArrayRecord):
         coefficients = _robust_fit(columns, self.residual[rows])[: design.shape[1]]
         return self.residual - _design(self.expected, middle, size) @ coefficients
 
-    def _predicted(self, first: int, last: int, margin: int) -> FloatArray | None:
-        """Residual of an interval by the rest of the log; None where that is short or has no such loads."""
+    @cached_property
+    def _usual_load(self) -> FloatArray:
+        """Median of the expected wrench over the usable samples; shape (6,); N, N m."""
+        return np.asarray(np.median(self.expected[self.usable], axis=0))
+
+    def _predicted(self, first: int, last: int, margin: int, axes: slice) -> FloatArray | None:
+        """Residual of an interval by the rest of the log, in `axes` alone; None where that has no such loads."""
         rest = np.array(self.usable)
         rest[max(0, first - margin) : last + margin + 1] = False
         rows = np.flatnonzero(rest)
@@ -138,8 +146,10 @@ class ModelErrors(ArrayRecord):
         if (own < low - reach).any() or (own > high + reach).any():
             return None
         middle, size = loads.mean(axis=0), np.maximum(high - low, np.finfo(float).tiny)
-        coefficients = _robust_fit(_design(loads, middle, size), self.residual[rows])
-        return np.asarray(_design(own, middle, size) @ coefficients)
+        predicted = np.zeros_like(own)
+        coefficients = _robust_fit(_design(loads, middle, size), self.residual[rows, axes])
+        predicted[:, axes] = _design(own, middle, size) @ coefficients
+        return predicted
 
 
 def _thinned(rows: IntArray) -> IntArray:

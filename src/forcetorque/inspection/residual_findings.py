@@ -182,15 +182,10 @@ def _whole(residual: _Residual, contacts: Sequence[tuple[int, int]], errors: Mod
 def _residual(
     stream: str, stamp_ns: IntArray, measured: FloatArray, expected: FloatArray, in_use: BoolArray
 ) -> _Residual:
-    from scipy.ndimage import median_filter  # here because importing it takes longer than most commands
-
     values = measured - expected
     values = values - np.median(values[in_use], axis=0)
     rate_hz = 1e9 / float(np.median(np.diff(stamp_ns))) if len(stamp_ns) > 1 else 1.0
-    smooth, quick = (
-        median_filter(values, size=(max(1, round(seconds * rate_hz)), 1), mode="nearest")
-        for seconds in (_SMOOTH_S, _QUICK_S)
-    )
+    smooth, quick = (_running_median(values, max(1, round(seconds * rate_hz))) for seconds in (_SMOOTH_S, _QUICK_S))
     scatter = MAD_TO_DEVIATION * np.median(np.abs(smooth[in_use]), axis=0)
     load = np.repeat([np.percentile(np.linalg.norm(expected[:, part], axis=1), 95) for part in FORCE_AND_MOMENT], 3)
     return _Residual(
@@ -220,6 +215,16 @@ def _at_level(residual: _Residual, at_level: BoolArray) -> _Residual:
         limit=np.maximum(residual.least, SCATTERS * scatter),
         in_use=at_level,
     )
+
+
+def _running_median(values: FloatArray, size: int) -> FloatArray:
+    """Median over windows of samples, shape (n, k); the first and last sample are repeated beyond the ends."""
+    from scipy.ndimage import median_filter  # here because importing it takes longer than most commands
+
+    result = np.empty_like(values)
+    for k, column in enumerate(values.T):  # of a single axis SciPy sorts no window anew
+        result[:, k] = median_filter(np.ascontiguousarray(column), size=size, mode="nearest")
+    return result
 
 
 _SEGMENTS = 12
@@ -319,6 +324,7 @@ def _is_explained(
         last,
         itemgetter((slice(None), axis)),
         np.full(last - first + 1, residual.limit[axis]),
+        axes=slice(axis, axis + 1),
         is_moment=axis >= 3,
         margin=residual.samples(_LEVEL_S),
         shortest=residual.samples(shortest_s),
@@ -364,6 +370,7 @@ def _is_no_contact(residual: _Residual, least: FloatArray, errors: ModelErrors, 
         last,
         lambda values: _carried(values, residual.expected[own]),
         least[own],
+        axes=slice(0, 3),
         is_moment=False,
         margin=residual.samples(_LEVEL_S),
         shortest=residual.samples(_SHORTEST_S),
@@ -397,15 +404,13 @@ def _off_level(residual: _Residual, free: BoolArray, errors: ModelErrors) -> lis
 
 def _steps(residual: _Residual, free: BoolArray, errors: ModelErrors) -> list[Finding]:
     """Differences between the levels of a second before and a second after, each off by a quarter second."""
-    from scipy.ndimage import median_filter  # here because importing it takes longer than most commands
-
     width = residual.samples(_LEVEL_S)
     shift = width // 2 + residual.samples(_EDGE_S)
     findings: list[Finding] = []
     if len(free) <= 2 * shift:
         return findings
-    levels = median_filter(residual.values, size=(width, 1), mode="nearest")
-    away = _away(free, shift + width // 2)  # both levels free of contact to their ends
+    levels = _running_median(residual.values, width)
+    away = _all_around(free, shift + width // 2)  # both levels free of contact to their ends
     for axis, name in enumerate(WRENCH_COMPONENTS):
         change = np.zeros(len(free))
         change[shift:-shift] = levels[2 * shift :, axis] - levels[: -2 * shift, axis]
@@ -426,11 +431,11 @@ def _steps(residual: _Residual, free: BoolArray, errors: ModelErrors) -> list[Fi
     return sorted(findings, key=lambda finding: finding.start_ns or 0)
 
 
-def _away(free: BoolArray, margin: int) -> BoolArray:
-    """Free samples that are farther than a number of samples from any other; shape (n,)."""
-    from scipy.ndimage import binary_erosion  # here because importing it takes longer than most commands
-
-    return np.asarray(binary_erosion(free, structure=np.ones(2 * margin + 1, dtype=np.bool_), border_value=1))
+def _all_around(mask: BoolArray, reach: int) -> BoolArray:
+    """Whether all samples within a reach are true, of those that there are; shape (n,)."""
+    untrue = np.concatenate([[0], np.cumsum(~mask)])
+    at = np.arange(len(mask))
+    return np.asarray(untrue[np.minimum(at + reach + 1, len(mask))] == untrue[np.maximum(at - reach, 0)])
 
 
 def _steepest(residual: _Residual, axis: int, peak: int, shift: int, sign: float) -> int:
@@ -445,7 +450,7 @@ def _steepest(residual: _Residual, axis: int, peak: int, shift: int, sign: float
 
 def _outliers(residual: _Residual, free: BoolArray) -> list[Finding]:
     quick = residual.values - residual.smooth
-    free = _away(free, residual.samples(_QUIET_S))  # a limb that is let go rings
+    free = _all_around(free, residual.samples(_QUIET_S))  # a limb that is let go rings
     scatter = MAD_TO_DEVIATION * np.median(np.abs(quick[residual.in_use]), axis=0)
     findings: list[Finding] = []
     for axis, name in enumerate(WRENCH_COMPONENTS):

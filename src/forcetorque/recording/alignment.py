@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.recording.stream import Signal, Stream
 
@@ -62,6 +62,111 @@ def seconds_since(stamp_ns: IntArray, origin_ns: int) -> FloatArray:
     return np.asarray(stamp_ns - np.int64(origin_ns), dtype=np.float64) * 1e-9
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Neighbours:
+    """Samples of a stream on either side of instants."""
+
+    before: IntArray
+    """Rows of the stream; shape (m,)."""
+    after: IntArray
+    """Rows of the stream; shape (m,)."""
+    weight: FloatArray
+    """Weight of the sample after; shape (m,)."""
+    is_before: BoolArray
+    """Instants that are those of the sample before; shape (m,)."""
+    is_after: BoolArray
+    """Instants that are those of the sample after; shape (m,)."""
+    is_missing: BoolArray
+    """Instants inside a gap, before the first or after the last sample; shape (m,)."""
+
+    def interpolated(self, before: FloatArray, after: FloatArray) -> FloatArray:
+        """Interpolate linearly.
+
+        Args:
+            before: Values at the samples before; shape (m, k).
+            after: Values at the samples after; shape (m, k).
+
+        Returns:
+            Values at the instants; shape (m, k); NaN where they are missing or a neighbour is NaN.
+        """
+        with np.errstate(invalid="ignore"):  # infinite samples with weight zero
+            result = (1.0 - self.weight)[:, None] * before + self.weight[:, None] * after
+        result[self.is_before] = before[self.is_before]
+        result[self.is_after] = after[self.is_after]
+        result[self.is_missing] = np.nan
+        return result
+
+
+class Interpolation:
+    """Straight lines between the samples of a stream that step forward in time, never across gaps."""
+
+    def __init__(self, stream: Stream) -> None:
+        """Find the samples.
+
+        Args:
+            stream: The stream.
+
+        Raises:
+            RecordingError: If it holds no two samples that step forward in time.
+        """
+        self.rows = usable_samples(stream.stamp_ns)
+        if len(self.rows) < 2:
+            raise RecordingError(
+                f"stream {stream.name!r}: expected at least two samples to align, got {len(self.rows)}"
+            )
+        self._stamps = stream.stamp_ns[self.rows]
+        self._gap_ns = gap_limit_ns(self._stamps)
+
+    def at(self, at_ns: IntArray) -> Neighbours:
+        """Find the samples on either side of instants.
+
+        Args:
+            at_ns: Instants on the clock of the stream; shape (m,); ns.
+
+        Returns:
+            The samples, with their weights.
+        """
+        stamps = self._stamps
+        after = np.clip(np.searchsorted(stamps, at_ns, side="right"), 1, len(stamps) - 1)
+        before = after - 1
+        earlier, later = stamps[before], stamps[after]
+        span = later - earlier
+        # an instant that is a sample's own has nothing to interpolate, also at the edge of a gap
+        is_before, is_after = at_ns == earlier, at_ns == later
+        outside = (at_ns < stamps[0]) | (at_ns > stamps[-1])
+        return Neighbours(
+            before=self.rows[before],
+            after=self.rows[after],
+            weight=(at_ns - earlier) / span,
+            is_before=is_before,
+            is_after=is_after,
+            is_missing=outside | ((span > self._gap_ns) & ~is_before & ~is_after),
+        )
+
+
+_SPARSE = 4
+"""Rows of a stream per instant from which on only the neighbours of instants are looked at."""
+
+
+def rows_of(neighbours: Neighbours) -> tuple[IntArray, IntArray, IntArray]:
+    """Give the rows of a stream that instants need.
+
+    Args:
+        neighbours: Samples on either side of m instants.
+
+    Returns:
+        Increasing rows, shape (r,), and where among them the samples before and after are; shape (m,).
+    """
+    if not len(neighbours.before):
+        return (np.empty(0, dtype=np.int64),) * 3
+    first, last = int(neighbours.before.min()), int(neighbours.after.max())
+    if last - first < _SPARSE * len(neighbours.before):
+        return np.arange(first, last + 1), neighbours.before - first, neighbours.after - first
+    rows, places = np.unique(np.concatenate([neighbours.before, neighbours.after]), return_inverse=True)
+    before, after = np.split(places, 2)
+    return rows, before, after
+
+
 def interpolate(stream: Stream, values: FloatArray, at_ns: IntArray) -> FloatArray:
     """Interpolate samples of a stream linearly at given instants.
 
@@ -73,28 +178,9 @@ def interpolate(stream: Stream, values: FloatArray, at_ns: IntArray) -> FloatArr
     Returns:
         Values at the instants; shape (m, k). NaN before the first and after the last sample, inside
         a gap, and where a neighbour is NaN.
-
-    Raises:
-        RecordingError: If the stream holds no two samples that step forward in time.
     """
-    usable = usable_samples(stream.stamp_ns)
-    if len(usable) < 2:
-        raise RecordingError(f"stream {stream.name!r}: expected at least two samples to align, got {len(usable)}")
-    stamps, samples = stream.stamp_ns[usable], values[usable]
-    after = np.clip(np.searchsorted(stamps, at_ns, side="right"), 1, len(stamps) - 1)
-    before = after - 1
-    span = stamps[after] - stamps[before]
-    weight = (at_ns - stamps[before]) / span
-    outside = (at_ns < stamps[0]) | (at_ns > stamps[-1])
-    # an instant that is a sample's own has nothing to interpolate, also at the edge of a gap
-    exact_before, exact_after = at_ns == stamps[before], at_ns == stamps[after]
-    in_gap = (span > gap_limit_ns(stamps)) & ~exact_before & ~exact_after
-    with np.errstate(invalid="ignore"):  # infinite samples with weight zero
-        result = (1.0 - weight)[:, None] * samples[before] + weight[:, None] * samples[after]
-    result[exact_before] = samples[before[exact_before]]
-    result[exact_after] = samples[after[exact_after]]
-    result[outside | in_gap] = np.nan
-    return result
+    neighbours = Interpolation(stream).at(at_ns)
+    return neighbours.interpolated(values[neighbours.before], values[neighbours.after])
 
 
 def require_overlap(first: Stream, second: Stream) -> None:

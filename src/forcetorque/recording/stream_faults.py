@@ -205,7 +205,8 @@ def _missing_values(stream: Stream, signal: Signal) -> list[Finding]:
 
 def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
     """Runs of one value; one finding where all channels rest together."""
-    whole: BoolArray = (np.diff(signal.values, axis=0) == 0.0).all(axis=1)
+    same: BoolArray = np.asarray(np.diff(signal.values, axis=0) == 0.0)
+    whole: BoolArray = np.asarray(same.all(axis=1))
     runs = equal_runs(stream.stamp_ns, signal.values)
     frozen = noisy_runs(stream.stamp_ns, signal.values, runs)
     findings = [frozen_finding(stream, signal.quantity, run) for run in frozen]
@@ -218,7 +219,7 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
     ]
     for k, (name, unit) in enumerate(zip(signal.columns, signal.units, strict=True)):
         column = signal.values[:, k]
-        alone: BoolArray = (np.diff(column) == 0.0) & ~whole
+        alone: BoolArray = same[:, k] & ~whole
         for at, last in _stuck_runs(stream, signal.values[:, [k]], alone):
             text = f"{name} stays at {column[at]:g} {unit}"
             seconds = _seconds(stream, (at, last))
@@ -248,7 +249,11 @@ def _seconds(stream: Stream, run: Run) -> float:
 
 def _stuck_runs(stream: Stream, column: FloatArray, alone: BoolArray) -> list[Run]:
     """Runs of equal values of one channel, other than of all, that are too long for noise."""
-    runs = [(first, last + 1) for first, last in true_runs(alone)]
-    short = [run for run in runs if STUCK_NOISY_SECONDS < _seconds(stream, run) <= STUCK_SECONDS]
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], alone, [False]]).astype(np.int8)))
+    seconds = (stream.stamp_ns[edges[1::2]] - stream.stamp_ns[edges[::2]]) * 1e-9
+    # of millions of samples two in a row are often equal
+    long = seconds > STUCK_NOISY_SECONDS
+    runs: list[Run] = list(zip(edges[::2][long].tolist(), edges[1::2][long].tolist(), strict=True))
+    short = [run for run in runs if _seconds(stream, run) <= STUCK_SECONDS]
     surely = set(noisy_runs(stream.stamp_ns, column, short))
     return [run for run in runs if _seconds(stream, run) > STUCK_SECONDS or run in surely]

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
@@ -13,9 +13,9 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, ch
 from forcetorque.base.errors import RecordingError, RobotError, ShapeError, known_names
 from forcetorque.base.pose import make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.recording.alignment import interpolate
+from forcetorque.recording.alignment import Interpolation, Neighbours, rows_of
 from forcetorque.recording.recording import Recording
-from forcetorque.recording.smoothing import SavitzkyGolay, smooth_columns
+from forcetorque.recording.smoothing import FilteredColumns, SavitzkyGolay
 from forcetorque.recording.stream import ROW_CLOCK, Signal, Stream
 from forcetorque.robot.model import Joint, JointType, RobotModel
 
@@ -203,30 +203,146 @@ _MOST = 0.99
 """Share of samples that says it: single ones may be spikes."""
 
 
+class JointUnits:
+    """Positions of joints far beyond the limits of the URDF as radians, and within them as degrees, counted."""
+
+    def __init__(self, model: RobotModel, joints: Sequence[str]) -> None:
+        """Begin to count.
+
+        Args:
+            model: The robot; joints without limits are not judged.
+            joints: Joints.
+        """
+        self._limits: dict[str, tuple[int, float, float]] = {}
+        for column, name in enumerate(joints):
+            joint = model.joints.get(name)
+            limit = None if joint is None or joint.type is not JointType.REVOLUTE else joint.limit
+            if limit is not None and limit.lower is not None and limit.upper is not None and limit.lower < limit.upper:
+                self._limits[name] = (column, limit.lower, limit.upper)
+        self._counts = dict.fromkeys(self._limits, np.zeros(3, dtype=np.int64))
+        self._farthest = dict.fromkeys(self._limits, 0.0)
+
+    def add(self, motion: JointMotion) -> None:
+        """Count more samples.
+
+        Args:
+            motion: Positions of the joints.
+        """
+        for name, (column, lower, upper) in self._limits.items():
+            turned = motion.position[:, column]
+            turned = turned[np.isfinite(turned)]
+            far = (turned < lower - _FAR) | (turned > upper + _FAR)
+            as_degrees = np.radians(turned)
+            inside = (as_degrees >= lower) & (as_degrees <= upper)
+            counts = np.array([len(turned), np.count_nonzero(far), np.count_nonzero(inside)])
+            self._counts[name] = self._counts[name] + counts
+            if counts[1]:
+                farthest = float(turned[np.argmax(np.abs(turned))])
+                self._farthest[name] = max(self._farthest[name], farthest, key=abs)
+
+    def require_radians(self) -> None:
+        """Refuse positions that are in degrees.
+
+        Raises:
+            RecordingError: If those of a joint are.
+        """
+        for name, (_, lower, upper) in self._limits.items():
+            count, far, inside = self._counts[name].tolist()
+            if count and far / count > 1.0 - _MOST and inside / count >= _MOST:
+                raise RecordingError(
+                    f"joint {name!r}: expected positions about the limits of the URDF, {lower:.3g} to {upper:.3g} rad, "
+                    f"got up to {self._farthest[name]:.3g} rad, which fits them in degrees; {CHECK_JOINT_UNIT}"
+                )
+
+
 def require_joints_in_radians(model: RobotModel, motion: JointMotion) -> None:
     """Refuse positions that lie far beyond the limits of the URDF as radians, and within them as degrees.
 
     Args:
         model: The robot; joints without limits are not judged.
         motion: Positions of its joints.
-
-    Raises:
-        RecordingError: If those of a joint do.
     """
-    for name, position in zip(motion.names, motion.position.T, strict=True):
-        joint = model.joints.get(name)
-        limit = None if joint is None or joint.type is not JointType.REVOLUTE else joint.limit
-        if limit is None or limit.lower is None or limit.upper is None or not limit.lower < limit.upper:
-            continue
-        turned = position[np.isfinite(position)]
-        far = (turned < limit.lower - _FAR) | (turned > limit.upper + _FAR)
-        inside = (np.radians(turned) >= limit.lower) & (np.radians(turned) <= limit.upper)
-        if turned.size and far.mean() > 1.0 - _MOST and inside.mean() >= _MOST:
-            farthest = turned[np.argmax(np.abs(turned))]
-            raise RecordingError(
-                f"joint {name!r}: expected positions about the limits of the URDF, {limit.lower:.3g} to "
-                f"{limit.upper:.3g} rad, got up to {farthest:.3g} rad, which fits them in degrees; {CHECK_JOINT_UNIT}"
-            )
+    units = JointUnits(model, motion.names)
+    units.add(motion)
+    units.require_radians()
+
+
+BLOCK: Final = 16384
+"""Instants of a log that are evaluated at a time: long against the cost of starting, and small in memory."""
+
+
+def blocks_of(count: int) -> list[slice]:
+    """Divide instants into blocks.
+
+    Args:
+        count: Number of instants.
+
+    Returns:
+        Slices of at most `BLOCK` instants each, in order; one empty slice of none.
+    """
+    return [slice(start, min(start + BLOCK, count)) for start in range(0, max(count, 1), BLOCK)]
+
+
+class LoggedJoints:
+    """Joints of a recording, whose motion can be had at any instants; what is logged elsewhere costs nothing."""
+
+    def __init__(
+        self,
+        recording: Recording,
+        joints: Sequence[str],
+        *,
+        window: SavitzkyGolay,
+        logged_derivatives: bool = False,
+    ) -> None:
+        """Find the streams of joints.
+
+        Args:
+            recording: Streams that hold the joints.
+            joints: Names of the joints.
+            window: Filter that differentiates the logged positions on their own clock.
+            logged_derivatives: Whether velocities and accelerations are taken from the log instead.
+
+        Raises:
+            RecordingError: If a joint is in no stream, or the log lacks derivatives that are to be taken from it.
+        """
+        self.names = tuple(joints)
+        self._positions = _holders(recording, joints, "position")
+        self._logged: dict[str, list[_Holder]] = {}
+        if logged_derivatives:
+            self._logged = {name: _holders(recording, joints, name) for name in ("velocity", "acceleration")}
+        self._derivatives = [
+            None if logged_derivatives or one.is_at_rest else one.derivatives(window) for one in self._positions
+        ]
+
+    def at(self, at_ns: IntArray) -> JointMotion:
+        """Give the motion at instants.
+
+        Args:
+            at_ns: Instants on the clock of the streams; shape (n,); ns.
+
+        Returns:
+            The motion; shape (n, j) each; NaN where a stream has a gap. Samples without times are poses at rest: their
+            velocities and accelerations are zero.
+        """
+        names = ("position", "velocity", "acceleration")
+        motion = {name: np.empty((len(at_ns), len(self.names))) for name in names}
+        for block in blocks_of(len(at_ns)):
+            for holder, derivatives in zip(self._positions, self._derivatives, strict=True):
+                neighbours = holder.interpolation.at(at_ns[block])
+                motion["position"][block, holder.places] = holder.interpolated(neighbours)
+                if derivatives is not None:
+                    rows, before, after = rows_of(neighbours)
+                    for name, values in zip(names[1:], derivatives.at(rows), strict=True):
+                        motion[name][block, holder.places] = neighbours.interpolated(values[before], values[after])
+                elif not self._logged:
+                    none = np.zeros((len(neighbours.before), len(holder.places)))
+                    for name in names[1:]:
+                        motion[name][block, holder.places] = neighbours.interpolated(none, none)
+            for name, holders in self._logged.items():
+                for holder in holders:
+                    neighbours = holder.interpolation.at(at_ns[block])
+                    motion[name][block, holder.places] = holder.interpolated(neighbours)
+        return JointMotion(names=self.names, **motion)
 
 
 def joint_motion_at(
@@ -240,35 +356,50 @@ def joint_motion_at(
     """Give positions, velocities and accelerations of joints at given instants.
 
     Args:
-        recording: Streams that hold the joints, on the clock of `at_ns`.
-        joints: Names of the joints.
-        at_ns: Instants; shape (n,); ns.
-        window: Filter that differentiates the logged positions on their own clock.
-        logged_derivatives: Whether velocities and accelerations are taken from the log instead.
+        recording: As of `LoggedJoints`.
+        joints: As of `LoggedJoints`.
+        at_ns: Instants on the clock of the streams; shape (n,); ns.
+        window: As of `LoggedJoints`.
+        logged_derivatives: As of `LoggedJoints`.
 
     Returns:
-        The motion; shape (n, j) each; NaN where a stream has a gap. Samples without times are poses at rest: their
-        velocities and accelerations are zero.
-
-    Raises:
-        RecordingError: If a joint is in no stream, or the log lacks derivatives that are to be taken from it.
+        The motion, as of `LoggedJoints.at`.
     """
-    motion: dict[str, FloatArray] = {}
-    for derivative, quantity in enumerate(("position", "velocity", "acceleration")):
-        source = quantity if logged_derivatives else "position"
-        motion[quantity] = np.empty((len(at_ns), len(joints)))
-        for stream, signal, columns in _holders(recording, joints, source):
-            values = signal.values[:, [signal.columns.index(joints[k]) for k in columns]]
-            if derivative and stream.clock == ROW_CLOCK:
-                values = np.zeros_like(values)
-            elif derivative and not logged_derivatives:
-                values = smooth_columns(stream.stamp_ns, values, window, derivative=derivative)
-            motion[quantity][:, columns] = interpolate(stream, values, at_ns)
-    return JointMotion(names=tuple(joints), **motion)
+    return LoggedJoints(recording, joints, window=window, logged_derivatives=logged_derivatives).at(at_ns)
 
 
-def _holders(recording: Recording, joints: Sequence[str], source: str) -> list[tuple[Stream, Signal, list[int]]]:
-    """Streams that hold joints, with the places of these joints among all."""
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Holder:
+    """Joints that one stream holds."""
+
+    stream: Stream
+    signal: Signal
+    places: list[int]
+    """Positions of these joints among all."""
+    columns: list[int]
+    """Their columns of the signal."""
+    interpolation: Interpolation
+
+    @property
+    def is_at_rest(self) -> bool:
+        """Whether its samples have no times."""
+        return self.stream.clock == ROW_CLOCK
+
+    def derivatives(self, window: SavitzkyGolay) -> FilteredColumns:
+        """Rates and second derivatives of its joints."""
+        stamps, values = self.stream.stamp_ns, self.signal.values
+        return FilteredColumns(stamps, values, window, columns=self.columns, derivatives=(1, 2))
+
+    def interpolated(self, neighbours: Neighbours) -> FloatArray:
+        """Its joints as logged, at instants."""
+        values, columns = self.signal.values, self.columns
+        return neighbours.interpolated(
+            values[neighbours.before[:, None], columns], values[neighbours.after[:, None], columns]
+        )
+
+
+def _holders(recording: Recording, joints: Sequence[str], source: str) -> list[_Holder]:
+    """Streams that hold joints."""
     signals = recording.joint_signals(source)
     for joint in joints:
         if joint not in signals:
@@ -284,4 +415,10 @@ def _holders(recording: Recording, joints: Sequence[str], source: str) -> list[t
     places: dict[str, list[int]] = {}
     for k, joint in enumerate(joints):
         places.setdefault(signals[joint][0].name, []).append(k)
-    return [(*signals[joints[columns[0]]], columns) for columns in places.values()]
+    holders = []
+    for own in places.values():
+        stream, signal = signals[joints[own[0]]]
+        columns = [signal.columns.index(joints[k]) for k in own]
+        interpolation = Interpolation(stream)
+        holders.append(_Holder(stream=stream, signal=signal, places=own, columns=columns, interpolation=interpolation))
+    return holders

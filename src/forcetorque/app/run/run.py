@@ -262,13 +262,12 @@ def _inspect(way: _Way, experiments: Mapping[Path, Experiment], sensors: Sequenc
     """Look for contacts in what is to be fitted; what else is wrong by the robot model, in words."""
     way.begin("inspect")
     touched, wrong, found = [], [], 0
-    for path, whole in experiments.items():
-        experiment = replace(whole, sensors=tuple(sensor for sensor in whole.sensors if sensor.name in sensors))
-        inspection = inspected(experiment)
+    for path, experiment in experiments.items():
+        inspection = inspected(experiment, sensors=sensors, progress=way.progress)
         way.results.append(inspection)
         found += sum(answer.verdict != "NOTHING FOUND" for answer in inspection.answers())
         wrong += [f"{path}: {row.stream}: {row.message}" for row in faults(inspection.findings)]
-        touched += [f"{path}: {words}" for words in _contacts(experiment, inspection)]
+        touched += [f"{path}: {words}" for words in _contacts(experiment, inspection, sensors)]
     if touched:
         way.stop("inspect", "; ".join(touched), "leave the contact out of the [[interval]], or state it as [[contact]]")
     else:
@@ -276,10 +275,10 @@ def _inspect(way: _Way, experiments: Mapping[Path, Experiment], sensors: Sequenc
     return wrong
 
 
-def _contacts(experiment: Experiment, inspection: Inspection) -> Iterator[str]:
-    """Firm contacts in calibration intervals."""
+def _contacts(experiment: Experiment, inspection: Inspection, sensors: Sequence[str]) -> Iterator[str]:
+    """Firm contacts of sensors in calibration intervals."""
     start_ns = experiment.recording.start_ns
-    streams = {sensor.stream for sensor in experiment.sensors}
+    streams = {sensor.stream for sensor in experiment.sensors if sensor.name in sensors}
     for interval in (one for one in experiment.recording.intervals if one.use is Use.CALIBRATION):
         start, end = ((stamp - start_ns) * 1e-9 for stamp in (interval.start_ns, interval.end_ns))
         for row in inspection.findings:

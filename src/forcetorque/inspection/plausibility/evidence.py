@@ -10,6 +10,7 @@ What is left has the deviation of the best explanation, and counts for a limited
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -56,7 +57,7 @@ class Fit(ArrayRecord):
     """Error of the matrix per column of the design, offset and drift; shape (k, 6)."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Evidence(ArrayRecord):
     """Measurements of a sensor that explanations are compared on."""
 
@@ -144,8 +145,9 @@ class Evidence(ArrayRecord):
         weighted, rest = root * design, root * (self.measured - expected @ turn.T)
         tempered = min(1.0, _INDEPENDENT / len(expected)) / self.deviation**2
         # per scale and component: (scale, 6, k)
-        variance = np.array([[[*(scale * one) ** 2, _OFFSET**2, _DRIFT**2] for one in row] for scale in _SCALES])
-        variance[:, :, -2:] *= self.size[None, :, None] ** 2
+        variance = np.empty((len(_SCALES), 6, row.shape[1] + 2))
+        variance[:, :, :-2] = (np.array(_SCALES)[:, None, None] * row) ** 2
+        variance[:, :, -2:] = np.array([_OFFSET**2, _DRIFT**2]) * self.size[None, :, None] ** 2
         gram = tempered[:, None, None] * (weighted.T @ weighted)
         right = (weighted.T @ rest).T * tempered[:, None]
         # scaled by the deviations of the prior, so that the factorisation is of 1 + something positive
@@ -198,13 +200,18 @@ class Evidence(ArrayRecord):
         square = np.maximum(square, (self.size[[0, 3]] * _UNIMPORTANT) ** 2)
         return bool((self.left(fit, beside_matrix=True) ** 2 < (1.0 - np.array(_FOLLOWS)) * square).all())
 
+    @cached_property
+    def _to_counts(self) -> FloatArray | None:
+        """Counts per wrench by the prior, shape (6, c); None without a prior."""
+        return None if np.array_equal(self.prior, np.eye(6)) else np.asarray(np.linalg.pinv(self.prior).T)
+
     def _counts(self, expected: FloatArray, turn: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Columns that errors of the matrix multiply, shape (n, c), and their deviation per unit of scale, (6, c)."""
         part = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])[:, None]
-        if not np.array_equal(self.prior, np.eye(6)):
+        if self._to_counts is not None:
             read = turn @ self.prior
             row = np.sqrt((read**2).mean(axis=1))[:, None] * np.ones((1, self.prior.shape[1]))
-            return expected @ np.linalg.pinv(self.prior).T, part * row
+            return expected @ self._to_counts, part * row
         return expected / self.size, part * np.outer(np.abs(turn) @ self.size, np.ones(6))
 
     def _step(
@@ -218,8 +225,10 @@ class Evidence(ArrayRecord):
     ) -> tuple[FloatArray, FloatArray]:
         """Generalised least squares for the parameters, with errors of the matrix as correlated noise."""
         p = columns.shape[2]
+        if not p:
+            return np.empty(0), np.empty((0, 0))
         information, gradient = np.zeros((p, p)), np.zeros(p)
-        for i in range(6 if p else 0):
+        for i in range(6):
             cross = spread[i][:, None] * (design.T @ columns[:, i]) * tempered[i]  # (k, p)
             kept = np.linalg.solve(inner[i], cross)
             information += tempered[i] * columns[:, i].T @ columns[:, i] - cross.T @ kept

@@ -41,8 +41,10 @@ def require_gauges(data_sets: Sequence[DataSet], moments: Moments) -> None:
     Raises:
         FitError: If there is one; the message names it.
     """
-    steps = np.concatenate([np.diff(data.raw, axis=0) for data in data_sets])
-    up, down = np.count_nonzero(steps > 0.0, axis=0), np.count_nonzero(steps < 0.0, axis=0)
+    up, down = (
+        sum(np.count_nonzero(compare(data.raw[1:], data.raw[:-1]), axis=0) for data in data_sets)
+        for compare in (np.greater, np.less)
+    )
     one_way = (up + down >= _FEWEST) & (np.maximum(up, down) >= _ONE_WAY * (up + down))
     channels, load = _off_line(data_sets)
     straight = (channels < _STRAIGHT) & (load > _BENT)
@@ -64,8 +66,9 @@ def _off_line(data_sets: Sequence[DataSet]) -> tuple[FloatArray, float]:
         time = time - time.mean()
         values = np.hstack([data.raw, data.reference])
         values = values - values.mean(axis=0)
-        moved += (values**2).sum(axis=0)
-        left += ((values - np.outer(time, time @ values) / max(time @ time, np.finfo(float).tiny)) ** 2).sum(axis=0)
+        square = np.einsum("ij,ij->j", values, values)
+        moved += square
+        left += np.maximum(square - (time @ values) ** 2 / max(time @ time, np.finfo(float).tiny), 0.0)
     load = [_share(left[-6:][part].sum(), moved[-6:][part].sum()) for part in FORCE_AND_MOMENT]
     return _share(left[:-6], moved[:-6]), float(min(load))
 

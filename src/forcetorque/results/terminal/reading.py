@@ -4,17 +4,18 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 
-from forcetorque.base.errors import ExperimentError
+from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment.additions import ADDED
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments, read_moments
-from forcetorque.experiment.campaign import Campaign
+from forcetorque.experiment.campaign import Campaign, left_out_message
 from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -57,6 +58,36 @@ def read_experiments(paths: Iterable[Path], log: logging.Logger) -> dict[Path, E
     files = list(paths)
     refuse_a_file_twice(files)
     return {path: read_experiment(path, log) for path in files}
+
+
+def readable_experiments(paths: Iterable[Path], log: logging.Logger) -> tuple[dict[Path, Experiment], list[str]]:
+    """Read experiments that are fitted together, without those of several whose recording cannot be read.
+
+    Args:
+        paths: Experiment files.
+        log: Where messages go.
+
+    Returns:
+        Experiments by file, and a message for every one that is left out.
+
+    Raises:
+        ForceTorqueError: If a file is no experiment file, or comes twice, or no recording can be read.
+    """
+    files = list(paths)
+    refuse_a_file_twice(files)
+    if len(files) > 1:
+        for path in files:  # what a person wrote is put right before anything is computed
+            parse_experiment(path)
+    contents: dict[Path, Experiment] = {}
+    errors: list[tuple[Path, ForceTorqueError]] = []
+    for path in files:
+        try:
+            contents[path] = read_experiment(path, log)
+        except ForceTorqueError as error:
+            errors.append((path, error))
+    if errors and not contents:
+        raise errors[0][1]
+    return contents, [left_out_message(path, error) for path, error in errors]
 
 
 def planned_experiments(paths: Iterable[Path], log: logging.Logger) -> list[Experiment]:
@@ -105,12 +136,13 @@ def planned_sensor(experiment: Experiment, wanted: str | None, calibration: Cali
     return sensor.name
 
 
-def campaign_of(experiments: Mapping[Path, Experiment], sensor: str) -> Campaign:
+def campaign_of(experiments: Mapping[Path, Experiment], sensor: str, *, left_out: Sequence[str] = ()) -> Campaign:
     """Pool what several files hold of a sensor.
 
     Args:
         experiments: Experiments by file.
         sensor: Name of the sensor.
+        left_out: As of `Campaign`.
 
     Returns:
         The sensor in all of them.
@@ -122,7 +154,7 @@ def campaign_of(experiments: Mapping[Path, Experiment], sensor: str) -> Campaign
     for path, experiment in experiments.items():
         with stated_in(str(path)) if len(experiments) > 1 else nullcontext():
             runs.append(SensorRun(experiment, sensor))
-    return Campaign(runs)
+    return Campaign(runs, left_out=left_out)
 
 
 def stored_moments(paths: Iterable[Path]) -> dict[Path, RecordingMoments]:

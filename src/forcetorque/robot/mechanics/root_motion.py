@@ -10,9 +10,9 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import RecordingError, RobotError, known_names
-from forcetorque.recording.alignment import interpolate
+from forcetorque.recording.alignment import Interpolation, rows_of
 from forcetorque.recording.recording import NO_MOTION, MovingSupport, Recording, Support
-from forcetorque.recording.smoothing import SavitzkyGolay, smooth
+from forcetorque.recording.smoothing import FilteredColumns, SavitzkyGolay
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.dynamics import joints_between, motion_of_link
 from forcetorque.robot.model import JointType, RobotModel
@@ -54,6 +54,85 @@ def joints_to_support(model: RobotModel, recording: Recording, support: Support 
     return joints_between(build_tree(model, imu_frame(model, recording, support)), support.frame)
 
 
+class LoggedSupport:
+    """Support of a recording, whose motion can be had at any instants.
+
+    Angular acceleration is taken from the IMU's streams where they have it, else it is the
+    derivative of the angular velocity. Where they hold `gravity`, or of a robot without joints the
+    proper acceleration alone, the frame is taken to turn slowly.
+    """
+
+    def __init__(
+        self,
+        model: RobotModel,
+        recording: Recording,
+        support: Support | MovingSupport,
+        *,
+        window: SavitzkyGolay,
+        gravity: float,
+    ) -> None:
+        """Find the signals of the IMU, if there is one.
+
+        Args:
+            model: The robot.
+            recording: Streams of the IMU.
+            support: The support.
+            window: Filter that differentiates the angular velocity on its own clock.
+            gravity: Magnitude of gravity for a support at rest; m/s2.
+        """
+        self._support, self._gravity = support, gravity
+        self._signals: dict[str, tuple[Interpolation, Signal]] = {}
+        self._rate: FilteredColumns | None = None
+        if isinstance(support, Support):
+            return
+        self._tree = build_tree(model, imu_frame(model, recording, support))
+        for quantity, (stream, signal) in _imu_signals(model, recording, support).items():
+            self._signals[quantity] = (Interpolation(stream), signal)
+            if quantity == "angular_velocity":
+                self._rate = FilteredColumns(stream.stamp_ns, signal.values, window, derivatives=(1,), together=True)
+
+    def at(self, joints: JointMotion, at_ns: IntArray) -> RootMotion:
+        """Give the motion of the support frame at instants.
+
+        Args:
+            joints: Motion of at least the joints of `joints_to_support`, at the same instants.
+            at_ns: Instants on the clock of the streams; shape (n,); ns.
+
+        Returns:
+            The motion; NaN where a stream has a gap.
+        """
+        if isinstance(self._support, Support):
+            return RootMotion.fixed(self._support.gravity_direction, gravity=self._gravity)
+        if "angular_velocity" not in self._signals:
+            still = np.zeros((len(at_ns), 3))
+            acceleration = (
+                -self._logged("gravity", at_ns)
+                if "gravity" in self._signals
+                else self._logged("proper_acceleration", at_ns)
+            )
+            imu = RootMotion(proper_acceleration=acceleration, angular_velocity=still, angular_acceleration=still)
+        else:
+            imu = RootMotion(
+                proper_acceleration=self._logged("proper_acceleration", at_ns),
+                angular_velocity=self._logged("angular_velocity", at_ns),
+                angular_acceleration=self._angular_acceleration(at_ns),
+            )
+        return motion_of_link(self._tree, joints, imu, self._support.frame)
+
+    def _logged(self, quantity: str, at_ns: IntArray) -> FloatArray:
+        interpolation, signal = self._signals[quantity]
+        neighbours = interpolation.at(at_ns)
+        return neighbours.interpolated(signal.values[neighbours.before], signal.values[neighbours.after])
+
+    def _angular_acceleration(self, at_ns: IntArray) -> FloatArray:
+        if "angular_acceleration" in self._signals or self._rate is None:
+            return self._logged("angular_acceleration", at_ns)
+        neighbours = self._signals["angular_velocity"][0].at(at_ns)
+        rows, before, after = rows_of(neighbours)
+        (values,) = self._rate.at(rows)
+        return neighbours.interpolated(values[before], values[after])
+
+
 def support_motion_at(
     model: RobotModel,
     recording: Recording,
@@ -66,45 +145,19 @@ def support_motion_at(
 ) -> RootMotion:
     """Give the motion of the support frame at given instants.
 
-    Angular acceleration is taken from the IMU's streams where they have it, else it is the
-    derivative of the angular velocity. Where they hold `gravity`, or of a robot without joints the
-    proper acceleration alone, the frame is taken to turn slowly.
-
     Args:
-        model: The robot.
-        recording: Streams of the IMU, on the clock of `at_ns`.
-        support: The support.
-        joints: Motion of at least the joints of `joints_to_support`, at the same instants.
-        at_ns: Instants; shape (n,); ns.
-        window: Filter that differentiates the angular velocity on its own clock.
-        gravity: Magnitude of gravity for a support at rest; m/s2.
+        model: As of `LoggedSupport`.
+        recording: As of `LoggedSupport`.
+        support: As of `LoggedSupport`.
+        joints: As of `LoggedSupport.at`.
+        at_ns: As of `LoggedSupport.at`.
+        window: As of `LoggedSupport`.
+        gravity: As of `LoggedSupport`.
 
     Returns:
-        The motion; NaN where a stream has a gap.
+        The motion, as of `LoggedSupport.at`.
     """
-    if isinstance(support, Support):
-        return RootMotion.fixed(support.gravity_direction, gravity=gravity)
-    frame = imu_frame(model, recording, support)
-    signals = _imu_signals(model, recording, support)
-    if "angular_velocity" not in signals:
-        still = np.zeros((len(at_ns), 3))
-        acceleration = (
-            _at(signals["proper_acceleration"], at_ns) if "gravity" not in signals else -_at(signals["gravity"], at_ns)
-        )
-        imu = RootMotion(proper_acceleration=acceleration, angular_velocity=still, angular_acceleration=still)
-    else:
-        stream, signal = signals["angular_velocity"]
-        rate = (
-            _at(signals["angular_acceleration"], at_ns)
-            if "angular_acceleration" in signals
-            else interpolate(stream, smooth(stream.stamp_ns, signal.values, window, derivative=1), at_ns)
-        )
-        imu = RootMotion(
-            proper_acceleration=_at(signals["proper_acceleration"], at_ns),
-            angular_velocity=_at(signals["angular_velocity"], at_ns),
-            angular_acceleration=rate,
-        )
-    return motion_of_link(build_tree(model, frame), joints, imu, support.frame)
+    return LoggedSupport(model, recording, support, window=window, gravity=gravity).at(joints, at_ns)
 
 
 def imu_frame(model: RobotModel, recording: Recording, support: MovingSupport) -> str:
@@ -175,8 +228,3 @@ def _require_complete(model: RobotModel, support: MovingSupport, signals: dict[s
         "an orientation gives, in the "
         f"streams {', '.join(support.motion_streams)}; got {', '.join(has) or 'neither'}"
     )
-
-
-def _at(source: tuple[Stream, Signal], at_ns: IntArray) -> FloatArray:
-    stream, signal = source
-    return interpolate(stream, signal.values, at_ns)

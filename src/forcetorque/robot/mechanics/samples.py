@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -17,11 +17,11 @@ from forcetorque.recording.frozen_and_saturated_samples import SampleQuality, Un
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.smoothing import DERIVATIVE_WINDOW, EvenGrid, SavitzkyGolay, smooth
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.mechanics.estimate import Evaluator, estimate
+from forcetorque.robot.mechanics.estimate import Evaluator, estimate, evaluator_of_samples
 from forcetorque.robot.mechanics.question import Question, required_joints_of
-from forcetorque.robot.mechanics.root_motion import joints_to_support, support_motion_at
+from forcetorque.robot.mechanics.root_motion import LoggedSupport, joints_to_support
 from forcetorque.robot.model import RobotModel
-from forcetorque.robot.motion import JointMotion, RootMotion, joint_motion_at, require_joints_in_radians
+from forcetorque.robot.motion import JointMotion, JointUnits, LoggedJoints, RootMotion, blocks_of
 from forcetorque.robot.tree import build_tree
 
 
@@ -55,6 +55,26 @@ class PaddedSamples:
         if self.window is not None:
             values = smooth(self.stamp_ns, values, self.window, grid=self.grid)
         return values[self.inside]
+
+    def smoothed_together(self, columns: Mapping[str, FloatArray]) -> tuple[dict[str, FloatArray], BoolArray]:
+        """Filter several quantities as `smoothed` does, as if they were columns of one.
+
+        Args:
+            columns: Quantities by name; shape (n, k) each.
+
+        Returns:
+            The same in the interval, shape (m, k) each, and which samples have all of them; shape (m,).
+        """
+        if self.window is None:
+            inside = {name: self.smoothed(values) for name, values in columns.items()}
+        else:
+            ends = np.cumsum([values.shape[1] for values in columns.values()])[:-1]
+            split = np.split(self.smoothed(np.hstack(list(columns.values()))), ends, axis=1)
+            inside = dict(zip(columns, split, strict=True))
+        complete = np.ones(int(np.count_nonzero(self.inside)), dtype=bool)
+        for values in inside.values():
+            complete &= np.isfinite(values).all(axis=1)
+        return inside, complete
 
 
 def padded_samples(
@@ -186,8 +206,8 @@ class SensorSamples(ArrayRecord):
     """What the sensor read, `raw` or `wrench`; n samples."""
     reference: FloatArray = field(metadata=array("n", 6))
     """Expected wrench in the sensor's frame and direction; shape (n, 6); N, N m."""
-    flattening: FloatArray = field(metadata=array("n", 6))
-    """What a derivative window of twice the length would take from it; shape (n, 6); N, N m.
+    flattening: FloatArray | None = field(metadata=array("n", 6))
+    """What a derivative window of twice the length would take from it; shape (n, 6); N, N m; None where no fit asks.
 
     The window that is used has flattened the accelerations already, by about a third of that where motions are smooth.
     """
@@ -221,6 +241,7 @@ def sensor_samples(
     evaluator: Evaluator | None = None,
     applied: str | None = None,
     quality: SampleQuality | None = None,
+    with_flattening: bool = True,
 ) -> SensorSamples:
     """Pair the readings of a sensor in an interval with the wrenches expected from the robot model.
 
@@ -239,6 +260,7 @@ def sensor_samples(
         evaluator: Who computes the reference; by the number of samples of the interval if None.
         applied: Stream with the `applied_wrench`, which is the reference in place of the model's; none if None.
         quality: What is wrong with each sample of the stream; what the board and the stamps say if None.
+        with_flattening: Whether the flattening is evaluated, for a fit.
 
     Returns:
         Samples of the interval that lie in no ignored interval and have a finite reading, reference and variables.
@@ -252,42 +274,44 @@ def sensor_samples(
     source = recording.stream(stream)
     padded = padded_samples(recording, source, interval, processing.smoothing, apart=apart)
     at_ns = padded.stamp_ns
+    columns = {}
     if applied is None:
         robot = (recording, model, sensor, source, interval.support, at_ns)
-        reference, joints = _expected(*robot, processing, evaluator)
-        flattening = np.zeros_like(reference)
-        if not processing.logged_derivatives:
+        columns["reference"], joints = _expected(*robot, processing, evaluator)
+        if with_flattening and not processing.logged_derivatives:
             longer = replace(processing, derivative_window=processing.derivative_window.doubled())
             # near the end of a log there may be no room for the longer window
-            flattening = np.nan_to_num(reference - _expected(*robot, longer, evaluator)[0])
+            flattening = np.nan_to_num(columns["reference"] - _expected(*robot, longer, evaluator)[0])
+            columns["flattening"] = flattening
     else:
-        reference, joints = _applied(recording, source, applied, at_ns), ()
-        flattening = np.zeros_like(reference)  # no filter has flattened it
+        columns["reference"], joints = _applied(recording, source, applied, at_ns), ()
     reading = source.signal(quantity)
     if quality is None:
         nothing = np.zeros(len(source), dtype=bool)
         quality = SampleQuality(frozen=nothing, saturated=source.held, repeated=repeated_samples(source.stamp_ns))
-    values = np.where(quality.unusable[padded.rows, None], np.nan, reading.values[padded.rows])
-    extra = _variables(recording, source, variables, at_ns)
+    columns["reading"] = np.where(quality.unusable[padded.rows, None], np.nan, reading.values[padded.rows])
+    if variables:
+        columns["variables"] = _variables(recording, source, variables, at_ns)
     # together, because a sample that only one of them lacks would give them different filters
-    whole = padded.smoothed(np.hstack([values, reference, flattening, extra]))
-    values, reference, flattening, extra = np.split(whole, values.shape[1] + np.array([0, 6, 12]), axis=1)
-    complete = np.isfinite(whole).all(axis=1)
+    columns, complete = padded.smoothed_together(columns)
     unusable = quality.counted(padded.among)
     if not complete.any():
         needed = ", ".join((*joints, *(f"{v.stream} {v.column}" for v in variables))) or "motion of the support"
         raise RecordingError(
-            f"interval {interval.label!r}: none of {len(whole)} samples of {stream!r} has both a reading and the "
+            f"interval {interval.label!r}: none of {len(complete)} samples of {stream!r} has both a reading and the "
             f"joint(s) {needed}; the streams have gaps or missing values all over it, or samples that say nothing "
             f"of the load: {unusable}"
         )
+    kept = {name: values[complete] for name, values in columns.items()}
+    if with_flattening and "flattening" not in kept:
+        kept["flattening"] = np.zeros_like(kept["reference"])  # no filter has flattened it
     return SensorSamples(
         label=interval.label,
         stamp_ns=at_ns[padded.inside][complete],
-        reading=replace(reading, values=values[complete]),
-        reference=reference[complete],
-        flattening=flattening[complete],
-        variables=extra[complete],
+        reading=replace(reading, values=kept["reading"]),
+        reference=kept["reference"],
+        flattening=kept.get("flattening"),
+        variables=kept.get("variables", np.empty((len(kept["reference"]), 0))),
         dropped=int(np.count_nonzero(padded.among)) - int(np.count_nonzero(complete)),
         unusable=unusable,
     )
@@ -356,9 +380,72 @@ def _expected(
     """Expected wrench of a sensor at given instants, and the joints it needed."""
     name = model.sensor(sensor).name
     question = Question(tree=build_tree(model, support.frame), expected=(name,), equations=())
-    needed = required_joints_of(question)
-    joints, root = robot_motion_at(recording, model, support, needed, source, at_ns, processing=processing)
-    return estimate(question, joints, root, evaluator=evaluator).expected_of(name), joints.names
+    robot = LoggedRobot(recording, model, support, required_joints_of(question), source, processing=processing)
+    if evaluator is None:
+        evaluator = evaluator_of_samples(len(at_ns))
+    expected = np.empty((len(at_ns), 6))
+    for block in blocks_of(len(at_ns)):
+        joints, root = robot.at(at_ns[block])
+        expected[block] = estimate(question, joints, root, evaluator=evaluator).expected_of(name)
+    robot.require_radians()
+    return expected, robot.joints
+
+
+class LoggedRobot:
+    """Joints and support of a recording, whose motion can be had at any instants of a stream."""
+
+    def __init__(
+        self,
+        recording: Recording,
+        model: RobotModel,
+        support: Support | MovingSupport,
+        joints: Sequence[str],
+        source: Stream,
+        *,
+        processing: Processing,
+    ) -> None:
+        """Find the streams of the joints and of the IMU.
+
+        Args:
+            recording: Streams of the joints and of the IMU, on the clock of `source`.
+            model: The robot.
+            support: The support.
+            joints: Joints whose motion is wanted.
+            source: Stream that the instants are of.
+            processing: Filters and gravity.
+        """
+        self.joints = tuple(dict.fromkeys((*joints, *joints_to_support(model, recording, support))))
+        """Joints whose motion is given: those that are wanted, and those between an IMU and the support."""
+        for used in ("position", "velocity", "acceleration") if processing.logged_derivatives else ("position",):
+            holders = recording.joint_signals(used)
+            for holder in dict.fromkeys(holders[joint][0].name for joint in self.joints if joint in holders):
+                require_overlap(source, recording.stream(holder))
+        if isinstance(support, MovingSupport):
+            for stream in support.motion_streams:
+                require_overlap(source, recording.stream(stream))
+        window = processing.derivative_window
+        self._joints = LoggedJoints(
+            recording, self.joints, window=window, logged_derivatives=processing.logged_derivatives
+        )
+        self._support = LoggedSupport(model, recording, support, window=window, gravity=processing.gravity)
+        self._units = JointUnits(model, self.joints)
+
+    def at(self, at_ns: IntArray) -> tuple[JointMotion, RootMotion]:
+        """Give the motion at instants.
+
+        Args:
+            at_ns: Instants; shape (n,); ns.
+
+        Returns:
+            Motion of `joints`; motion of the support frame.
+        """
+        motion = self._joints.at(at_ns)
+        self._units.add(motion)
+        return motion, self._support.at(motion, at_ns)
+
+    def require_radians(self) -> None:
+        """Refuse positions, of all instants so far, far beyond the limits of the robot, and within them as degrees."""
+        self._units.require_radians()
 
 
 def robot_motion_at(
@@ -384,20 +471,8 @@ def robot_motion_at(
 
     Returns:
         Motion of the joints, and of those between an IMU and the support; motion of the support frame.
-
-    Raises:
-        RecordingError: If positions are far beyond the limits of the robot, and within them as degrees.
     """
-    needed = tuple(dict.fromkeys((*joints, *joints_to_support(model, recording, support))))
-    for used in ("position", "velocity", "acceleration") if processing.logged_derivatives else ("position",):
-        holders = recording.joint_signals(used)
-        for holder in dict.fromkeys(holders[joint][0].name for joint in needed if joint in holders):
-            require_overlap(source, recording.stream(holder))
-    if isinstance(support, MovingSupport):
-        for stream in support.motion_streams:
-            require_overlap(source, recording.stream(stream))
-    window = processing.derivative_window
-    motion = joint_motion_at(recording, needed, at_ns, window=window, logged_derivatives=processing.logged_derivatives)
-    require_joints_in_radians(model, motion)
-    root = support_motion_at(model, recording, support, motion, at_ns, window=window, gravity=processing.gravity)
-    return motion, root
+    robot = LoggedRobot(recording, model, support, joints, source, processing=processing)
+    motion = robot.at(at_ns)
+    robot.require_radians()
+    return motion
