@@ -33,7 +33,7 @@ PANELS: Final[Mapping[str, tuple[str, ...]]] = {
     "Calibrate": ("calibrate", "payload", "tare"),
     "Evaluate": ("evaluate", "accept", "plan", "report", "view"),
     "Use": ("export", "estimate"),
-    "More": ("bench", "robot", "skin", "study", "simulate", "schema"),
+    "More": ("bench", "robot", "skin", "study", "fleet", "simulate", "schema"),
 }
 """Commands and groups in the order of work, as the help shows them."""
 GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {

@@ -244,6 +244,20 @@ def independent_segments(blocks: FloatArray) -> tuple[int, float]:
     return min(max(round(fewer), 1), MOST_SEGMENTS), float(blocks.std(ddof=1)) / math.sqrt(fewer)
 
 
+def part_ends(samples: int, count: int) -> list[int]:
+    """Cut a recording into contiguous parts of equally many samples; the first parts have one more where it must be.
+
+    Args:
+        samples: Number of samples, at least 1.
+        count: Number of parts; as many as there are samples where these are fewer.
+
+    Returns:
+        Index behind the last sample of every part.
+    """
+    size, longer = divmod(samples, min(count, samples))
+    return [size * number + min(number, longer) for number in range(1, min(count, samples) + 1)]
+
+
 def _log_ratios(squares: FloatArray, count: int, least: float) -> FloatArray:
     """Log ratios of root mean squares in contiguous parts of equally many samples, at most one each.
 
