@@ -24,6 +24,7 @@ from forcetorque.base.errors import ExperimentError, FormatError, MissingFileErr
 from forcetorque.base.output_file import temporary_beside
 from forcetorque.base.stored_model import validated_table
 from forcetorque.experiment.calibration.moment_blocks import joined
+from forcetorque.experiment.calibration.provenance import SensorIdentity
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.input_files import distinct_files, recording_name
 from forcetorque.fleet.columns import columns_of, rows_of, schema_of
@@ -199,6 +200,18 @@ class Dataset:
                 "keep the robots in datasets of their own"
             )
         return own
+
+    def identity(self, sensor: str) -> SensorIdentity:
+        """Say which sensor it is.
+
+        Args:
+            sensor: As of `of_sensor`.
+
+        Returns:
+            The sensor as its last file has it.
+        """
+        values = self.rows([self.of_sensor(sensor)[-1]], ["identity"])[0]["identity"]
+        return SensorIdentity.model_validate(values)
 
     def _named(self, name: str) -> list[RecordFile]:
         names = {file.serial: self.rows([file], ["identity"])[0]["identity"]["name"] for file in self.files}
