@@ -178,6 +178,6 @@ def _refuse_changed(experiment: Experiment, dataset: Dataset, changed: dict[str,
             now = experiment.inputs_sha256
             names = sorted(name for name in before.keys() | now.keys() if before.get(name) != now.get(name))
             raise ExperimentError(
-                f"{experiment.file}: changed after it was added to {dataset.folder}: {', '.join(names)}; --replace puts "
-                "what it is now in the place of what was added"
+                f"{experiment.file}: changed after it was added to {dataset.folder}: {', '.join(names)}; --replace "
+                "puts what it is now in the place of what was added"
             )

@@ -94,9 +94,7 @@ def columns_of(table: type[BaseModel], rows: Sequence[BaseModel], metadata: tupl
         `pyarrow.Table` with a row per table.
     """
     schema = schema_of(table, metadata)
-    arrays = [
-        _encoded(kind, [getattr(row, name) for row in rows]) for name, kind in _kinds(table).values()
-    ]
+    arrays = [_encoded(kind, [getattr(row, name) for row in rows]) for name, kind in _kinds(table).values()]
     return pa.Table.from_arrays(arrays, schema=schema)
 
 
@@ -224,9 +222,7 @@ def _decoded(kind: Any, array: Any) -> list[Any]:
     if _is_struct(kind):
         known = {field.name for field in array.type}
         children = {
-            name: _decoded(child, array.field(name))
-            for name, (_, child) in _kinds(kind).items()
-            if name in known
+            name: _decoded(child, array.field(name)) for name, (_, child) in _kinds(kind).items() if name in known
         }
         return [
             {name: values[k] for name, values in children.items()} if valid else None

@@ -249,7 +249,9 @@ class Dataset:
             if isinstance(error, FormatError):
                 raise
             words = " ".join(str(error).split())
-            raise FormatError(f"{path}: expected a file of the form {SCHEMA}, got {words}; remove it and add again") from error
+            raise FormatError(
+                f"{path}: expected a file of the form {SCHEMA}, got {words}; remove it and add again"
+            ) from error
         return row
 
     def records(self, files: Collection[RecordFile]) -> list[SensorRecord]:
@@ -313,8 +315,8 @@ def _require_version(path: Path, metadata: Mapping[bytes, bytes]) -> None:
     own_family, _, own = SCHEMA.rpartition("/")
     if family == own_family and version.isdigit() and int(version) > int(own):
         raise FormatError(
-            f"{path}: expected a dataset of the form {SCHEMA} or earlier, got {got}, of a newer version of forcetorque; "
-            "install that version"
+            f"{path}: expected a dataset of the form {SCHEMA} or earlier, got {got}, of a newer version of "
+            "forcetorque; install that version"
         )
     raise FormatError(f"{path}: expected a file of the form {SCHEMA}, got {got or 'another Parquet file'}")
 

@@ -23,14 +23,19 @@ from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load
 from forcetorque.evaluation.section import LoadCaseOffset
 from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.calibration.provenance import Content
+from forcetorque.experiment.calibration.stored_moments import VariableDescription
+from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
+from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples, logged_content
 from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.alignment import seconds_since
+from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.recording import Use
 
 _Vector = Annotated[FloatArray, ArrayField((None,))]
 _Table = Annotated[FloatArray, ArrayField((None, None))]
+_Wrench = Annotated[FloatArray, ArrayField((6,))]
 
 
 class EvaluatedInterval(StoredTable):
@@ -131,11 +136,67 @@ class StoredLoadCase(StoredTable):
         return LoadCase(**dict(self))
 
 
+class StoredSensor(StoredTable):
+    """How an experiment describes a sensor, as far as an evaluation needs it."""
+
+    name: str
+    """Name in the robot model."""
+    serial: str
+    """Serial number."""
+    quantity: str
+    """Quantity of its stream: `raw` or `wrench`."""
+    prior: Annotated[FloatArray, ArrayField((6, None))] | None
+    """Prior matrix; N/count, N m/count."""
+    prior_source: str | None
+    """Its file."""
+    limit_counts: float
+    """Largest magnitude of a raw reading."""
+    full_scale: _Wrench | None
+    """Full scale per component; N, N m; None if not specified."""
+    variables: tuple[VariableDescription, ...]
+    """Linear variables, in the order of the moments."""
+    mount: SensorMount | None
+    """Where it sits otherwise than the robot model states."""
+
+    @classmethod
+    def of(cls, run: SensorRun) -> StoredSensor:
+        """Describe a sensor.
+
+        Args:
+            run: The sensor.
+
+        Returns:
+            The same for a file.
+        """
+        sensor = run.sensor
+        without_variables = run.experiment.fit_options.with_variables is False
+        described = [] if without_variables else [VariableDescription.of(one.linear) for one in sensor.variables]
+        names = ("name", "serial", "quantity", "prior", "prior_source", "limit_counts", "full_scale")
+        return cls(
+            **{name: getattr(sensor, name) for name in names},
+            variables=tuple(described),
+            mount=run.experiment.mounts.get(sensor.name),
+        )
+
+    @property
+    def sensor(self) -> ExperimentSensor:
+        """The sensor; its streams are not there."""
+        source = ScalarSource(stream="", quantity="", column="")
+        names = ("name", "serial", "quantity", "prior", "prior_source", "limit_counts", "full_scale")
+        return ExperimentSensor(
+            **{name: getattr(self, name) for name in names},
+            stream="",
+            variables=tuple(SensorVariable(linear=one.linear, source=source) for one in self.variables),
+        )
+
+
 class StoredEvaluation(StoredTable):
     """What an evaluation needs of one sensor in one recording."""
 
-    variables: tuple[str, ...]
-    """Names of the linear variables."""
+    sensor: StoredSensor
+    """The sensor."""
+    log_sha256: tuple[str, ...]
+    """SHA-256 of the files of the log."""
     intervals: tuple[EvaluatedInterval, ...]
     """The validation intervals, in the order of time."""
     blocks: tuple[EvaluationBlock, ...]
@@ -144,8 +205,6 @@ class StoredEvaluation(StoredTable):
     """Their samples in means over seconds."""
     load_cases: tuple[StoredLoadCase, ...]
     """Load cases of the sensor."""
-    limit_counts: float
-    """Largest magnitude of a raw reading; counts."""
     circular: tuple[str, ...]
     """Loads that the sensor itself weighed, as text."""
 
@@ -159,16 +218,16 @@ class StoredEvaluation(StoredTable):
         Returns:
             What is kept of them.
         """
-        without_variables = run.experiment.fit_options.with_variables is False
-        variables = () if without_variables else tuple(one.linear.name for one in run.sensor.variables)
+        sensor = StoredSensor.of(run)
+        variables = [variable.name for variable in sensor.variables]
         parts = [run.interval_samples(one, variables=variables) for one in run.intervals(Use.VALIDATION)]
         return cls(
-            variables=variables,
+            sensor=sensor,
+            log_sha256=tuple(sorted(run.experiment.log_sha256)),
             intervals=tuple(_interval(run, part) for part in parts),
             blocks=tuple(_blocks(parts)),
             sessions=tuple(_session_means(run, parts)),
             load_cases=tuple(map(StoredLoadCase.of, operating_load_cases([run]))),
-            limit_counts=run.sensor.limit_counts,
             circular=tuple(circular_loads(run)),
         )
 
@@ -212,9 +271,7 @@ def _session_means(run: SensorRun, parts: list[IntervalSamples]) -> Iterable[Ses
         stamps = np.concatenate([part.samples.stamp_ns for part in own])
         channels, variables = own[0].raw.shape[1], own[0].samples.variables.shape[1]
         columns = [np.hstack([part.raw, part.samples.reference, part.samples.variables]) for part in own]
-        time_s, means, _ = means_over(
-            seconds_since(stamps, run.experiment.recording.start_ns), np.concatenate(columns)
-        )
+        time_s, means, _ = means_over(seconds_since(stamps, run.experiment.recording.start_ns), np.concatenate(columns))
         yield SessionMeans(
             session=session,
             session_names=run.experiment.session_names(own[0].interval.label),

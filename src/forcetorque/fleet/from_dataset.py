@@ -15,8 +15,10 @@ from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_
 from forcetorque.calibration.calibrate_command import calibration_files, end_with
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.fleet.dataset import Dataset
+from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.results.result import created_now
 from forcetorque.results.terminal.output import refuse_figure, refuse_standard_output, show, start_logging
+from forcetorque.results.terminal.reading import read_calibrations
 
 _MOST_LOGS: Final = 3
 """Logs that a refusal names."""
@@ -96,8 +98,15 @@ def _calibrate(dataset: Dataset, given: Mapping[str, Any]) -> None:
     end_with(refusals)
 
 
+def _evaluate(dataset: Dataset, given: Mapping[str, Any]) -> None:
+    """The command `evaluate` with a dataset in place of experiment files."""
+    start_logging()
+    result = evaluate_dataset(dataset, read_calibrations(given["calibration"]))
+    show(result, given["output_format"], details=given["details"], experiments=[dataset.folder])
+
+
 COMMANDS: Final[Mapping[str, Callable[[Dataset, Mapping[str, Any]], None]]] = MappingProxyType(
-    {"calibrate": _calibrate}
+    {"calibrate": _calibrate, "evaluate": _evaluate}
 )
 """Commands that take a dataset, and what they then do."""
 

@@ -57,7 +57,9 @@ class PriorError(StoredTable):
         """
         force = moment = 0.0
         for part in parts:
-            error = np.hstack([prior.counted_from_zero(part.variables).matrix, np.zeros((6, part.variables)), -np.eye(6)])
+            error = np.hstack(
+                [prior.counted_from_zero(part.variables).matrix, np.zeros((6, part.variables)), -np.eye(6)]
+            )
             square = part.count * np.einsum("ij,jk,ik->i", error, part.second, error)
             force, moment = force + float(square[FORCE].sum()), moment + float(square[MOMENT].sum())
         return cls(samples=sum(part.count for part in parts), force_square_N2=force, moment_square_Nm2=moment)

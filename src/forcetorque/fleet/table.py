@@ -90,7 +90,8 @@ class FleetTable(Result):
                     f"errors of the prior matrix, mean removed, in {_count(row.recordings, 'recording')}; "
                     f"{_count(row.findings, 'finding')}"
                     + (f", mostly {row.most_frequent_finding}" if row.most_frequent_finding else ""),
-                    f"{_count(len(self.sensors), 'sensor')} in {_count(self.recordings, 'recording')} of {self.dataset}",
+                    f"{self.dataset} has {_count(len(self.sensors), 'sensor')} in "
+                    f"{_count(self.recordings, 'recording')}",
                 ),
                 step="Calibrate it from the dataset:",
                 command=typed("calibrate", self.dataset, "--sensor", row.serial, "-o", f"{row.serial}.json"),

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Annotated, Final, Literal
 
 import numpy as np
@@ -29,7 +30,6 @@ from forcetorque.evaluation.load_cases.predicted_error import (
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
     MeasuredError,
-    PriorComparison,
     compare_with_prior,
     evidence_by_calibration,
     static_loads_text,
@@ -40,6 +40,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import doubts_about_choice, require_unseen_if_judged
 from forcetorque.payload.load_warnings import circular_loads
@@ -216,6 +217,20 @@ _QUANTITIES: Final[tuple[tuple[Literal["force", "moment"], Literal["N", "N m"], 
 )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LargerError:
+    """Error of a calibration that validation data find larger than that of its prior."""
+
+    quantity: Literal["force", "moment"]
+    """What the error is of."""
+    unit: Literal["N", "N m"]
+    """Its unit."""
+    size: float
+    """Mean norm or root mean square."""
+    prior_size: float
+    """The same of the prior."""
+
+
 class LoadCaseAssessment:
     """Assesses one calibration at one load case."""
 
@@ -225,7 +240,7 @@ class LoadCaseAssessment:
         calibration: Calibration,
         measured: Evidence | None,
         *,
-        worse: Sequence[PriorComparison] = (),
+        worse: Sequence[LargerError] = (),
     ) -> None:
         """Take what a verdict rests on.
 
@@ -233,7 +248,7 @@ class LoadCaseAssessment:
             case: The load case.
             calibration: The calibration.
             measured: What it measured on data that were not fitted; None where there are none.
-            worse: Comparisons in which these data find it worse than its prior.
+            worse: Errors that these data find larger than those of its prior.
 
         Raises:
             FitError: If the use changes a variable that the calibration does not know.
@@ -272,11 +287,11 @@ class LoadCaseAssessment:
         """Where validation data find a quantity with a limit worse than with the prior, by more than a trifle."""
         limits = {quantity: limit for (quantity, _, _), limit in zip(_QUANTITIES, self.case.requirement, strict=True)}
         for row in self.worse:
-            if row.mean <= ALIKE[1] * row.prior_mean or np.isinf(limits[row.quantity]):
+            if row.size <= ALIKE[1] * row.prior_size or np.isinf(limits[row.quantity]):
                 continue
             text = (
                 f"on data that were not fitted its {row.quantity} error is larger than that of its prior, "
-                f"{amount(row.mean, row.unit)} against {amount(row.prior_mean, row.unit)}"
+                f"{amount(row.size, row.unit)} against {amount(row.prior_size, row.unit)}"
             )
             yield Reason(against="use", text=text, remedy=KEEP_PRIOR)
 
@@ -450,14 +465,16 @@ def use_verdicts(
                     case,
                     calibration,
                     measured.get(name),
-                    worse=[row for row in worse if (row.candidate, row.offset) == (name, _COMPARED[case.offset])],
+                    worse=[
+                        LargerError(quantity=row.quantity, unit=row.unit, size=row.mean, prior_size=row.prior_mean)
+                        for row in worse
+                        if (row.candidate, row.offset) == (name, COMPARED[case.offset])
+                    ],
                 )
             except FitError as error:
                 refuse(error)
             else:
-                beyond = beyond_range(case, campaign.runs[0], calibration.matrix)
-                unreadable = () if beyond is None else (Reason(against=None, text=f"{_ASSUMED} {beyond}"),)
-                verdicts.append(_verdict(campaign, name, assessment, (*unreadable, *notes)))
+                verdicts.append(use_verdict(campaign.sensor, name, assessment, notes))
     return tuple(verdicts)
 
 
@@ -474,16 +491,31 @@ def _notes(campaign: Campaign, name: str, calibration: Calibration) -> Iterator[
 _ASSUMED: Final = "the assumed load case is more than the sensor can read, so specify your loads as [[load_case]]: it"
 """How the reason begins that a default load case is beyond the range of the sensor; one that is stated is refused."""
 
-_COMPARED: Final = {LoadCaseOffset.FITTED: Offset.FITTED, LoadCaseOffset.TARED: Offset.JUDGED_MEAN}
+COMPARED: Final = {LoadCaseOffset.FITTED: Offset.FITTED, LoadCaseOffset.TARED: Offset.JUDGED_MEAN}
 """Offset with which validation data compare a calibration and its prior for a load case."""
 
 
-def _verdict(campaign: Campaign, name: str, assessment: LoadCaseAssessment, notes: tuple[Reason, ...]) -> UseVerdict:
+def use_verdict(
+    sensor: ExperimentSensor, name: str, assessment: LoadCaseAssessment, notes: Sequence[Reason]
+) -> UseVerdict:
+    """Put a verdict on one load case into words.
+
+    Args:
+        sensor: The sensor.
+        name: Name of the calibration.
+        assessment: What the verdict rests on.
+        notes: Facts that neither predictions nor validation data show.
+
+    Returns:
+        The verdict.
+    """
     decision, reasons = assessment.verdict()
     case = assessment.case
+    beyond = beyond_range(case, sensor, assessment.calibration.matrix)
+    unreadable = () if beyond is None else (Reason(against=None, text=f"{_ASSUMED} {beyond}"),)
     return UseVerdict(
-        sensor=campaign.sensor.name,
-        serial=campaign.sensor.serial,
+        sensor=sensor.name,
+        serial=sensor.serial,
         candidate=name,
         load_case=case.name,
         loads=case.words,
@@ -491,7 +523,7 @@ def _verdict(campaign: Campaign, name: str, assessment: LoadCaseAssessment, note
         stated=case.is_stated,
         decision=decision,
         sentence=f"{decision} for {case.words}: {reasons[0].text}",
-        reasons=(*reasons, *notes),
+        reasons=(*reasons, *unreadable, *notes),
         within=assessment.within,
         errors=tuple(assessment.errors()),
     )
