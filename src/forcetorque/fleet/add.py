@@ -13,9 +13,9 @@ from pydantic import Field
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.loading import load_experiment
 from forcetorque.fleet.dataset import Dataset, RecordFile
 from forcetorque.fleet.sensor_record import AddOptions, path_digest, recording_digest, sensor_records
+from forcetorque.fleet.source import RecordingSource
 from forcetorque.results.answer import Answer, typed
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -103,16 +103,18 @@ def add_recordings(
     left = TimeLeft(progress, "adding", len(experiments))
     rows: list[AddedSensor] = []
     for number, file in enumerate(experiments):
-        rows += add_recording(file, dataset, options, replace=replace)
+        rows += add_recording(RecordingSource(experiment=file), dataset, options, replace=replace)
         left.at(number + 1)
     return Added(dataset=str(dataset), sensors=tuple(rows))
 
 
-def add_recording(file: Path, folder: Path, options: AddOptions, *, replace: bool = False) -> list[AddedSensor]:
+def add_recording(
+    source: RecordingSource, folder: Path, options: AddOptions, *, replace: bool = False
+) -> list[AddedSensor]:
     """Add one recording to a dataset.
 
     Args:
-        file: Experiment file.
+        source: The recording.
         folder: As of `add_recordings`.
         options: As of `add_recordings`.
         replace: As of `add_recordings`.
@@ -121,14 +123,14 @@ def add_recording(file: Path, folder: Path, options: AddOptions, *, replace: boo
         A row per sensor.
     """
     code_version, dataset = version("forcetorque"), Dataset(folder)
-    experiment = load_experiment(file)
+    experiment = source.load()
     digest, wanted = recording_digest(experiment)[:20], options.digest(code_version)
     there: dict[str, list[RecordFile]] = {}
     for sensor in experiment.sensors:
         there[sensor.serial] = dataset.present(sensor.serial)
         _refuse_other_robot(experiment, sensor.name, sensor.serial, there[sensor.serial], options)
     changed = {
-        serial: [one for one in files if one.path_hash == path_digest(file) and one.recording != digest]
+        serial: [one for one in files if one.path_hash == path_digest(source.path) and one.recording != digest]
         for serial, files in there.items()
     }
     if not replace:
@@ -149,7 +151,7 @@ def add_recording(file: Path, folder: Path, options: AddOptions, *, replace: boo
             (folder / earlier.path).unlink(missing_ok=True)
     return [
         AddedSensor(
-            file=str(file),
+            file=str(source.path),
             sensor=sensor.name,
             serial=sensor.serial,
             state="present" if present[sensor.serial] else "added",

@@ -48,7 +48,19 @@ UNITS: Final[Mapping[str, str]] = MappingProxyType(
 )
 """Units of fields whose name does not have it."""
 _SUFFIXES: Final[Mapping[str, str]] = MappingProxyType(
-    {"ns": "ns", "s": "s", "N": "N", "Nm": "N m", "N2": "N2", "Nm2": "N2 m2", "counts": "count", "rad": "rad", "m": "m"}
+    {
+        "ns": "ns",
+        "s": "s",
+        "N": "N",
+        "Nm": "N m",
+        "N2": "N2",
+        "Nm2": "N2 m2",
+        "counts": "count",
+        "rad": "rad",
+        "deg": "deg",
+        "m": "m",
+        "mm": "mm",
+    }
 )
 _SCALARS: Final[Mapping[Any, Any]] = MappingProxyType(
     {str: pa.string(), int: pa.int64(), float: pa.float64(), bool: pa.bool_()}

@@ -18,7 +18,7 @@ from forcetorque.base.output_file import real_path
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.calibration.moments import recording_moments
-from forcetorque.experiment.calibration.moment_blocks import BLOCK_S
+from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, joined, pairwise_sum
 from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.calibration.provenance import SensorIdentity
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
@@ -73,7 +73,7 @@ class SensorRecord(StoredTable):
     experiment: str
     """Name of the experiment."""
     file: str
-    """Absolute path of the experiment file when it was added."""
+    """Absolute path of the experiment file, or of the log that one was applied to, when it was added."""
     recording: str = Field(pattern="^[0-9a-f]{64}$")
     """SHA-256 of the contents of all input files, by which the recording is known under any path."""
     inputs_sha256: dict[str, str]
@@ -179,8 +179,9 @@ def _record(run: SensorRun, findings: Sequence[Finding], options: AddOptions, co
 def _prior_error(
     run: SensorRun, moments: RecordingMoments | None, evaluation: StoredEvaluation | None
 ) -> PriorError | None:
-    parts = [] if moments is None else [block.moments for block in moments.intervals]
-    parts += [] if evaluation is None else [block.moments for block in evaluation.blocks]
+    parts = [] if moments is None else [interval.moments for interval in joined(moments.intervals)]
+    for label in [] if evaluation is None else dict.fromkeys(block.interval for block in evaluation.blocks):
+        parts.append(pairwise_sum([block.moments for block in evaluation.blocks if block.interval == label]))
     if run.sensor.prior is None or not parts:
         return None
     return PriorError.of(WrenchModel(matrix=run.sensor.prior, offset=np.zeros(6)), parts)
