@@ -13,6 +13,7 @@ from forcetorque.results.terminal.help import WholeSentences
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress
     from forcetorque.fleet.add import Added
+    from forcetorque.fleet.run import FleetRun
     from forcetorque.fleet.table import FleetTable
 
 
@@ -70,6 +71,45 @@ def fleet_table(
     return fleet_table_of(Path(dataset))
 
 
+@command()
+def fleet_run(
+    plan: Annotated["Path | str", Option("Plan (TOML); see docs/fleet.md.")],
+    *,
+    workers: Annotated[int | None, Option("Processes of this machine. Default: one per core.", "--workers")] = None,
+    dask: Annotated[
+        str | None,
+        Option("Scheduler of a Dask cluster in place of processes, such as tcp://10.0.0.1:8786.", "--dask"),
+    ] = None,
+    retry_failed: Annotated[
+        bool, Option("Try recordings again that failed in an earlier run.", "--retry-failed")
+    ] = False,
+    progress: Annotated["Progress", Option("Called with a line for people.")] = lambda _: None,
+) -> "FleetRun":
+    """Add all recordings of a plan, and calibrate every sensor.
+
+    Example: forcetorque fleet run fleet.toml --workers 8
+
+    Python: `fleet.fleet_run("fleet.toml", workers=8)`
+
+    Returns:
+        What was done and what failed; exit code 1 if anything did.
+
+    Raises:
+        ForceTorqueError: If a pattern matches nothing, or the scheduler does not answer.
+    """
+    import os
+
+    from forcetorque.base.errors import ForceTorqueError
+    from forcetorque.fleet.pool import DaskPool, LocalPool
+    from forcetorque.fleet.run import run_plan
+
+    if workers is not None and (workers < 1 or dask is not None):
+        expected = "no --workers beside --dask" if dask is not None else "at least 1"
+        raise ForceTorqueError(f"--workers {workers}: expected {expected}")
+    pool = LocalPool(workers=workers or os.cpu_count() or 1) if dask is None else DaskPool(address=dask)
+    return run_plan(Path(plan), pool, retry_failed=retry_failed, progress=progress)
+
+
 fleet = typer.Typer(
     name="fleet",
     cls=WholeSentences,
@@ -78,5 +118,5 @@ fleet = typer.Typer(
     rich_markup_mode=None,
 )
 
-for _name, _analysis in (("add", fleet_add), ("table", fleet_table)):
+for _name, _analysis in (("add", fleet_add), ("run", fleet_run), ("table", fleet_table)):
     fleet.command(_name)(command_function(_analysis))
