@@ -11,8 +11,10 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError
+from forcetorque.base.output_file import real_path
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.input_files import sha256_of
 from forcetorque.fleet.dataset import Dataset, RecordFile
 from forcetorque.fleet.sensor_record import AddOptions, path_digest, recording_digest, sensor_records
 from forcetorque.fleet.source import RecordingSource
@@ -123,6 +125,8 @@ def add_recording(
         A row per sensor.
     """
     code_version, dataset = version("forcetorque"), Dataset(folder)
+    if (unchanged := _unchanged(source, dataset, options.digest(code_version))) is not None:
+        return unchanged
     experiment = source.load()
     digest, wanted = recording_digest(experiment)[:20], options.digest(code_version)
     there: dict[str, list[RecordFile]] = {}
@@ -157,6 +161,25 @@ def add_recording(
             state="present" if present[sensor.serial] else "added",
         )
         for sensor in experiment.sensors
+    ]
+
+
+def _unchanged(source: RecordingSource, dataset: Dataset, wanted: str) -> list[AddedSensor] | None:
+    """Rows of a recording all of whose sensors are there, if no input changed since; None if it must be read."""
+    files = [one for one in dataset.of_path(path_digest(source.path)) if one.options == wanted]
+    rows = dataset.rows(files, ["identity", "sensors", "inputs_sha256"])
+    if not rows or len(rows) != rows[0]["sensors"] or len({file.recording for file in files}) != 1:
+        return None
+    folder = real_path(source.experiment).parent
+    written_ns = min((dataset.folder / file.path).stat().st_mtime_ns for file in files)
+    for name, digest in rows[0]["inputs_sha256"].items():
+        path = folder / name
+        # a new file in a folder of a log may belong to it
+        if not path.is_file() or path.parent.stat().st_mtime_ns > written_ns or sha256_of(path) != digest:
+            return None
+    return [
+        AddedSensor(file=str(source.path), sensor=name, serial=serial, state="present")
+        for name, serial in ((row["identity"]["name"], row["identity"]["serial"]) for row in rows)
     ]
 
 

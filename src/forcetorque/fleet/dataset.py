@@ -155,6 +155,18 @@ class Dataset:
         found = (RecordFile.read(path) for path in self.folder.glob(f"robot=*/sensor={sensor}/date=*/*.parquet"))
         return sorted(file for file in found if file is not None)
 
+    def of_path(self, path_hash: str) -> list[RecordFile]:
+        """List the files of one experiment file or log that are there now.
+
+        Args:
+            path_hash: Hash of its path.
+
+        Returns:
+            The files, sorted.
+        """
+        found = (RecordFile.read(path) for path in self.folder.glob(f"robot=*/sensor=*/date=*/{path_hash}-*.parquet"))
+        return sorted(file for file in found if file is not None)
+
     @cached_property
     def files(self) -> tuple[RecordFile, ...]:
         """Files that count: one per sensor and recording, of several versions that of the newest library.

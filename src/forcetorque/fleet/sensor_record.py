@@ -84,6 +84,8 @@ class SensorRecord(StoredTable):
     """Earliest stamp; ns on the recording's clock."""
     end_ns: int
     """Latest stamp."""
+    sensors: int = Field(ge=1)
+    """Number of sensors of the recording, each of which has a record."""
     findings: tuple[FindingRow, ...]
     """What `inspect` finds about the sensor and the streams that all sensors share."""
     prior_error: PriorError | None
@@ -169,6 +171,7 @@ def _record(run: SensorRun, findings: Sequence[Finding], options: AddOptions, co
         code_version=code_version,
         start_ns=start_ns,
         end_ns=end_ns,
+        sensors=len(experiment.sensors),
         findings=finding_rows(start_ns, [finding for finding in findings if finding.stream not in others]),
         prior_error=_prior_error(run, moments, evaluation),
         moments=moments,
