@@ -16,7 +16,7 @@ from forcetorque.fleet.run import run_plan
 from tests.app.outcome import Run
 
 PLAN = """
-schema = "forcetorque/fleet-plan/1"
+schema = "forcetorque/fleet_plan/1"
 dataset = "fleet"
 calibrations = "calibrations"
 [[recordings]]
@@ -74,7 +74,7 @@ def test_logs_share_an_experiment_file(days: Path) -> None:
     """The log takes the place of the path; each is a recording by its own name, and its path is in the dataset."""
     plan = _plan(
         days,
-        'schema = "forcetorque/fleet-plan/1"\ndataset = "fleet"\n'
+        'schema = "forcetorque/fleet_plan/1"\ndataset = "fleet"\n'
         '[[recordings]]\ntemplate = "day_2.toml"\nlogs = "day_[12]"\nrobot = "arm 7"\n',
     )
     assert run_plan(plan, InProcess()).added == 2

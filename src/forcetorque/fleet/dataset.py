@@ -137,8 +137,8 @@ class Dataset:
         """
         if not is_dataset(Path(folder)):
             raise MissingFileError(
-                f"{folder}: expected a dataset, a folder with robot=.../sensor=..., there is none; "
-                "`forcetorque fleet add EXPERIMENT --into FOLDER` makes one"
+                f"{folder}: expected a dataset, there is none; a dataset is a folder with robot=.../sensor=..., which "
+                "`forcetorque fleet add EXPERIMENT --into FOLDER` makes"
             )
         return cls(Path(folder))
 

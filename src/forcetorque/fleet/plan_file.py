@@ -40,7 +40,7 @@ class RecordingsTable(Table):
 class PlanFile(Table):
     """The plan."""
 
-    schema_name: Literal["forcetorque/fleet-plan/1"] = Field(alias="schema")
+    schema_name: Literal["forcetorque/fleet_plan/1"] = Field(alias="schema")
     """Form of the file."""
     dataset: Path
     """Folder of the dataset, relative to the plan."""
