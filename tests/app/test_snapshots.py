@@ -20,9 +20,9 @@ import numpy as np
 import pytest
 
 from forcetorque.app.command_line import commands, whole_program
-from forcetorque.results.answer import MOST_LINES
 from forcetorque.fleet.add import add_recordings
 from forcetorque.fleet.sensor_record import AddOptions
+from forcetorque.results.answer import MOST_LINES
 from forcetorque.results.capability import named
 from forcetorque.results.command import command_of
 from forcetorque.results.result import Result

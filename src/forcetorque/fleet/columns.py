@@ -233,14 +233,12 @@ def _decoded(kind: Any, array: Any) -> list[Any]:
         return [dict(pairs or ()) for pairs in array.to_pylist()]
     if _is_struct(kind):
         known = {field.name for field in array.type}
-        children = {
-            name: _decoded(child, array.field(name)) for name, (_, child) in _kinds(kind).items() if name in known
-        }
+        parts = {name: _decoded(child, array.field(name)) for name, (_, child) in _kinds(kind).items() if name in known}
         return [
-            {name: values[k] for name, values in children.items()} if valid else None
+            {name: values[k] for name, values in parts.items()} if valid else None
             for k, valid in enumerate(array.is_valid().to_pylist())
         ]
-    return array.to_pylist()  # type: ignore[no-any-return]
+    return list(array.to_pylist())
 
 
 def _starts(array: Any) -> tuple[IntArray, IntArray]:
@@ -256,7 +254,8 @@ def _decoded_arrays(array: Any, depth: int) -> list[FloatArray | None]:
     numbers = array.to_numpy(zero_copy_only=False)
     made: list[FloatArray | None] = []
     for row, present in enumerate(valid):
-        shape, first = [], row
+        shape: list[int] = []
+        first = row
         for starts, lengths in levels:
             filled = all(shape)
             shape.append(int(lengths[first]) if filled else 0)

@@ -325,7 +325,7 @@ class _SensorEvaluation:
                 yield LargerError(quantity=quantity, unit=unit, size=size, prior_size=prior_size)
 
     def _notes(self, name: str, calibration: Calibration) -> Iterator[str]:
-        texts = []
+        texts: list[str] = []
         for record, stored in self.evaluated:
             texts += stored.circular
             chosen = _overlaps(record, stored, calibration, calibration.selection.chosen_on)

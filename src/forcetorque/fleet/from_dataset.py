@@ -50,15 +50,24 @@ def calibrate_sensors(
     for sensor, file in zip(sensors, files, strict=True):
         try:
             with stated_in(f"{dataset.folder}: sensor {sensor!r}"):
-                moments = dataset.moments(dataset.records(dataset.of_sensor(sensor)))
-                results.append(
-                    calibrate_for_file(
-                        None, file, code_version=code_version, created=created, moments=moments, nonlinear=nonlinear
-                    )
+                records = dataset.records(dataset.of_sensor(sensor))
+                made = calibrate_for_file(
+                    None,
+                    file,
+                    code_version=code_version,
+                    created=created,
+                    moments=dataset.moments(records),
+                    nonlinear=nonlinear,
                 )
+                doubts = dict.fromkeys(text for record in records for text in record.warnings)
+                results.append(made.model_copy(update={"warnings": (*doubts, *_others(made.warnings, doubts))}))
         except ForceTorqueError as error:
             refusals.append(error)
     return results, refusals
+
+
+def _others(warnings: Sequence[str], said: Mapping[str, None]) -> list[str]:
+    return [text for text in warnings if text not in said]
 
 
 def _calibrate(dataset: Dataset, given: Mapping[str, Any]) -> None:

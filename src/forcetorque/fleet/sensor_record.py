@@ -17,6 +17,7 @@ from pydantic import Field
 from forcetorque.base.output_file import real_path
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import FORCE, MOMENT
+from forcetorque.calibration.calibrate import data_doubts
 from forcetorque.calibration.moments import recording_moments
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, joined, pairwise_sum
 from forcetorque.experiment.calibration.moments import Moments
@@ -88,6 +89,8 @@ class SensorRecord(StoredTable):
     """Number of sensors of the recording, each of which has a record."""
     findings: tuple[FindingRow, ...]
     """What `inspect` finds about the sensor and the streams that all sensors share."""
+    warnings: tuple[str, ...]
+    """What makes any fit on the calibration intervals doubtful, as text."""
     prior_error: PriorError | None
     """Errors of the prior matrix in all intervals that are fitted or evaluated; None without a prior or an interval."""
     moments: RecordingMoments | None
@@ -173,6 +176,7 @@ def _record(run: SensorRun, findings: Sequence[Finding], options: AddOptions, co
         end_ns=end_ns,
         sensors=len(experiment.sensors),
         findings=finding_rows(start_ns, [finding for finding in findings if finding.stream not in others]),
+        warnings=() if moments is None else tuple(data_doubts(run)),
         prior_error=_prior_error(run, moments, evaluation),
         moments=moments,
         evaluation=evaluation,
@@ -183,8 +187,9 @@ def _prior_error(
     run: SensorRun, moments: RecordingMoments | None, evaluation: StoredEvaluation | None
 ) -> PriorError | None:
     parts = [] if moments is None else [interval.moments for interval in joined(moments.intervals)]
-    for label in [] if evaluation is None else dict.fromkeys(block.interval for block in evaluation.blocks):
-        parts.append(pairwise_sum([block.moments for block in evaluation.blocks if block.interval == label]))
+    blocks = () if evaluation is None else evaluation.blocks
+    for label in dict.fromkeys(block.interval for block in blocks):
+        parts.append(pairwise_sum([block.moments for block in blocks if block.interval == label]))
     if run.sensor.prior is None or not parts:
         return None
     return PriorError.of(WrenchModel(matrix=run.sensor.prior, offset=np.zeros(6)), parts)
