@@ -3,6 +3,11 @@
 
 from __future__ import annotations
 
+import re
+import shutil
+import subprocess
+import sys
+import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -114,3 +119,31 @@ def test_processes_give_the_same(days: Path, run: Run) -> None:
     done = run("fleet", "run", str(plan), "--workers", "2", "--format", "json")
     assert done.code == 1  # nothing to fit in recordings for validation
     assert Dataset(days / "other").present() == one
+
+
+@pytest.mark.long
+def test_make_and_xargs_add_at_once_and_a_kill_leaves_nothing(days: Path) -> None:
+    """The lines of docs/fleet.md, in two processes at once; then one that is killed while it adds, and again."""
+    program = f"{sys.executable} -m forcetorque"
+    page = (Path(__file__).parents[2] / "docs" / "fleet.md").read_text(encoding="utf-8")
+    (rule,) = re.findall(r"```make\n(.*?)```", page, re.DOTALL)
+    (line,) = re.findall(r"    (printf .* --into fleet)\n", page)
+    (days / "logs").mkdir()
+    for name in ("day_1", "day_2"):
+        shutil.move(days / f"{name}.toml", days / "logs")
+        text = (days / "logs" / f"{name}.toml").read_text(encoding="utf-8")
+        text = text.replace('"robot.urdf"', '"../robot.urdf"').replace("matrix_", "../matrix_")
+        (days / "logs" / f"{name}.toml").write_text(text.replace(f'"{name}"\n', f'"../{name}"\n', 1), encoding="utf-8")
+    (days / "Makefile").write_text(rule.replace("forcetorque", program), encoding="utf-8")
+    subprocess.run(["make", "-j2"], cwd=days, check=True, capture_output=True)
+    made = Dataset.opened(days / "fleet").present()
+    assert len(made) == 2
+    shutil.rmtree(days / "fleet")
+    added = subprocess.Popen([*program.split(), "fleet", "add", "logs/day_1.toml", "--into", "fleet"], cwd=days)
+    while added.poll() is None and not (days / "fleet").exists():
+        time.sleep(0.01)
+    added.kill()
+    added.wait()
+    subprocess.run(line.replace("forcetorque", program), shell=True, cwd=days, check=True, capture_output=True)
+    assert Dataset.opened(days / "fleet").present() == made
+    assert list((days / "fleet").rglob(".forcetorque-*")) == []

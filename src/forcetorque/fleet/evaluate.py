@@ -25,7 +25,6 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
 )
 from forcetorque.evaluation.load_cases.verdict import (
     COMPARED,
-    LargerError,
     LoadCaseAssessment,
     Reason,
     UseVerdict,
@@ -182,6 +181,20 @@ class _BlockPair:
         return SquaredErrors(ends=np.cumsum(self.first.samples), sums=sums)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LargerError:
+    """Error of a calibration that blocks find larger than that of its prior."""
+
+    quantity: Literal["force", "moment"]
+    """What the error is of."""
+    unit: Literal["N", "N m"]
+    """Its unit."""
+    mean: float
+    """Root mean square of its norm."""
+    prior_mean: float
+    """The same of the prior."""
+
+
 def _error_rows(stored: StoredEvaluation, correction: Correction) -> tuple[FloatArray, FloatArray]:
     """What turns means of raw channels, variables and expected wrench into a mean error: rows (6, m), offset (6,)."""
     model, known = correction.model, [variable.name for variable in stored.sensor.variables]
@@ -322,7 +335,7 @@ class _SensorEvaluation:
             sums = np.sum([pair.of_quantity(axes).sums.sum(axis=1) for pair in pairs], axis=0)
             size, prior_size = np.sqrt(sums / compared.count).tolist()
             if ratio.judgement == "worse":
-                yield LargerError(quantity=quantity, unit=unit, size=size, prior_size=prior_size)
+                yield LargerError(quantity=quantity, unit=unit, mean=size, prior_mean=prior_size)
 
     def _notes(self, name: str, calibration: Calibration) -> Iterator[str]:
         texts: list[str] = []

@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Annotated, Final, Literal
+from typing import Annotated, Final, Literal, Protocol
 
 import numpy as np
 
@@ -217,18 +216,24 @@ _QUANTITIES: Final[tuple[tuple[Literal["force", "moment"], Literal["N", "N m"], 
 )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LargerError:
-    """Error of a calibration that validation data find larger than that of its prior."""
+class ErrorAgainstPrior(Protocol):
+    """Size of the error of a calibration and of its prior on the same validation data."""
 
-    quantity: Literal["force", "moment"]
-    """What the error is of."""
-    unit: Literal["N", "N m"]
-    """Its unit."""
-    size: float
-    """Mean norm or root mean square."""
-    prior_size: float
-    """The same of the prior."""
+    @property
+    def quantity(self) -> Literal["force", "moment"]:
+        """What the error is of."""
+
+    @property
+    def unit(self) -> Literal["N", "N m"]:
+        """Its unit."""
+
+    @property
+    def mean(self) -> float:
+        """Mean norm of the error, or its root mean square where samples are not at hand."""
+
+    @property
+    def prior_mean(self) -> float:
+        """The same of the prior."""
 
 
 class LoadCaseAssessment:
@@ -240,7 +245,7 @@ class LoadCaseAssessment:
         calibration: Calibration,
         measured: Evidence | None,
         *,
-        worse: Sequence[LargerError] = (),
+        worse: Sequence[ErrorAgainstPrior] = (),
     ) -> None:
         """Take what a verdict rests on.
 
@@ -287,11 +292,11 @@ class LoadCaseAssessment:
         """Where validation data find a quantity with a limit worse than with the prior, by more than a trifle."""
         limits = {quantity: limit for (quantity, _, _), limit in zip(_QUANTITIES, self.case.requirement, strict=True)}
         for row in self.worse:
-            if row.size <= ALIKE[1] * row.prior_size or np.isinf(limits[row.quantity]):
+            if row.mean <= ALIKE[1] * row.prior_mean or np.isinf(limits[row.quantity]):
                 continue
             text = (
                 f"on data that were not fitted its {row.quantity} error is larger than that of its prior, "
-                f"{amount(row.size, row.unit)} against {amount(row.prior_size, row.unit)}"
+                f"{amount(row.mean, row.unit)} against {amount(row.prior_mean, row.unit)}"
             )
             yield Reason(against="use", text=text, remedy=KEEP_PRIOR)
 
@@ -465,11 +470,7 @@ def use_verdicts(
                     case,
                     calibration,
                     measured.get(name),
-                    worse=[
-                        LargerError(quantity=row.quantity, unit=row.unit, size=row.mean, prior_size=row.prior_mean)
-                        for row in worse
-                        if (row.candidate, row.offset) == (name, COMPARED[case.offset])
-                    ],
+                    worse=[row for row in worse if (row.candidate, row.offset) == (name, COMPARED[case.offset])],
                 )
             except FitError as error:
                 refuse(error)
