@@ -47,6 +47,7 @@ def _plan(folder: Path, text: str) -> Path:
     return file
 
 
+@pytest.mark.long
 def test_a_plan_is_worked_off_and_resumed(days: Path) -> None:
     """Added once, calibrated, evaluated; a recording that fails is a row, is not tried in vain, then tried again."""
     broken = days / "move_broken.toml"
