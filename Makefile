@@ -19,7 +19,7 @@ test: $(VENV)/test.stamp
 	# a worker for every core: threads of their linear algebra would only wait for each other
 	OMP_NUM_THREADS=1 $(BIN)/pytest $(SUITE)
 
-test-long: $(VENV)/test.stamp $(VENV)/docs.stamp
+test-long: $(VENV)/test.stamp $(VENV)/test-long.stamp $(VENV)/docs.stamp
 	OMP_NUM_THREADS=1 $(BIN)/pytest tests $(WORKERS) --data=$(DATA) -m "long or fuzz" --all-examples
 
 # every Python of pyproject.toml, the oldest with the oldest dependencies; ONLY=3.12 runs one of them
@@ -80,6 +80,10 @@ $(VENV)/run.stamp: $(BIN)/uv pyproject.toml uv.lock
 
 $(VENV)/test.stamp: $(BIN)/uv pyproject.toml uv.lock
 	$(BIN)/uv sync --quiet --locked --inexact --compile-bytecode --extra test
+	touch $@ $(VENV)/run.stamp
+
+$(VENV)/test-long.stamp: $(BIN)/uv pyproject.toml uv.lock
+	$(BIN)/uv sync --quiet --locked --inexact --compile-bytecode --extra test --extra test-long
 	touch $@ $(VENV)/run.stamp
 
 $(VENV)/docs.stamp: $(BIN)/uv pyproject.toml uv.lock

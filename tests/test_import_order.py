@@ -217,7 +217,7 @@ DISTRIBUTIONS = {
 
 PROJECT = tomllib.loads((ROOT.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 EXTRAS = PROJECT["optional-dependencies"]
-DEVELOPMENT = {"test", "docs"}
+DEVELOPMENT = {"test", "test-long", "docs"}
 """Extras that the library itself never imports."""
 
 

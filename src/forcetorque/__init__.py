@@ -48,6 +48,7 @@ CAPABILITIES = (
     "simulation",
     "study",
     "contests",
+    "fleet",
 )
 """Folders of capabilities, whose `CAPABILITY` says which commands and sections of the experiment file they have."""
 

@@ -30,6 +30,7 @@ FILES = (
     "contestants",
     "torque_loop_file",
     "scenario",
+    "fleet_plan",
     "recording",
     "calibration",
     "joint",
@@ -38,8 +39,8 @@ FILES = (
     "module_frames",
 )
 """What people write, and what is written to be read again."""
-OF_OPTIONS = ("plan_jointly",)
-"""Results of commands that an option asks something else."""
+OF_OPTIONS = ("plan_jointly", "evaluate_dataset")
+"""Results of commands that an option, or a dataset in place of a log, asks something else."""
 JSON_SCHEMAS = (
     "experiment",
     "acceptance",

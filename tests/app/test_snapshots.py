@@ -20,6 +20,8 @@ import numpy as np
 import pytest
 
 from forcetorque.app.command_line import commands, whole_program
+from forcetorque.fleet.add import add_recordings
+from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.results.answer import MOST_LINES
 from forcetorque.results.capability import named
 from forcetorque.results.command import command_of
@@ -72,6 +74,8 @@ COMMANDS = _of_experiments() | {
     "estimate": ("estimate", PARQUET, "-o", "contacts.parquet", "-c", "fitted.json"),
     "evaluate": ("evaluate", PARQUET, "-c", "fitted.json"),
     "export": ("export", "fitted.json", "--to", "csv", "-o", "matrix.csv"),
+    "fleet add": ("fleet", "add", PARQUET, "--into", "new_dataset"),
+    "fleet table": ("fleet", "table", "dataset"),
     "bench gains": ("bench", "gains", PARQUET),
     "init": ("init", "begun/log.csv", "--urdf", "begun/robot.urdf", "-o", "begun.toml"),
     "inspect": ("inspect", "faulty.toml"),
@@ -91,8 +95,9 @@ COMMANDS = _of_experiments() | {
     "bench workbench": ("bench", "workbench", "SIM001.toml"),
 }
 """What is typed; of a command that only needs an experiment nothing has to be stated."""
-WITHOUT_TABLE = {"demo", "payload", "robot torque-loop", "run", "schema", "simulate"}
-"""Shown elsewhere: `payload` needs a wrist, `simulate`, `torque-loop`, `run` and `demo` minutes; `schema` is JSON."""
+WITHOUT_TABLE = {"demo", "fleet run", "payload", "robot torque-loop", "run", "schema", "simulate"}
+"""Shown elsewhere: `payload` needs a wrist, `fleet run` processes, `simulate`, `torque-loop`, `run` and `demo` minutes;
+`schema` is JSON."""
 
 
 def _write_limits(arm: Path) -> None:
@@ -141,6 +146,10 @@ def _write_log(arm: Path) -> None:
     shutil.copytree(FOLDER_OF_THE_TUTORIAL, arm / "begun")
 
 
+def _write_dataset(arm: Path) -> None:
+    add_recordings([arm / PARQUET], arm / "dataset", AddOptions())
+
+
 def _write_patch(arm: Path) -> None:
     (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
 
@@ -157,6 +166,7 @@ WRITTEN: Mapping[str, Callable[[Path], object]] = MappingProxyType(
         "sway/swaying.toml": _write_sway,
         "begun/log.csv": _write_log,
         "patch.txt": _write_patch,
+        "dataset": _write_dataset,
         "feet/standing.toml": _write_feet,
         "SIM001.toml": partial(write_bench, faults=BenchFaults(swapped=(3, 8))),
     }

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Final
 
 import typer
 
+from forcetorque.app.dataset_input import with_datasets
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.run_files import files_of_one_run
 from forcetorque.results.capability import all_named, named
@@ -33,7 +34,7 @@ PANELS: Final[Mapping[str, tuple[str, ...]]] = {
     "Calibrate": ("calibrate", "payload", "tare"),
     "Evaluate": ("evaluate", "accept", "plan", "report", "view"),
     "Use": ("export", "estimate"),
-    "More": ("bench", "robot", "skin", "study", "simulate", "schema"),
+    "More": ("bench", "robot", "skin", "study", "fleet", "simulate", "schema"),
 }
 """Commands and groups in the order of work, as the help shows them."""
 GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
@@ -81,7 +82,7 @@ def _add(program: typer.Typer, name: str, reference: str) -> None:
     if isinstance(found, typer.Typer):
         program.add_typer(found)
     else:
-        program.command(name)(command_function(found))
+        program.command(name)(with_datasets(name, command_function(found)))
 
 
 def _add_group(program: typer.Typer, group: str, members: Mapping[str, str]) -> None:

@@ -17,8 +17,8 @@ def schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, acceptance, bench, contestants, device_file, torque_loop_file, scenario, recording, "
-            "calibration, joint, moments, taxels or module_frames for a file; a command, with _ for its "
+            help="experiment, acceptance, bench, contestants, device_file, torque_loop_file, scenario, fleet_plan, "
+            "recording, calibration, joint, moments, taxels or module_frames for a file; a command, with _ for its "
             "space, for its result."
         ),
     ],
@@ -47,6 +47,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.experiment.calibration.joint_posterior import JointPosterior
     from forcetorque.experiment.calibration.stored_moments import RecordingMoments
     from forcetorque.experiment.file import experiment_file
+    from forcetorque.fleet.plan_file import PlanFile
     from forcetorque.locomotion.torque_control.file import TorqueLoopFile
     from forcetorque.recording.storage import recording_schema
     from forcetorque.simulation.scenario.file import ScenarioFile
@@ -62,6 +63,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
         "contestants": ContestFile.model_json_schema,
         "torque_loop_file": TorqueLoopFile.model_json_schema,
         "scenario": ScenarioFile.model_json_schema,
+        "fleet_plan": PlanFile.model_json_schema,
         "recording": recording_schema,
         "calibration": Calibration.model_json_schema,
         "joint": JointPosterior.model_json_schema,

@@ -128,7 +128,7 @@ def calibrate(
     stored = stored_moments(experiments)
     contents, left_out = readable_experiments([path for path in experiments if path.suffix != ".json"], log)
     names = _sensors(contents, stored, sensor)
-    files = _files(output, names)
+    files = calibration_files(output, names)
     # folders of the others are made when they are written
     declare_outputs(*filter(Path.exists, filter(None, [*files, write_urdf])), force=force)
     if write_urdf is not None:
@@ -166,7 +166,7 @@ def calibrate(
         if write_urdf is not None:
             write_corrected_urdf(next(iter(contents.values())), files[0], write_urdf, force=force)
             log.info("corrected robot model written to %s", write_urdf)
-    _end(refusals)
+    end_with(refusals)
 
 
 def _require_one_fit(write_urdf: Path, sensors: Sequence[object], contents: Mapping[Path, Experiment]) -> None:
@@ -214,8 +214,15 @@ def _show(
     return refusals
 
 
-def _end(refusals: Sequence[ForceTorqueError]) -> None:
-    """Say what was refused, and leave with exit code 2 if anything was."""
+def end_with(refusals: Sequence[ForceTorqueError]) -> None:
+    """Say what was refused, and leave with exit code 2 if anything was.
+
+    Args:
+        refusals: The errors.
+
+    Raises:
+        typer.Exit: If there is one.
+    """
     for refusal in refusals:
         report_error(refusal)
     if refusals:
@@ -247,7 +254,19 @@ def _sensors(
     return sensors
 
 
-def _files(output: Path, sensors: Sequence[tuple[str, str]]) -> list[Path]:
+def calibration_files(output: Path, sensors: Sequence[tuple[str, str]]) -> list[Path]:
+    """Name the files of calibrations.
+
+    Args:
+        output: A .json file for one sensor, or a folder.
+        sensors: Name and serial number of every sensor.
+
+    Returns:
+        A file per sensor.
+
+    Raises:
+        ExperimentError: If one file is to hold several, or the folder is another file.
+    """
     from forcetorque.calibration.joint.calibrate import calibration_file
 
     if output.suffix == ".json":

@@ -14,6 +14,7 @@ from forcetorque.calibration.contact_windows import agreeing_samples
 from forcetorque.calibration.model_error_derivatives import model_columns
 from forcetorque.calibration.mount import mount_doubts
 from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.moment_blocks import in_blocks
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments, VariableDescription
@@ -63,11 +64,13 @@ def load_error_of(solution: LoadSolution) -> LoadError | None:
     return LoadError(sessions=tuple(sessions), factor=factor)
 
 
-def recording_moments(runs: Runs) -> list[RecordingMoments]:
+def recording_moments(runs: Runs, *, block_s: float | None = None) -> list[RecordingMoments]:
     """Reduce the calibration intervals of a sensor.
 
     Args:
         runs: The sensor, in one experiment or several.
+        block_s: Longest block that intervals are divided into, `moment_blocks.joined` puts them together; s; None for
+            whole intervals.
 
     Returns:
         Moments and means of every recording.
@@ -90,7 +93,7 @@ def recording_moments(runs: Runs) -> list[RecordingMoments]:
         if not own:
             continue
         stated_by = CampaignRecording.of(run)
-        kept, left_out = agreeing_moments(run, own, variables=variables)
+        kept, left_out = agreeing_moments(run, own, variables=variables, block_s=block_s)
         said = [*(doubt.message for doubt in doubts), *turned, *reference_doubts(run), *left_out]
         moments = moments_of(stated_by, kept, variables=variables, doubts=said)
         results.append(moments.model_copy(update={"load_error": _load_error(run)}))
@@ -98,7 +101,11 @@ def recording_moments(runs: Runs) -> list[RecordingMoments]:
 
 
 def agreeing_moments(
-    run: SensorRun, intervals: Sequence[CampaignInterval], *, variables: Sequence[LinearVariable]
+    run: SensorRun,
+    intervals: Sequence[CampaignInterval],
+    *,
+    variables: Sequence[LinearVariable],
+    block_s: float | None = None,
 ) -> tuple[list[IntervalMoments], list[str]]:
     """Reduce intervals of a recording, without the samples that disagree with all others.
 
@@ -108,6 +115,7 @@ def agreeing_moments(
         run: The sensor in the recording.
         intervals: Samples of its calibration intervals.
         variables: Linear variables that are fitted.
+        block_s: As of `recording_moments`.
 
     Returns:
         What is kept of the intervals, and a sentence per span that was left out.
@@ -116,14 +124,14 @@ def agreeing_moments(
     agree, spans = agreeing_samples(
         data_sets, recording.sensor.prior, _assumptions(recording), variables=variables, drift=recording.options.drift
     )
-    kept = []
+    kept: list[IntervalMoments] = []
     for interval, data, marks in zip(intervals, data_sets, agree, strict=True):
         if marks.any():
             moments = interval.moments(marks)
             if recording.sensor.prior is not None:
                 model = model_columns(run, interval.part.interval, data.kept(marks))
                 moments = moments.with_model(model.terms, model.columns)
-            kept.append(moments)
+            kept += [moments] if block_s is None else in_blocks(moments, data.kept(marks), block_s)
     start_s = recording.start_ns * 1e-9
     return kept, [
         f"interval {span.label!r}: {span.start_s - start_s:.2f} to {span.end_s - start_s:.2f} s is left out: the "

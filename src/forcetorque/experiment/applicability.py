@@ -14,6 +14,7 @@ from forcetorque.experiment.calibration.artefact import Calibration, read_calibr
 from forcetorque.experiment.calibration.provenance import FittedInterval
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.experiment.sensor_samples import LoggedReadings
 from forcetorque.formats.icub_matrix import read_matrix_file, serial_number_in_name
 from forcetorque.recording.recording import Interval
@@ -39,10 +40,34 @@ def require_fit(name: str, calibration: Calibration, experiment: Experiment, sen
         ExperimentError: If the robot now reads the sensor in another frame or sign, or counts were recovered
             through another matrix.
     """
+    tag = experiment.model.sensor(sensor.name)
+    reading = (experiment.model.name, tag.frame.value, tag.direction.value)
+    require_same_reading(name, calibration, sensor, reading, experiment.mounts.get(sensor.name))
+
+
+def require_same_reading(
+    name: str,
+    calibration: Calibration,
+    sensor: ExperimentSensor,
+    reading: tuple[str, str, str],
+    mount: SensorMount | None,
+) -> None:
+    """Refuse the same of a sensor whose experiment is not at hand.
+
+    Args:
+        name: As of `require_fit`.
+        calibration: As of `require_fit`.
+        sensor: The sensor.
+        reading: Name of the robot, and frame and direction in which it reads the sensor.
+        mount: Mount of the sensor, where it sits otherwise than the robot model states.
+
+    Raises:
+        ExperimentError: As of `require_fit`.
+    """
     with stated_in(name):
         calibration.require_serial(sensor.serial)
-    _refuse_other_reading(name, calibration, experiment, sensor)
-    _refuse_other_mount(name, calibration, experiment, sensor)
+    _refuse_other_reading(name, calibration, reading)
+    _refuse_other_mount(name, calibration, sensor, mount)
     _refuse_other_counts(name, calibration, sensor)
     for variable in calibration.variables:
         specified = sensor.variable(variable.name).linear
@@ -144,30 +169,46 @@ def overlapping(
         readings = LoggedReadings(experiment, sensor, interval)
         for earlier in earlier_ones:
             seen = readings.were_in(earlier.content)
-            own = earlier.experiment in (None, experiment.name)
-            others = seen is False and earlier.start_ns < _DAY_NS
-            one_log = log_went_in and own if others else log_went_in or own
             at_once = interval.start_ns < earlier.end_ns and earlier.start_ns < interval.end_ns
-            if seen or (at_once and one_log):
+            own = earlier.experiment in (None, experiment.name)
+            if was_used(earlier, seen=seen, at_once=at_once, own=own, log_went_in=log_went_in):
                 yield interval.label, earlier.label
 
 
-def _refuse_other_reading(
-    name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor
-) -> None:
+def was_used(earlier: FittedInterval, *, seen: bool | None, at_once: bool, own: bool, log_went_in: bool) -> bool:
+    """Decide whether an interval holds what a calibration was made on, by the rule of `overlapping`.
+
+    Args:
+        earlier: Interval that was fitted or chosen on.
+        seen: Whether its readings are known again; None where that cannot be told.
+        at_once: Whether the stamps of both overlap.
+        own: Whether both are of an experiment of one name.
+        log_went_in: Whether the files of the recording went into the calibration.
+
+    Returns:
+        Whether it does.
+    """
+    others = seen is False and earlier.start_ns < _DAY_NS
+    one_log = log_went_in and own if others else log_went_in or own
+    return bool(seen) or (at_once and one_log)
+
+
+def _refuse_other_reading(name: str, calibration: Calibration, reading: tuple[str, str, str]) -> None:
     """Refuse to compare wrenches in one frame and sign with references in another."""
-    tag = experiment.model.sensor(sensor.name)
+    robot, frame, direction = reading
     fitted = (calibration.sensor.frame, calibration.sensor.measure_direction.value)
-    if fitted != (tag.frame.value, tag.direction.value):
+    if fitted != (frame, direction):
         raise ExperimentError(
-            f"calibration {name!r}: expected readings in the frame {tag.frame}, {tag.direction}, as the robot "
-            f"{experiment.model.name!r} has them, got {', '.join(fitted)}; fit again with this robot"
+            f"calibration {name!r}: expected readings in the frame {frame}, {direction}, as the robot "
+            f"{robot!r} has them, got {', '.join(fitted)}; fit again with this robot"
         )
 
 
-def _refuse_other_mount(name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor) -> None:
+def _refuse_other_mount(
+    name: str, calibration: Calibration, sensor: ExperimentSensor, mount: SensorMount | None
+) -> None:
     """Refuse to compare wrenches of one mount with references of another."""
-    mount, fitted = experiment.mounts.get(sensor.name), calibration.mount
+    fitted = calibration.mount
     one, other = (mount, fitted) if fitted is None else (fitted, mount)
     if one is None or one.is_like(other):
         return

@@ -109,11 +109,20 @@ class Inputs:
         Returns:
             SHA-256 in hex by the path as the experiment file has it.
         """
-        hashes = {}
-        for name, path in sorted(self._read.items()):
-            with path.open("rb") as stream:
-                hashes[name] = hashlib.file_digest(stream, "sha256").hexdigest()
-        return hashes
+        return {name: sha256_of(path) for name, path in sorted(self._read.items())}
+
+
+def sha256_of(path: Path) -> str:
+    """Hash a file.
+
+    Args:
+        path: The file.
+
+    Returns:
+        SHA-256 in hex.
+    """
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 @contextmanager

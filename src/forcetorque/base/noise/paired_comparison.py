@@ -11,11 +11,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, Self
+from typing import Any, Literal, Protocol, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, require_shape
+from forcetorque.base.arrays import FloatArray, IntArray, require_shape
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.noise.autocorrelation import autocorrelation
 from forcetorque.base.wrench import FORCE, MOMENT
@@ -101,6 +101,72 @@ class PairedErrors:
         whole = np.isfinite(errors[0]).all(axis=1) & np.isfinite(errors[1]).all(axis=1)
         return cls(first=errors[0][whole], second=errors[1][whole])
 
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+        return len(self.first)
+
+    def of_quantity(self, axes: slice) -> SquaredErrors:
+        """Give the squared norms of the errors of force or moment.
+
+        Args:
+            axes: `FORCE` or `MOMENT`.
+
+        Returns:
+            Them, a block per sample.
+        """
+        squares = np.stack([(errors[:, axes] ** 2).sum(axis=1) for errors in (self.first, self.second)])
+        return SquaredErrors(ends=np.arange(1, self.samples + 1), sums=squares)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SquaredErrors:
+    """Squared norms of the errors of two calibrations under test, summed over contiguous blocks of one recording."""
+
+    ends: IntArray
+    """Index behind the last sample of every block; shape (b,)."""
+    sums: FloatArray
+    """Sums of the squared norms over every block; shape (2, b)."""
+
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+        return int(self.ends[-1])
+
+    def log_ratios(self, count: int, least: float) -> FloatArray:
+        """Give the log ratios of root mean squares in contiguous parts of equally many samples, at most one each.
+
+        Args:
+            count: Number of parts; a block ends where a part does.
+            least: Mean square below which an error counts as this.
+
+        Returns:
+            Log ratios; shape (count or n,).
+        """
+        ends = np.array(part_ends(self.samples, count))
+        starts = np.concatenate([[0], np.searchsorted(self.ends, ends[:-1]) + 1])
+        sizes = np.diff(ends, prepend=0)
+        means = np.maximum(np.add.reduceat(self.sums, starts, axis=1) / sizes, least)
+        return np.asarray(0.5 * np.log(means[0] / means[1]), dtype=np.float64)
+
+
+class PairedBlocks(Protocol):
+    """Errors of two calibrations under test in one recording, as samples or summed over blocks."""
+
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+
+    def of_quantity(self, axes: slice) -> SquaredErrors:
+        """Give the squared norms of the errors of force or moment.
+
+        Args:
+            axes: `FORCE` or `MOMENT`.
+
+        Returns:
+            Them.
+        """
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PairedComparison:
@@ -114,7 +180,7 @@ class PairedComparison:
     """Of the moment errors."""
 
 
-def compare_errors(recordings: Sequence[PairedErrors]) -> PairedComparison:
+def compare_errors(recordings: Sequence[PairedBlocks]) -> PairedComparison:
     """Test whether one calibration under test errs less than another.
 
     A recording is cut into contiguous segments of equally many samples, as many as the log ratio of the errors is
@@ -147,30 +213,27 @@ def compare_errors(recordings: Sequence[PairedErrors]) -> PairedComparison:
     Raises:
         ShapeError: If no recording has a sample in which everything is finite.
     """
-    whole = [recording for recording in recordings if len(recording.first)]
+    whole = [recording for recording in recordings if recording.samples]
     if not whole:
         raise ShapeError("expected at least one sample in which everything is finite, got none")
     return PairedComparison(
-        count=sum(len(recording.first) for recording in whole),
+        count=sum(recording.samples for recording in whole),
         force=_ratio(whole, FORCE),
         moment=_ratio(whole, MOMENT),
     )
 
 
-def _ratio(recordings: Sequence[PairedErrors], axes: slice) -> ErrorRatio:
-    squares = [
-        np.stack([(errors[:, axes] ** 2).sum(axis=1) for errors in (recording.first, recording.second)])
-        for recording in recordings
-    ]
-    totals = np.sum([pair.sum(axis=1) for pair in squares], axis=0)
-    least = _LEAST**2 * float(totals.max()) / sum(pair.shape[1] for pair in squares)
-    if least == 0.0 or all(np.array_equal(*pair) for pair in squares):
-        count = sum(independent_segments(np.zeros(min(BLOCKS, pair.shape[1])))[0] for pair in squares)
+def _ratio(recordings: Sequence[PairedBlocks], axes: slice) -> ErrorRatio:
+    squares = [recording.of_quantity(axes) for recording in recordings]
+    totals = np.sum([pair.sums.sum(axis=1) for pair in squares], axis=0)
+    least = _LEAST**2 * float(totals.max()) / sum(pair.samples for pair in squares)
+    if least == 0.0 or all(np.array_equal(*pair.sums) for pair in squares):
+        count = sum(independent_segments(np.zeros(min(BLOCKS, pair.samples)))[0] for pair in squares)
         return ErrorRatio(ratio=1.0, low=1.0, high=1.0, segments=count, conclusion="no difference")
     segments, errors = [], []
     for pair in squares:
-        count, error = independent_segments(_log_ratios(pair, BLOCKS, least))
-        segments.append(_log_ratios(pair, count, least))
+        count, error = independent_segments(pair.log_ratios(BLOCKS, least))
+        segments.append(pair.log_ratios(count, least))
         errors.append(error)
     return ratio_over(segments, errors, pooled=0.5 * math.log(max(totals[0], least) / max(totals[1], least)))
 
@@ -244,19 +307,15 @@ def independent_segments(blocks: FloatArray) -> tuple[int, float]:
     return min(max(round(fewer), 1), MOST_SEGMENTS), float(blocks.std(ddof=1)) / math.sqrt(fewer)
 
 
-def _log_ratios(squares: FloatArray, count: int, least: float) -> FloatArray:
-    """Log ratios of root mean squares in contiguous parts of equally many samples, at most one each.
+def part_ends(samples: int, count: int) -> list[int]:
+    """Cut a recording into contiguous parts of equally many samples; the first parts have one more where it must be.
 
     Args:
-        squares: Squared norms of the errors of both calibrations under test; shape (2, n).
-        count: Number of parts.
-        least: Mean square below which an error counts as this.
+        samples: Number of samples, at least 1.
+        count: Number of parts; as many as there are samples where these are fewer.
 
     Returns:
-        Log ratios; shape (count or n,).
+        Index behind the last sample of every part.
     """
-    size, longer = divmod(squares.shape[1], min(count, squares.shape[1]))
-    cut = longer * (size + 1)  # the first parts have a sample more
-    parts = squares[:, :cut].reshape(2, longer, size + 1), squares[:, cut:].reshape(2, -1, size)
-    means = np.maximum(np.concatenate([part.mean(axis=2) for part in parts], axis=1), least)
-    return 0.5 * np.log(means[0] / means[1])
+    size, longer = divmod(samples, min(count, samples))
+    return [size * number + min(number, longer) for number in range(1, min(count, samples) + 1)]

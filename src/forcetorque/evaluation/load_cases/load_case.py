@@ -14,6 +14,7 @@ from forcetorque.base.errors import ExperimentError, ForceTorqueError, RobotErro
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.evaluation.section import LOAD_CASES, LoadCaseOffset, LoadCaseTable
+from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
 from forcetorque.robot.dynamics import body_pose, joints_between, link_pose
@@ -249,7 +250,7 @@ def operating_load_cases(
         try:
             case = location.case(table)
             if case is not None:
-                if (beyond := beyond_range(case, runs[0], matrix)) is not None:
+                if (beyond := beyond_range(case, runs[0].sensor, matrix)) is not None:
                     raise ExperimentError(f"load case {case.name!r}: {beyond}; expected loads that it can read")
                 cases.append(case)
         except ExperimentError as error:
@@ -408,18 +409,17 @@ def _full_scale(run: SensorRun) -> FloatArray:
     return sensor.limit_counts * np.linalg.norm(sensor.prior, axis=1)
 
 
-def beyond_range(case: LoadCase, run: SensorRun, matrix: FloatArray | None) -> str | None:
+def beyond_range(case: LoadCase, sensor: ExperimentSensor, matrix: FloatArray | None) -> str | None:
     """Compare the loads with what the sensor can read.
 
     Args:
         case: The load case.
-        run: The sensor.
+        sensor: The sensor.
         matrix: Matrix by which loads are turned into counts; shape (6, c); the prior if None.
 
     Returns:
         What the loads reach, and the limit; None where the sensor can read them, or nobody knows its limit.
     """
-    sensor = run.sensor
     if sensor.full_scale is not None:
         largest = np.abs(case.wrench).max(axis=0)
         worst = int(np.argmax(largest / sensor.full_scale))

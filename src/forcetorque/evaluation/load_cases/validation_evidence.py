@@ -68,6 +68,34 @@ class ValidationSegment:
     """Expected wrenches; shape (n, 6); N, N m."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SecondMeans:
+    """Errors of one calibration in a recording, or in the samples of one power cycle, in means of a second."""
+
+    session: str
+    """Name of the session."""
+    time_s: FloatArray
+    """Mean instants, not falling; shape (n,); s."""
+    error: FloatArray
+    """Mean errors; shape (n, 6); N, N m."""
+    reference: FloatArray
+    """Mean expected wrenches; shape (n, 6); N, N m."""
+
+    @classmethod
+    def of(cls, segment: ValidationSegment) -> SecondMeans:
+        """Average the errors of samples.
+
+        Args:
+            segment: The samples.
+
+        Returns:
+            Their means.
+        """
+        columns = np.hstack([segment.measured - segment.reference, segment.reference])
+        time_s, means, _ = means_over(segment.time_s, columns)
+        return cls(session=segment.session, time_s=time_s, error=means[:, :6], reference=means[:, 6:])
+
+
 def evidence(stretches: Sequence[ValidationSegment]) -> Evidence:
     """Compute the errors of one calibration in any number of recordings.
 
@@ -78,14 +106,25 @@ def evidence(stretches: Sequence[ValidationSegment]) -> Evidence:
         The errors. The constant part is that of the session in which it is largest: of two that cancel each other
         either would hurt. What is left is about the mean of each session.
     """
+    return evidence_of_means([SecondMeans.of(segment) for segment in stretches])
+
+
+def evidence_of_means(stretches: Sequence[SecondMeans]) -> Evidence:
+    """Compute the same from means of a second.
+
+    Args:
+        stretches: Mean errors in each, at least one.
+
+    Returns:
+        As of `evidence`.
+    """
     instants, errors, references = [], [], []
     in_session = sorted(stretches, key=lambda stretch: stretch.session)
-    for _, session in groupby(in_session, key=lambda stretch: stretch.session):
-        means = [means_over(one.time_s, np.hstack([one.measured - one.reference, one.reference])) for one in session]
-        instants.append(joined_times([time for time, _, _ in means]))
-        columns = np.concatenate([columns for _, columns, _ in means])
-        errors.append(columns[:, :6])
-        references.append(columns[:, 6:])
+    for _, group in groupby(in_session, key=lambda stretch: stretch.session):
+        session = list(group)
+        instants.append(joined_times([one.time_s for one in session]))
+        errors.append(np.concatenate([one.error for one in session]))
+        references.append(np.concatenate([one.reference for one in session]))
     line = joined_times(instants)
     left, moved = (np.concatenate([own - own.mean(axis=0) for own in parts]) for parts in (errors, references))
     squares = np.column_stack([(left[:, part] ** 2).sum(axis=1) for part in FORCE_AND_MOMENT])
@@ -178,7 +217,22 @@ def validation_excitation(
         validation loads and the standard deviation of the fitted ones.
     """
     moving = np.sqrt((reference if moved is None else moved).var(axis=0))
-    load = np.sqrt((reference**2).mean(axis=0))
+    return moved_and_load(moving, np.sqrt((reference**2).mean(axis=0)), calibrations)
+
+
+def moved_and_load(
+    moving: FloatArray, load: FloatArray, calibrations: Iterable[Calibration]
+) -> tuple[MovedAndLoad, MovedAndLoad]:
+    """Compute the same from statistics of the expected wrenches.
+
+    Args:
+        moving: Their standard deviations; shape (6,); N, N m.
+        load: Their root mean squares; shape (6,); N, N m.
+        calibrations: As of `validation_excitation`.
+
+    Returns:
+        As of `validation_excitation`.
+    """
     loads = [load, *(calibration.validity.expected_wrench_sd for calibration in calibrations)]
     force, moment = (
         (float(np.linalg.norm(moving[part])), max(float(np.linalg.norm(one[part])) for one in loads))

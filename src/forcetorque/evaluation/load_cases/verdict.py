@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Annotated, Final, Literal
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+from typing import Annotated, Final, Literal, Protocol
 
 import numpy as np
 
@@ -40,6 +41,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import doubts_about_choice, require_unseen_if_judged
 from forcetorque.payload.load_warnings import circular_loads
@@ -218,6 +220,26 @@ _QUANTITIES: Final[tuple[tuple[Literal["force", "moment"], Literal["N", "N m"], 
 )
 
 
+class ErrorAgainstPrior(Protocol):
+    """Size of the error of a calibration and of its prior on the same validation data."""
+
+    @property
+    def quantity(self) -> Literal["force", "moment"]:
+        """What the error is of."""
+
+    @property
+    def unit(self) -> Literal["N", "N m"]:
+        """Its unit."""
+
+    @property
+    def mean(self) -> float:
+        """Mean norm of the error, or its root mean square where samples are not at hand."""
+
+    @property
+    def prior_mean(self) -> float:
+        """The same of the prior."""
+
+
 class LoadCaseAssessment:
     """Assesses one calibration at one load case."""
 
@@ -227,7 +249,7 @@ class LoadCaseAssessment:
         calibration: Calibration,
         measured: Evidence | None,
         *,
-        worse: Sequence[PriorComparison] = (),
+        worse: Sequence[ErrorAgainstPrior] = (),
     ) -> None:
         """Take what a verdict rests on.
 
@@ -235,7 +257,7 @@ class LoadCaseAssessment:
             case: The load case.
             calibration: The calibration.
             measured: What it measured on data that were not fitted; None where there are none.
-            worse: Comparisons in which these data find it worse than its prior.
+            worse: Errors that these data find larger than those of its prior.
 
         Raises:
             FitError: If the use changes a variable that the calibration does not know.
@@ -449,21 +471,24 @@ def use_verdicts(
     for name, calibration in judged.items():
         notes = tuple(dict.fromkeys(_notes(campaign, name, calibration)))
         for usual in operating_load_cases(campaign.runs, more, matrix=calibration.matrix, refuse=refuse):
-            beyond = beyond_range(usual, campaign.runs[0], calibration.matrix)
-            case = usual if beyond is None else _recorded(measured.get(name)) or usual
             try:
-                assessment = LoadCaseAssessment(
-                    case,
-                    calibration,
+                verdict = load_case_verdict(
+                    campaign.sensor,
+                    usual,
+                    (name, calibration),
                     measured.get(name),
-                    worse=[row for row in worse if (row.calibration, row.offset) == (name, _COMPARED[case.offset])],
+                    partial(_larger, worse, name),
+                    notes,
                 )
             except FitError as error:
                 refuse(error)
             else:
-                verdict = _verdict(campaign, name, assessment, notes)
-                verdicts.append(verdict if beyond is None else _without(verdict, usual, beyond))
+                verdicts.append(verdict)
     return tuple(verdicts)
+
+
+def _larger(rows: Sequence[PriorComparison], name: str, offset: Offset) -> Iterator[PriorComparison]:
+    return (row for row in rows if (row.calibration, row.offset) == (name, offset))
 
 
 RECORDED: Final = "recorded loads"
@@ -500,14 +525,35 @@ _COMPARED: Final = {LoadCaseOffset.FITTED: Offset.FITTED, LoadCaseOffset.TARED: 
 """Offset with which validation data compare a calibration and its prior for a load case."""
 
 
-def _verdict(
-    campaign: Campaign, name: str, assessment: LoadCaseAssessment, notes: tuple[Reason, ...]
+def load_case_verdict(
+    sensor: ExperimentSensor,
+    usual: LoadCase,
+    calibration: tuple[str, Calibration],
+    measured: Evidence | None,
+    worse: Callable[[Offset], Iterable[ErrorAgainstPrior]],
+    notes: Sequence[Reason],
 ) -> LoadCaseVerdict:
+    """Decide whether a calibration may be used for a load case, as of `use_verdicts`.
+
+    Args:
+        sensor: The sensor.
+        usual: The load case.
+        calibration: The calibration with its name.
+        measured: What it measured on data that were not fitted; None without any.
+        worse: Called with an offset; gives the errors that are larger than those of the prior with it.
+        notes: Facts that neither predictions nor validation data show.
+
+    Returns:
+        The verdict.
+    """
+    name, fitted = calibration
+    beyond = beyond_range(usual, sensor, fitted.matrix)
+    case = usual if beyond is None else _recorded(measured) or usual
+    assessment = LoadCaseAssessment(case, fitted, measured, worse=[*worse(_COMPARED[case.offset])])
     decision, reasons = assessment.verdict()
-    case = assessment.case
-    return LoadCaseVerdict(
-        sensor=campaign.sensor.name,
-        serial=campaign.sensor.serial,
+    verdict = LoadCaseVerdict(
+        sensor=sensor.name,
+        serial=sensor.serial,
         calibration=name,
         load_case=case.name,
         loads=case.words,
@@ -519,3 +565,4 @@ def _verdict(
         within=assessment.within,
         errors=tuple(assessment.errors()),
     )
+    return verdict if beyond is None else _without(verdict, usual, beyond)

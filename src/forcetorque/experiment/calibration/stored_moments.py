@@ -97,7 +97,7 @@ class IntervalMoments(StoredTable):
             What is kept of them.
         """
         means, moments = WindowMeans.of(data), Moments.of(data.raw, data.reference, data.variables)
-        ends = _ends(data, moments)
+        ends = end_samples(data, moments)
         return cls(
             interval=interval,
             recording=data.recording,
@@ -181,8 +181,16 @@ class IntervalMoments(StoredTable):
         )
 
 
-def _ends(data: DataSet, moments: Moments) -> IntArray:
-    """Samples at the ends of the range along channels, components of the load, and principal directions of both."""
+def end_samples(data: DataSet, moments: Moments) -> IntArray:
+    """Find the samples at the ends of the range along channels, components of the load, and principal directions.
+
+    Args:
+        data: Samples.
+        moments: Their moments.
+
+    Returns:
+        Indices of the samples, rising; shape (k,).
+    """
     # which directions the recordings have together is known only when they are fitted, and means over a second miss
     # what fast movements reach
     _, of_raw = np.linalg.eigh(moments.raw_raw)

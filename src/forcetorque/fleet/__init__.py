@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Many recordings of many robots: one idempotent step per recording, and a dataset of what it gives."""
+
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
+
+if TYPE_CHECKING:
+    from forcetorque.fleet.commands import fleet_add, fleet_run, fleet_table
+    from forcetorque.fleet.dataset import Dataset
+
+CAPABILITY = Capability(
+    page="fleet.md",
+    needs=("calibration", "evaluation", "inspection", "payload"),
+    commands=("forcetorque.fleet.commands:fleet",),
+)
+
+__all__ = [
+    "Dataset",
+    "fleet_add",
+    "fleet_run",
+    "fleet_table",
+]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "Dataset": "forcetorque.fleet.dataset",
+        "fleet_add": "forcetorque.fleet.commands",
+        "fleet_run": "forcetorque.fleet.commands",
+        "fleet_table": "forcetorque.fleet.commands",
+    },
+)

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Add recordings to a dataset: each is read once, and adding it again changes nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.output_file import real_path
+from forcetorque.base.progress import Progress, TimeLeft
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.input_files import sha256_of
+from forcetorque.fleet.dataset import Dataset, RecordFile
+from forcetorque.fleet.sensor_record import AddOptions, path_digest, recording_digest, sensor_records
+from forcetorque.fleet.source import RecordingSource
+from forcetorque.results.answer import Answer, typed
+from forcetorque.results.result import Result
+from forcetorque.results.table import Row, Shown, Table, table_of
+
+
+class AddedSensor(Row):
+    """One sensor of one recording."""
+
+    file: Annotated[str, Shown("experiment", file=True)]
+    """Experiment file."""
+    sensor: Annotated[str, Shown("sensor")]
+    """Name of the sensor."""
+    serial: Annotated[str, Shown("serial")]
+    """Its serial number."""
+    state: Annotated[Literal["added", "present"], Shown("state")]
+    """Whether it was added now, or was in the dataset already."""
+
+
+class Added(Result):
+    """What was added to a dataset."""
+
+    schema_name: Literal["forcetorque/fleet_add/1"] = Field(default="forcetorque/fleet_add/1", alias="schema")
+    """Form of the result."""
+    dataset: str
+    """Folder of the dataset."""
+    sensors: tuple[AddedSensor, ...]
+    """One per recording and sensor."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Count what was added.
+
+        Yields:
+            One answer.
+        """
+        added = sum(row.state == "added" for row in self.sensors)
+        present = len(self.sensors) - added
+        recordings = len({row.file for row in self.sensors})
+        sensors = len({row.serial for row in self.sensors})
+        yield Answer(
+            subject=f"{self.dataset}: {_count(recordings, 'recording')} of {_count(sensors, 'sensor')}",
+            verdict=f"{added} ADDED, {present} ALREADY THERE" if present else f"{added} ADDED",
+            why=("nothing was changed; the same inputs, options and version were added before",) if not added else (),
+            step="Show the sensors, the worst first:",
+            command=typed("fleet", "table", self.dataset),
+        )
+
+    def blocks(self) -> Iterator[Table]:
+        """List what was added.
+
+        Yields:
+            A table.
+        """
+        yield table_of(self.sensors, f"{self.dataset}: recordings and sensors")
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'s' * (number != 1)}"
+
+
+def add_recordings(
+    experiments: Sequence[Path],
+    dataset: Path,
+    options: AddOptions,
+    *,
+    replace: bool = False,
+    progress: Progress = lambda _: None,
+) -> Added:
+    """Add recordings to a dataset.
+
+    Args:
+        experiments: Experiment files, at least one.
+        dataset: Folder of the dataset, which is made where it is missing.
+        options: What is kept of each.
+        replace: Whether a recording that changed after it was added takes the place of what was added.
+        progress: Called with a line for people as recordings are added.
+
+    Returns:
+        What was added and what was there.
+
+    Raises:
+        ExperimentError: If no experiment is named.
+    """
+    if not experiments:
+        raise ExperimentError("expected at least one experiment file to add, got none")
+    left = TimeLeft(progress, "adding", len(experiments))
+    rows: list[AddedSensor] = []
+    for number, file in enumerate(experiments):
+        rows += add_recording(RecordingSource(experiment=file), dataset, options, replace=replace)
+        left.at(number + 1)
+    return Added(dataset=str(dataset), sensors=tuple(rows))
+
+
+def add_recording(
+    source: RecordingSource, folder: Path, options: AddOptions, *, replace: bool = False
+) -> list[AddedSensor]:
+    """Add one recording to a dataset.
+
+    Args:
+        source: The recording.
+        folder: As of `add_recordings`.
+        options: As of `add_recordings`.
+        replace: As of `add_recordings`.
+
+    Returns:
+        A row per sensor.
+    """
+    code_version, dataset = version("forcetorque"), Dataset(folder)
+    if (unchanged := _unchanged(source, dataset, options.digest(code_version))) is not None:
+        return unchanged
+    experiment = source.load()
+    digest, wanted = recording_digest(experiment)[:20], options.digest(code_version)
+    there: dict[str, list[RecordFile]] = {}
+    for sensor in experiment.sensors:
+        there[sensor.serial] = dataset.present(sensor.serial)
+        _refuse_other_robot(experiment, sensor.name, sensor.serial, there[sensor.serial], options)
+    changed = {
+        serial: [one for one in files if one.path_hash == path_digest(source.path) and one.recording != digest]
+        for serial, files in there.items()
+    }
+    if not replace:
+        _refuse_changed(experiment, dataset, changed)
+    present = {
+        serial: any((one.recording, one.options) == (digest, wanted) for one in files)
+        for serial, files in there.items()
+    }
+    if not all(present.values()):
+        for record in sensor_records(experiment, options, code_version):
+            if not present[record.identity.serial]:
+                dataset.write(record, options)
+    for serial, files in there.items():
+        # results of other options or versions, which the new ones replace
+        for earlier in (one for one in files if one.recording == digest and one.options != wanted):
+            (folder / earlier.path).unlink(missing_ok=True)
+        for earlier in changed[serial]:
+            (folder / earlier.path).unlink(missing_ok=True)
+    return [
+        AddedSensor(
+            file=str(source.path),
+            sensor=sensor.name,
+            serial=sensor.serial,
+            state="present" if present[sensor.serial] else "added",
+        )
+        for sensor in experiment.sensors
+    ]
+
+
+def _unchanged(source: RecordingSource, dataset: Dataset, wanted: str) -> list[AddedSensor] | None:
+    """Rows of a recording all of whose sensors are there, if no input changed since; None if it must be read."""
+    files = [one for one in dataset.of_path(path_digest(source.path)) if one.options == wanted]
+    rows = dataset.rows(files, ["identity", "sensors", "inputs_sha256"])
+    if not rows or len(rows) != rows[0]["sensors"] or len({file.recording for file in files}) != 1:
+        return None
+    folder = real_path(source.experiment).parent
+    written_ns = min((dataset.folder / file.path).stat().st_mtime_ns for file in files)
+    for name, digest in rows[0]["inputs_sha256"].items():
+        path = folder / name
+        # a new file in a folder of a log may belong to it
+        if not path.is_file() or path.parent.stat().st_mtime_ns > written_ns or sha256_of(path) != digest:
+            return None
+    return [
+        AddedSensor(file=str(source.path), sensor=name, serial=serial, state="present")
+        for name, serial in ((row["identity"]["name"], row["identity"]["serial"]) for row in rows)
+    ]
+
+
+def _refuse_other_robot(
+    experiment: Experiment, name: str, serial: str, there: Sequence[RecordFile], options: AddOptions
+) -> None:
+    robot = options.robot or experiment.model.name
+    other = next((one.robot for one in there if one.robot != robot), None)
+    if other is not None:
+        raise ExperimentError(
+            f"{experiment.file}: sensor {name!r}: expected a serial number that no other robot has, got {serial!r}, "
+            f"which the dataset has of robot {other!r}, here it is of {robot!r}; correct serial in [[sensor]], or name "
+            "the robot with --robot"
+        )
+
+
+def _refuse_changed(experiment: Experiment, dataset: Dataset, changed: dict[str, list[RecordFile]]) -> None:
+    for files in changed.values():
+        for earlier in files:
+            before = dataset.rows([earlier], ["inputs_sha256"])[0]["inputs_sha256"]
+            now = experiment.inputs_sha256
+            names = sorted(name for name in before.keys() | now.keys() if before.get(name) != now.get(name))
+            raise ExperimentError(
+                f"{experiment.file}: changed after it was added to {dataset.folder}: {', '.join(names)}; --replace "
+                "puts what it is now in the place of what was added"
+            )

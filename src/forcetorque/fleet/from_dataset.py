@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What commands do with a dataset in place of experiment files, and what they refuse because it needs samples."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, Final
+
+from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.base.output_file import declare_outputs
+from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file
+from forcetorque.calibration.calibrate_command import calibration_files, end_with
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.fleet.dataset import Dataset
+from forcetorque.fleet.evaluate import evaluate_dataset
+from forcetorque.results.result import created_now
+from forcetorque.results.terminal.output import refuse_figure, refuse_standard_output, show, start_logging
+from forcetorque.results.terminal.reading import read_calibrations
+
+_MOST_LOGS: Final = 3
+"""Logs that a refusal names."""
+
+
+def calibrate_sensors(
+    dataset: Dataset,
+    sensors: Sequence[str],
+    files: Sequence[Path],
+    *,
+    code_version: str,
+    created: str,
+    nonlinear: bool | None = None,
+) -> tuple[list[SensorCalibrations], list[ForceTorqueError]]:
+    """Fit sensors from the moments of a dataset.
+
+    Args:
+        dataset: The dataset.
+        sensors: Serial numbers or names.
+        files: File that `save` of each calibration writes.
+        code_version: As of `calibrate_sensor`.
+        created: As of `calibrate_sensor`.
+        nonlinear: As of `calibrate_sensor`.
+
+    Returns:
+        The calibrations of those that could be fitted, and the errors of the others.
+    """
+    results, refusals = [], []
+    for sensor, file in zip(sensors, files, strict=True):
+        try:
+            with stated_in(f"{dataset.folder}: sensor {sensor!r}"):
+                records = dataset.records(dataset.of_sensor(sensor))
+                made = calibrate_for_file(
+                    None,
+                    file,
+                    code_version=code_version,
+                    created=created,
+                    moments=dataset.moments(records),
+                    nonlinear=nonlinear,
+                )
+                doubts = dict.fromkeys(text for record in records for text in record.warnings)
+                results.append(made.model_copy(update={"warnings": (*doubts, *_others(made.warnings, doubts))}))
+        except ForceTorqueError as error:
+            refusals.append(error)
+    return results, refusals
+
+
+def _others(warnings: Sequence[str], said: Mapping[str, None]) -> list[str]:
+    return [text for text in warnings if text not in said]
+
+
+def _calibrate(dataset: Dataset, given: Mapping[str, Any]) -> None:
+    """The command `calibrate` with a dataset in place of experiment files."""
+    log = start_logging()
+    refuse_standard_output("--output", given["output"])
+    for option, name in (
+        ("--lambda", "regularisation"),
+        ("--type", "kind"),
+        ("--jointly", "jointly"),
+        ("--moments", "moments"),
+        ("--write-urdf", "write_urdf"),
+    ):
+        if given[name] and given[name] != "generative":
+            raise ExperimentError(f"{option}: {needs_samples(dataset, given['sensor'] or ())}")
+    refuse_figure(given["figure"], force=given["force"])
+    sensors = list(dict.fromkeys(given["sensor"] or dataset.serials))
+    names = [dataset.identity(sensor) for sensor in sensors]
+    files = calibration_files(given["output"], [(one.name, one.serial) for one in names])
+    declare_outputs(*filter(Path.exists, files), force=given["force"])
+    log.info("fitting %d sensor(s) of %s", len(sensors), dataset.folder)
+    results, refusals = calibrate_sensors(
+        dataset,
+        sensors,
+        files,
+        code_version=version("forcetorque"),
+        created=created_now(),
+        nonlinear=given["nonlinear"],
+    )
+    if results:
+        result = SensorCalibrations.together(results).save(force=given["force"])
+        if given["figure"] is not None:
+            from forcetorque.results.terminal.output import drawn_to
+
+            result = drawn_to(result, given["figure"])
+        show(result, given["output_format"], details=given["details"], experiments=[dataset.folder])
+    end_with(refusals)
+
+
+def _evaluate(dataset: Dataset, given: Mapping[str, Any]) -> None:
+    """The command `evaluate` with a dataset in place of experiment files."""
+    start_logging()
+    result = evaluate_dataset(dataset, read_calibrations(given["calibration"]))
+    show(result, given["output_format"], details=given["details"], experiments=[dataset.folder])
+
+
+COMMANDS: Final[Mapping[str, Callable[[Dataset, Mapping[str, Any]], None]]] = MappingProxyType(
+    {"calibrate": _calibrate, "evaluate": _evaluate}
+)
+"""Commands that take a dataset, and what they then do."""
+
+
+def needs_samples(dataset: Dataset, sensors: Sequence[str] = ()) -> str:
+    """Say that something needs samples, and where they are.
+
+    Args:
+        dataset: The dataset.
+        sensors: Serial numbers or names; none for all.
+
+    Returns:
+        The text, with the experiment files of the last recordings.
+    """
+    files = [file for sensor in sensors for file in dataset.of_sensor(sensor)] or list(dataset.files)
+    rows = sorted(dataset.rows(files, ["start_ns", "file"]), key=lambda row: (row["start_ns"], row["file"]))
+    names = list(dict.fromkeys(row["file"] for row in reversed(rows)))
+    more = f" and {len(names) - _MOST_LOGS} more" if len(names) > _MOST_LOGS else ""
+    return (
+        f"needs samples, which a dataset does not keep; name experiment files in place of {dataset.folder}: "
+        f"{', '.join(names[:_MOST_LOGS])}{more}"
+    )
+
+
+def run_from_dataset(command: str, folder: Path, given: Mapping[str, Any]) -> None:
+    """Run a command on a dataset.
+
+    Args:
+        command: Name of the command.
+        folder: Folder of the dataset.
+        given: What was typed, by name.
+
+    Raises:
+        ExperimentError: If the command needs samples.
+    """
+    dataset = Dataset.opened(folder)
+    if command not in COMMANDS:
+        raise ExperimentError(f"{folder}: {command} {needs_samples(dataset, given.get('sensor') or ())}")
+    COMMANDS[command](dataset, given)

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Work off a plan: add every recording, then calibrate and evaluate every sensor; errors of jobs are rows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib.metadata import version
+from pathlib import Path
+from typing import Annotated, Final, Literal
+
+from pydantic import Field
+
+from forcetorque.base.progress import Progress, TimeLeft
+from forcetorque.fleet.dataset import Dataset, is_dataset
+from forcetorque.fleet.failures import Failures
+from forcetorque.fleet.job import AddJob, CalibratedSensor, CalibrateJob, run_add, run_calibrate
+from forcetorque.fleet.plan_file import PlannedRecording, planned_recordings, read_plan
+from forcetorque.fleet.pool import Pool
+from forcetorque.fleet.sensor_record import AddOptions
+from forcetorque.results.answer import Answer, Concern, typed
+from forcetorque.results.result import Result, created_now
+from forcetorque.results.table import Row, Shown, Table, table_of
+
+_RETRY: Final = "--retry-failed"
+
+
+class FailedJob(Row):
+    """A recording that could not be added, or a sensor that could not be calibrated."""
+
+    job: Annotated[Literal["add", "calibrate"], Shown("job")]
+    """What failed."""
+    subject: Annotated[str, Shown("of", file=True)]
+    """Experiment file or log, or serial number."""
+    error: Annotated[str, Shown("error")]
+    """The error in one line."""
+    earlier: Annotated[bool, Shown("earlier")]
+    """Whether it failed in an earlier run and was not tried again."""
+
+
+class FleetRun(Result):
+    """What became of a plan."""
+
+    schema_name: Literal["forcetorque/fleet_run/1"] = Field(default="forcetorque/fleet_run/1", alias="schema")
+    """Form of the result."""
+    plan: str
+    """File of the plan."""
+    dataset: str
+    """Folder of the dataset."""
+    recordings: int
+    """Number of recordings of the plan."""
+    added: int
+    """Recordings that were added now."""
+    present: int
+    """Recordings that were in the dataset already."""
+    sensors: tuple[CalibratedSensor, ...]
+    """Sensors that were calibrated."""
+    failures: tuple[FailedJob, ...]
+    """What failed."""
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing failed."""
+        return not self.failures
+
+    def answers(self) -> Iterator[Answer]:
+        """Count what was done, and name what failed.
+
+        Yields:
+            One answer.
+        """
+        failed = sum(one.job == "add" for one in self.failures)
+        counts = [f"{self.added} ADDED", f"{self.present} THERE", f"{failed} FAILED"]
+        verdicts = {one.decision for one in self.sensors if one.decision is not None}
+        of_decision = [
+            f"{sum(one.decision == decision for one in self.sensors)} {decision}" for decision in sorted(verdicts)
+        ]
+        why = [f"{len(self.sensors)} sensors calibrated: {', '.join(of_decision) or 'no validation data'}"]
+        if not self.sensors:
+            why = []
+        if self.failures:
+            first = self.failures[0]
+            why.append(f"{len(self.failures)} failed, such as {first.subject}: {first.error}")
+        yield Answer(
+            subject=f"{self.plan}: {self.recordings} recordings",
+            verdict=", ".join(text for text in counts if not text.startswith("0 ")) or "NOTHING TO DO",
+            why=tuple(why),
+            step="Correct what failed, and try it again:" if self.failures else "Show the sensors, the worst first:",
+            command=(
+                typed("fleet", "run", self.plan, _RETRY) if self.failures else typed("fleet", "table", self.dataset)
+            ),
+            concern=Concern.BAD if self.failures else Concern.NONE,
+        )
+
+    def blocks(self) -> Iterator[Table]:
+        """List sensors and failures.
+
+        Yields:
+            Tables.
+        """
+        if self.sensors:
+            yield table_of(self.sensors, f"{self.dataset}: sensors")
+        if self.failures:
+            yield table_of(self.failures, "failed")
+
+    def records(self) -> list[dict[str, object]]:
+        """Give sensors and failures as flat records.
+
+        Returns:
+            Records of the sensors, then those of the failures.
+        """
+        return [row.flat() for row in (*self.sensors, *self.failures)]
+
+
+def run_plan(file: Path, pool: Pool, *, retry_failed: bool = False, progress: Progress = lambda _: None) -> FleetRun:
+    """Work off a plan; what an earlier run has done is not done again.
+
+    Args:
+        file: File of the plan.
+        pool: Where jobs run.
+        retry_failed: Whether recordings that failed in an earlier run are tried again.
+        progress: Called with a line for people as jobs are done.
+
+    Returns:
+        What was done and what failed.
+    """
+    plan, code_version = read_plan(file), version("forcetorque")
+    dataset = file.parent / plan.dataset
+    planned = planned_recordings(plan, file)
+    failures: list[FailedJob] = []
+    waiting = []
+    for one in planned:
+        kept = Failures(dataset=dataset, options=_options(one), code_version=code_version)
+        earlier = None if retry_failed else kept.of(one.source)
+        if earlier is None:
+            waiting.append((one, kept))
+        else:
+            failures.append(FailedJob(job="add", subject=earlier.file, error=earlier.error, earlier=True))
+    added = present = 0
+    left = TimeLeft(progress, f"{len(waiting)} recordings", len(waiting))
+    jobs = [AddJob(source=one.source, dataset=dataset, options=_options(one)) for one, _ in waiting]
+    for done, outcome in enumerate(pool.outcomes(run_add, jobs), start=1):
+        one, kept = waiting[outcome.index]
+        left.at(done)
+        if outcome.value is None:
+            error = outcome.error or ""
+            kept.keep(one.source, error)
+            failures.append(FailedJob(job="add", subject=str(one.source.path), error=error, earlier=False))
+            continue
+        kept.forget(one.source)
+        new = any(row.state == "added" for row in outcome.value)
+        added, present = added + new, present + (not new)
+    sensors: list[CalibratedSensor] = []
+    if plan.calibrations is not None and is_dataset(dataset):
+        folder = file.parent / plan.calibrations
+        for result in _calibrated(dataset, folder, pool, progress):
+            (sensors if isinstance(result, CalibratedSensor) else failures).append(result)  # type: ignore[arg-type]
+    return FleetRun(
+        plan=str(file),
+        dataset=str(dataset),
+        recordings=len(planned),
+        added=added,
+        present=present,
+        sensors=tuple(sorted(sensors, key=lambda row: (row.sensor, row.serial))),
+        failures=tuple(sorted(failures, key=lambda row: (row.job, row.subject))),
+    )
+
+
+def _options(planned: PlannedRecording) -> AddOptions:
+    return AddOptions(robot=planned.robot)
+
+
+def _calibrated(dataset: Path, folder: Path, pool: Pool, progress: Progress) -> Iterator[CalibratedSensor | FailedJob]:
+    serials = sorted(Dataset.opened(dataset).serials)
+    jobs = [
+        CalibrateJob(
+            serial=serial,
+            dataset=dataset,
+            folder=folder,
+            code_version=version("forcetorque"),
+            created=created_now(),
+        )
+        for serial in serials
+    ]
+    left = TimeLeft(progress, f"{len(jobs)} sensors", len(jobs))
+    for done, outcome in enumerate(pool.outcomes(run_calibrate, jobs), start=1):
+        left.at(done)
+        if outcome.value is not None:
+            yield outcome.value
+        else:
+            subject = serials[outcome.index]
+            yield FailedJob(job="calibrate", subject=subject, error=outcome.error or "", earlier=False)

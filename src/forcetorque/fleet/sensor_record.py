@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a dataset keeps of one sensor in one recording: moments, evaluation blocks, findings and provenance."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.output_file import real_path
+from forcetorque.base.stored_model import StoredTable
+from forcetorque.base.wrench import FORCE, MOMENT
+from forcetorque.calibration.calibrate import data_doubts
+from forcetorque.calibration.moments import recording_moments
+from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, joined, pairwise_sum
+from forcetorque.experiment.calibration.moments import Moments
+from forcetorque.experiment.calibration.provenance import SensorIdentity
+from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from forcetorque.experiment.calibration.stored_moments import RecordingMoments
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.fleet.evaluation_blocks import StoredEvaluation
+from forcetorque.inspection.findings import inspect_experiment
+from forcetorque.inspection.inspect import FindingRow, finding_rows
+from forcetorque.recording.recording import Finding, Use
+
+SCHEMA: Final = "forcetorque/dataset/1"
+"""Name and version of the form of a file."""
+
+
+class PriorError(StoredTable):
+    """Errors of the prior matrix about their mean in each interval, as sums that add up over recordings."""
+
+    samples: int = Field(ge=0)
+    """Number of samples."""
+    force_square_N2: float
+    """Sum of the squared norms of the force error."""
+    moment_square_Nm2: float
+    """The same of the moment error."""
+
+    @classmethod
+    def of(cls, prior: WrenchModel, parts: Sequence[Moments]) -> PriorError:
+        """Sum up errors.
+
+        Args:
+            prior: The prior matrix, with any offset.
+            parts: Moments of every interval.
+
+        Returns:
+            Their sums.
+        """
+        force = moment = 0.0
+        for part in parts:
+            error = np.hstack(
+                [prior.counted_from_zero(part.variables).matrix, np.zeros((6, part.variables)), -np.eye(6)]
+            )
+            square = part.count * np.einsum("ij,jk,ik->i", error, part.second, error)
+            force, moment = force + float(square[FORCE].sum()), moment + float(square[MOMENT].sum())
+        return cls(samples=sum(part.count for part in parts), force_square_N2=force, moment_square_Nm2=moment)
+
+
+class SensorRecord(StoredTable):
+    """One sensor in one recording; a row of a dataset."""
+
+    identity: SensorIdentity
+    """The sensor, with the robot of its robot model."""
+    experiment: str
+    """Name of the experiment."""
+    file: str
+    """Absolute path of the experiment file, or of the log that one was applied to, when it was added."""
+    recording: str = Field(pattern="^[0-9a-f]{64}$")
+    """SHA-256 of the contents of all input files, by which the recording is known under any path."""
+    inputs_sha256: dict[str, str]
+    """SHA-256 of every input file, by its path as the experiment names it."""
+    code_version: str
+    """Version of this library."""
+    start_ns: int
+    """Earliest stamp; ns on the recording's clock."""
+    end_ns: int
+    """Latest stamp."""
+    sensors: int = Field(ge=1)
+    """Number of sensors of the recording, each of which has a record."""
+    findings: tuple[FindingRow, ...]
+    """What `inspect` finds about the sensor and the streams that all sensors share."""
+    warnings: tuple[str, ...]
+    """What makes any fit on the calibration intervals doubtful, as text."""
+    prior_error: PriorError | None
+    """Errors of the prior matrix in all intervals that are fitted or evaluated; None without a prior or an interval."""
+    moments: RecordingMoments | None
+    """What a calibration needs, in blocks; None without a calibration interval."""
+    evaluation: StoredEvaluation | None
+    """What an evaluation needs, in blocks; None without a validation interval."""
+
+    @property
+    def date(self) -> str:
+        """Day of the earliest stamp, UTC; 1970-01-01 where stamps count from the start of a recording."""
+        return datetime.fromtimestamp(self.start_ns * 1e-9, UTC).date().isoformat()
+
+    @property
+    def duration_s(self) -> float:
+        """Time from the earliest to the latest stamp; s."""
+        return (self.end_ns - self.start_ns) * 1e-9
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AddOptions:
+    """What decides, beside the input files, what a dataset keeps of a recording."""
+
+    robot: str | None = None
+    """Name of the robot in the dataset; None for that of its robot model."""
+    block_s: float = BLOCK_S
+    """Longest block of moments; s."""
+
+    def digest(self, code_version: str) -> str:
+        """Hash options and version.
+
+        Args:
+            code_version: Version of this library.
+
+        Returns:
+            Eight hexadecimal digits.
+        """
+        text = json.dumps([SCHEMA, code_version, self.robot, self.block_s])
+        return hashlib.sha256(text.encode()).hexdigest()[:8]
+
+
+def recording_digest(experiment: Experiment) -> str:
+    """Hash the contents of all input files of an experiment.
+
+    Args:
+        experiment: The experiment.
+
+    Returns:
+        SHA-256 in hex.
+    """
+    text = json.dumps(sorted(experiment.inputs_sha256.items()))
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def sensor_records(experiment: Experiment, options: AddOptions, code_version: str) -> list[SensorRecord]:
+    """Reduce a recording to what a dataset keeps of it.
+
+    Args:
+        experiment: The experiment.
+        options: How.
+        code_version: Version of this library.
+
+    Returns:
+        A record per sensor.
+    """
+    findings = inspect_experiment(experiment)
+    return [_record(SensorRun(experiment, sensor), findings, options, code_version) for sensor in experiment.sensors]
+
+
+def _record(run: SensorRun, findings: Sequence[Finding], options: AddOptions, code_version: str) -> SensorRecord:
+    experiment = run.experiment
+    moments = recording_moments(run, block_s=options.block_s)[0] if run.has(Use.CALIBRATION) else None
+    evaluation = StoredEvaluation.of(run) if run.has(Use.VALIDATION) else None
+    start_ns, end_ns = experiment.recording.span_ns
+    others = {sensor.stream for sensor in experiment.sensors} - {run.sensor.stream}
+    return SensorRecord(
+        identity=run.identity,
+        experiment=experiment.name,
+        file=str(real_path(experiment.file)),
+        recording=recording_digest(experiment),
+        inputs_sha256=dict(experiment.inputs_sha256),
+        code_version=code_version,
+        start_ns=start_ns,
+        end_ns=end_ns,
+        sensors=len(experiment.sensors),
+        findings=finding_rows(start_ns, [finding for finding in findings if finding.stream not in others]),
+        warnings=() if moments is None else tuple(data_doubts(run)),
+        prior_error=_prior_error(run, moments, evaluation),
+        moments=moments,
+        evaluation=evaluation,
+    )
+
+
+def _prior_error(
+    run: SensorRun, moments: RecordingMoments | None, evaluation: StoredEvaluation | None
+) -> PriorError | None:
+    parts = [] if moments is None else [interval.moments for interval in joined(moments.intervals)]
+    blocks = () if evaluation is None else evaluation.blocks
+    for label in dict.fromkeys(block.interval for block in blocks):
+        parts.append(pairwise_sum([block.moments for block in blocks if block.interval == label]))
+    if run.sensor.prior is None or not parts:
+        return None
+    return PriorError.of(WrenchModel(matrix=run.sensor.prior, offset=np.zeros(6)), parts)
+
+
+def path_digest(file: Path) -> str:
+    """Hash the path of an experiment file.
+
+    Args:
+        file: The file.
+
+    Returns:
+        Twelve hexadecimal digits.
+    """
+    return hashlib.sha256(str(real_path(file)).encode()).hexdigest()[:12]

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where a recording comes from: an experiment file, or a log to which an experiment file is applied."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.output_file import real_path
+from forcetorque.base.toml_file import toml_content
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.input_files import InMemory, Inputs
+from forcetorque.experiment.loading import load_experiment, load_tables
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordingSource:
+    """One recording."""
+
+    experiment: Path
+    """Experiment file."""
+    log: Path | None = None
+    """Log that takes the place of `path` of its [recording]; None where the file has its own."""
+
+    @property
+    def path(self) -> Path:
+        """What tells it from others: the log, else the experiment file."""
+        return self.experiment if self.log is None else self.log
+
+    def load(self) -> Experiment:
+        """Read the recording.
+
+        Returns:
+            The experiment; of a log its name has that of the log, and its file is the log.
+
+        Raises:
+            ExperimentError: If the experiment file has no [recording] with a path.
+        """
+        if self.log is None:
+            return load_experiment(self.experiment)
+        tables = toml_content(self.experiment)[1]
+        recording = tables.get("recording")
+        if not isinstance(recording, dict) or "path" not in recording:
+            raise ExperimentError(
+                f"{self.experiment}: expected [recording] with path, in whose place logs are read, got none"
+            )
+        folder = real_path(self.experiment).parent
+        path = Path(os.path.relpath(real_path(self.log), folder)).as_posix()
+        named = tables | {"name": f"{tables.get('name')}, {self.log.stem}", "recording": recording | {"path": path}}
+        experiment = load_tables(named, InMemory(), folder=folder)
+        template = Inputs(folder)
+        template.file(Path(self.experiment.name))
+        return replace(
+            experiment,
+            file=self.log,
+            inputs_sha256=dict(sorted((experiment.inputs_sha256 | template.sha256()).items())),
+        )

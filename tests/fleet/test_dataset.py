@@ -1,0 +1,309 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A dataset of the simulated arm on three days: what is added, kept, calibrated and evaluated from it."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, FitError, FormatError, MissingFileError
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.evaluation.commands import evaluate
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.fleet.add import add_recording, add_recordings
+from forcetorque.fleet.columns import columns_of, rows_of, schema_of, unit_of
+from forcetorque.fleet.dataset import Dataset, is_dataset
+from forcetorque.fleet.evaluate import evaluate_dataset
+from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord
+from forcetorque.fleet.source import RecordingSource
+from forcetorque.fleet.table import fleet_table_of
+from tests.app.outcome import Run
+from tests.scenes.studies import CALIBRATION as _ALL_CALIBRATION
+from tests.scenes.studies import SERIAL, VALIDATION
+
+CALIBRATION = _ALL_CALIBRATION[2:]
+FILES = (*CALIBRATION, *VALIDATION)
+OPTIONS = AddOptions(block_s=3.0)
+"""Blocks so short that every interval has several."""
+SAME = 1e-12
+"""Rounding of sums in another order, over sizes."""
+
+
+@pytest.fixture(scope="module")
+def added(recorded: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Dataset of four recordings; nobody changes it."""
+    folder = tmp_path_factory.mktemp("fleet") / "dataset"
+    add_recordings([recorded / name for name in FILES], folder, OPTIONS)
+    return folder
+
+
+def _source(file: Path) -> RecordingSource:
+    return RecordingSource(experiment=file)
+
+
+def _in_order(dataset: Dataset, names: tuple[str, ...], folder: Path) -> list[SensorRun]:
+    """Runs of experiment files in the order in which the dataset has them."""
+    files = [Path(record.file).name for record in dataset.records(dataset.files)]
+    return [SensorRun(load_experiment(folder / name), "arm_ft") for name in sorted(names, key=files.index)]
+
+
+def _from_dataset(dataset: Dataset) -> Calibration:
+    moments = dataset.moments(dataset.records(dataset.of_sensor(SERIAL)))
+    return calibrate_sensor(None, code_version="1", created="2020", moments=moments)
+
+
+def _close(one: FloatArray, other: FloatArray) -> bool:
+    return float(np.abs(one - other).max()) <= SAME * float(np.abs(other).max())
+
+
+def test_calibration_is_that_of_the_logs(added: Path, recorded: Path) -> None:
+    """Matrix, offsets, coefficients, covariance, range and names; blocks put together are the intervals."""
+    dataset = Dataset.opened(added)
+    blocks = [record.moments.intervals for record in dataset.records(dataset.files) if record.moments is not None]
+    assert [len(one) > 1 for one in blocks] == [True] * len(CALIBRATION)
+    made = _from_dataset(dataset)
+    expected = calibrate_sensor(_in_order(dataset, CALIBRATION, recorded), code_version="1", created="2020")
+    assert made.posterior is not None
+    assert expected.posterior is not None
+    assert made.validity.loads is not None
+    assert expected.validity.loads is not None
+    for one, other in (
+        (made.matrix, expected.matrix),
+        (made.offset, expected.offset),
+        (made.variables[0].coefficients, expected.variables[0].coefficients),
+        (made.posterior.covariance, expected.posterior.covariance),
+        (made.validity.loads.maximum, expected.validity.loads.maximum),
+    ):
+        assert _close(one, other)
+    assert [one.name for one in made.sessions] == [one.name for one in expected.sessions]
+    assert made.provenance.intervals == expected.provenance.intervals
+    assert (made.provenance.samples, made.provenance.dropped) == (
+        expected.provenance.samples,
+        expected.provenance.dropped,
+    )
+
+
+def test_evaluation_is_that_of_the_logs(added: Path, recorded: Path) -> None:
+    """Errors per axis with either offset, of calibration and prior, and verdicts with their reasons."""
+    dataset = Dataset.opened(added)
+    calibration = _from_dataset(dataset)
+    made = evaluate_dataset(dataset, {"calibration": calibration})
+    validation = [record.file for record in dataset.records(dataset.files) if record.evaluation is not None]
+    runs = [SensorRun(load_experiment(file), "arm_ft") for file in validation]
+    expected = evaluate(runs, calibration)
+    assert len(made.errors) == len(expected.verdicts) == 4
+    for row, other in zip(made.errors, expected.verdicts, strict=True):
+        assert (row.calibration, row.offset, row.samples) == (other.calibration, other.offset, other.samples)
+        for name in ("rmse", "bias", "excitation_N", "load_Nm"):
+            assert np.allclose(getattr(row, name), getattr(other, name), rtol=1e-9, atol=1e-9)
+    assert made.load_cases
+    for use, verdict in zip(made.load_cases, expected.load_cases, strict=True):
+        assert (use.decision, use.message) == (verdict.decision, verdict.message)
+        assert [reason.text for reason in use.reasons] == [reason.text for reason in verdict.reasons]
+        assert use.errors[0].measured == pytest.approx(verdict.errors[0].measured, rel=1e-9)
+
+
+def test_comparison_with_the_prior_is_that_of_the_logs(added: Path, recorded: Path) -> None:
+    """A calibration that is made worse than its prior is found so by blocks as by samples."""
+    dataset = Dataset.opened(added)
+    fitted = _from_dataset(dataset)
+    spoilt = fitted.model_copy(update={"matrix": 1.3 * fitted.matrix})
+    made = evaluate_dataset(dataset, {"spoilt": spoilt}).load_cases
+    validation = [record.file for record in dataset.records(dataset.files) if record.evaluation is not None]
+    runs = [SensorRun(load_experiment(file), "arm_ft") for file in validation]
+    expected = evaluate(runs, {"spoilt": spoilt}).load_cases
+    assert [use.decision for use in made] == [use.decision for use in expected]
+    assert [[reason.against for reason in use.reasons] for use in made] == [
+        [reason.against for reason in use.reasons] for use in expected
+    ]
+    assert any("larger than that of its prior" in reason.text for use in made for reason in use.reasons)
+
+
+@pytest.mark.long
+def test_order_of_adding_changes_nothing(added: Path, recorded: Path, tmp_path: Path) -> None:
+    """Files of the same names, and the same calibration to the last bit."""
+    other = tmp_path / "other"
+    for name in reversed(FILES):
+        add_recording(_source(recorded / name), other, OPTIONS)
+    assert Dataset(other).present() == Dataset(added).present()
+    assert np.array_equal(_from_dataset(Dataset(other)).matrix, _from_dataset(Dataset(added)).matrix)
+
+
+def test_adding_again_changes_nothing(added: Path, recorded: Path, tmp_path: Path) -> None:
+    """Also from another folder; a file that a killed process left is not read, and no other one either."""
+    before = {path: path.stat().st_mtime_ns for path in added.rglob("*.parquet")}
+    moved = Path(shutil.copytree(recorded, tmp_path / "moved"))
+    for folder in (recorded, moved):
+        (row,) = add_recording(_source(folder / FILES[0]), added, OPTIONS)
+        assert row.state == "present"
+    half = next(iter(before)).with_name(".forcetorque-0123456789abcdef0123456789abcdef.tmp")
+    half.write_bytes(b"PAR1 half")
+    assert len(Dataset.opened(added).files) == len(FILES)
+    half.unlink()
+    assert {path: path.stat().st_mtime_ns for path in added.rglob("*.parquet")} == before
+
+
+def test_a_recording_that_changed_is_refused(days: Path, tmp_path: Path) -> None:
+    """Until it is to take the place of what was added; then it counts once."""
+    file, folder = days / FILES[2], tmp_path / "dataset"
+    add_recording(_source(file), folder, OPTIONS)
+    file.write_text(file.read_text(encoding="utf-8").replace("start_s = 0.5", "start_s = 1.0"), encoding="utf-8")
+    with pytest.raises(ExperimentError, match=rf"changed after it was added to .*: {FILES[2]}; --replace"):
+        add_recording(_source(file), folder, OPTIONS)
+    before = Dataset(folder).present()
+    (row,) = add_recording(_source(file), folder, OPTIONS, replace=True)
+    assert row.state == "added"
+    after = Dataset(folder).present()
+    assert len(after) == 1
+    assert after != before
+
+
+def test_other_options_take_the_place(days: Path, tmp_path: Path) -> None:
+    """A recording counts once, whichever options and versions it was added with."""
+    folder = tmp_path / "dataset"
+    add_recording(_source(days / FILES[2]), folder, OPTIONS)
+    add_recording(_source(days / FILES[2]), folder, AddOptions())
+    assert len(list(folder.rglob("*.parquet"))) == 1
+
+
+def test_serial_number_of_two_robots_is_refused(days: Path, tmp_path: Path) -> None:
+    """When it is added, and where both were added at once."""
+    folder, other = tmp_path / "dataset", tmp_path / "other"
+    add_recording(_source(days / FILES[2]), folder, AddOptions(robot="r1"))
+    with pytest.raises(ExperimentError, match=f"got '{SERIAL}', which the dataset has of robot 'r1', here it is of"):
+        add_recording(_source(days / FILES[3]), folder, AddOptions(robot="r2"))
+    add_recording(_source(days / FILES[3]), other, AddOptions(robot="r2"))
+    shutil.copytree(other, folder, dirs_exist_ok=True)
+    with pytest.raises(ExperimentError, match="on one robot, got it on r1 and r2"):
+        Dataset.opened(folder).of_sensor(SERIAL)
+
+
+def test_newer_version_and_damaged_files_are_named(added: Path, tmp_path: Path) -> None:
+    """Each in one error with the file."""
+    folder = Path(shutil.copytree(added, tmp_path / "dataset"))
+    file = next(folder.rglob("*.parquet"))
+    whole = pq.read_table(file)
+    pq.write_table(whole.replace_schema_metadata({"schema": "forcetorque/dataset/2"}), file)
+    with pytest.raises(FormatError, match=r"expected a dataset of the form .*, got forcetorque/dataset/2, of a newer"):
+        fleet_table_of(folder)
+    pq.write_table(whole.replace_schema_metadata({}), file)
+    with pytest.raises(FormatError, match="got another Parquet file"):
+        fleet_table_of(folder)
+    file.write_bytes(b"PAR1 cut")
+    with pytest.raises(FormatError, match=rf"{file.name}: expected a file of the form {SCHEMA}, got"):
+        fleet_table_of(folder)
+    with pytest.raises(MissingFileError, match="expected a dataset"):
+        Dataset.opened(tmp_path / "none")
+
+
+def test_unknown_sensors_are_refused(added: Path) -> None:
+    """With those that are there; a name stands for a serial number where one sensor has it."""
+    dataset = Dataset.opened(added)
+    with pytest.raises(ExperimentError, match=f"no sensor has the serial number 'SIM002'; did you mean.*{SERIAL}"):
+        dataset.of_sensor("SIM002")
+    assert dataset.identity("arm_ft").serial == SERIAL
+
+
+def test_table_has_the_errors_of_all_recordings(added: Path, recorded: Path) -> None:
+    """Root mean squares about the means of intervals, by the prior matrix."""
+    (row,) = fleet_table_of(added).sensors
+    squares, samples = 0.0, 0
+    for name in FILES:
+        run = SensorRun(load_experiment(recorded / name), "arm_ft")
+        (interval,) = run.experiment.recording.intervals
+        part = run.interval_samples(interval, variables=["temperature"])
+        assert run.sensor.prior is not None
+        error = (part.raw @ run.sensor.prior.T - part.samples.reference)[:, :3]
+        squares, samples = squares + float(((error - error.mean(axis=0)) ** 2).sum()), samples + len(error)
+    assert (row.recordings, row.samples) == (len(FILES), samples)
+    assert row.times_median == pytest.approx(1.0)
+    assert row.prior_force_error_N == pytest.approx(np.sqrt(squares / samples), rel=1e-9)
+
+
+def test_numbers_have_units(added: Path) -> None:
+    """In the metadata of the fields of every file, also of nested ones; negative control: a field of no unit."""
+
+    def numbers(field: pa.Field) -> list[pa.Field]:
+        kind, inner = field.type, field
+        while pa.types.is_list(kind):
+            kind = kind.value_type
+        if pa.types.is_struct(kind):
+            return [one for k in range(kind.num_fields) for one in numbers(kind.field(k))]
+        return [inner] if pa.types.is_floating(kind) else []
+
+    schema = pq.read_schema(next(added.rglob("*.parquet")))
+    assert schema.metadata[b"schema"].decode() == SCHEMA
+    found = [one for field in schema for one in numbers(field)]
+    assert len(found) > 30
+    assert {one.name for one in found if not (one.metadata or {}).get(b"unit")} == set()
+    assert unit_of("label") is None
+
+
+def test_records_survive_a_file(added: Path) -> None:
+    """Every field of a record, through columns and back."""
+    dataset = Dataset.opened(added)
+    records = dataset.records(dataset.files)
+    again = [SensorRecord.model_validate(row) for row in rows_of(SensorRecord, columns_of(SensorRecord, records))]
+    assert again == records
+    assert {column.name for column in schema_of(SensorRecord)} == set(SensorRecord.model_fields)
+
+
+@pytest.mark.long
+def test_duckdb_and_polars_read_it(added: Path) -> None:
+    """As it is: partitions as columns, blocks as nested ones."""
+    duckdb = pytest.importorskip("duckdb")
+    polars = pytest.importorskip("polars")
+    pattern = f"{added}/*/*/*/*.parquet"
+    (count, blocks), *_ = duckdb.sql(
+        f"select count(*), sum(len(moments.intervals)) from read_parquet('{pattern}', hive_partitioning=true) "
+        f"where sensor = '{SERIAL}'"
+    ).fetchall()
+    records = Dataset(added).records(Dataset(added).files)
+    kept = sum(len(record.moments.intervals) for record in records if record.moments is not None)
+    assert (count, blocks) == (len(FILES), kept)
+    frame = polars.read_parquet(pattern, hive_partitioning=True)
+    assert frame["sensor"].unique().to_list() == [SERIAL]
+    assert frame.explode("findings").height >= len(FILES)
+
+
+def test_commands(added: Path, recorded: Path, tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Add, table, calibrate and evaluate as they are typed; a command that needs samples names the log."""
+    monkeypatch.chdir(tmp_path)
+    log = str(recorded / FILES[2])
+    first = run("fleet", "add", log, "--into", "mine", "--format", "json").result()
+    assert [row["state"] for row in first["sensors"]] == ["added"]
+    assert "ALREADY THERE" in run("fleet", "add", log, "--into", "mine").out
+    assert is_dataset(tmp_path / "mine")
+    assert run("fleet", "table", str(added), "--format", "csv").rows()[0]["serial"] == SERIAL
+    answer = run("calibrate", str(added), "--sensor", SERIAL, "-o", "c.json")
+    assert answer.code == 0, answer.err
+    evaluated = run("evaluate", str(added), "-c", "c.json", "--format", "json").result()
+    assert evaluated["schema"] == "forcetorque/evaluate_dataset/1"
+    assert evaluated["load_cases"]
+    shown = run("evaluate", str(added), "-c", "c.json")
+    assert len(shown.out.splitlines()) <= 12
+    assert "need the log" in run("evaluate", str(added), "-c", "c.json", "--details").out
+    assert "inspect needs samples" in run("inspect", str(added)).error()
+    assert f"{recorded}" in run("study", "sphere", str(added)).error()
+    assert "needs samples" in run("calibrate", str(added), "-o", "d.json", "--type", "SnTdTO").error()
+    assert "a dataset alone" in run("evaluate", str(added), log, "-c", "c.json").error()
+    assert 'expected an interval with use = "calibration"' in run("calibrate", "mine", "-o", "d.json").err
+
+
+def test_quadratic_terms_need_samples(added: Path) -> None:
+    """A calibration that has them is refused with the log that it can be evaluated on."""
+    from forcetorque.experiment.calibration.quadratic_correction import QuadraticCorrection
+
+    dataset = Dataset.opened(added)
+    plain = _from_dataset(dataset)
+    quadratic = QuadraticCorrection.model_construct()
+    with pytest.raises(FitError, match="quadratic terms need samples"):
+        evaluate_dataset(dataset, {"c": plain.model_copy(update={"quadratic": quadratic})})
