@@ -14,7 +14,6 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import groupby
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -144,10 +143,12 @@ class LeRobotDataset:
         """Go through the files of frames.
 
         Yields:
-            Each file with its episodes, in the order of their numbers.
+            Each file once, with its episodes in the order of their numbers.
         """
-        for file, episodes in groupby(self.episodes, key=lambda episode: episode.file):
-            yield file, tuple(episodes)
+        files: dict[Path, list[Episode]] = {}
+        for episode in self.episodes:
+            files.setdefault(episode.file, []).append(episode)
+        yield from ((file, tuple(episodes)) for file, episodes in files.items())
 
     def feature(self, name: str) -> Feature:
         """Find a feature that has numbers.
