@@ -47,7 +47,7 @@ GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
     ),
     "dataset": (
         "Examine and compensate the forces of datasets for learning.",
-        {"check": "check-dataset"},
+        {"check": "check-dataset", "compensate": "compensate-dataset"},
     ),
     "study": (
         "Compare estimation types, trials and sensors.",

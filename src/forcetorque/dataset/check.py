@@ -125,9 +125,8 @@ def _gravity(
     if turned is None:
         return None, ""
     own = values[:, [labels.index(label) for label in turned.labels]]
-    own = np.where(np.isfinite(own).all(axis=1, keepdims=True), own, np.nan)
     try:
-        return turned.gravity(own, place), ""
+        return turned.turned(own, place)[1], ""
     except FormatError as error:
         return None, f"weight and bias of an episode: {error}"
 

@@ -23,8 +23,11 @@ _FEWEST = 12
 _LEAST_TURN = 0.05
 """Least standard deviation of the direction of gravity along the second of its principal axes (heuristic): where it
 turns less, weight and bias are not separable."""
-_ROUNDS, _TUNED = 10, 1.345
-"""Rounds of weights by Huber, and the residual, in standard deviations, from which on a frame counts less."""
+_ROUNDS, _TUNED, _SETTLED = 10, 1.345, 1e-6
+"""Most rounds of weights by Huber, the residual, in standard deviations, from which on a frame counts less, and the
+change of the slope that ends them."""
+_MEDIAN_NORM = 1.538
+"""Median norm of three standard normal numbers (`scipy.special.gammaincinv(1.5, 0.5)`, doubled, its root)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,6 +36,8 @@ class EqualRun:
 
     component: int
     """Number of the component."""
+    first: int
+    """Its first frame."""
     frames: int
     """Number of frames."""
     value: float
@@ -114,11 +119,15 @@ def examined(
     if n and known.any():
         smallest[known], largest[known] = np.nanmin(shown[:, known], axis=0), np.nanmax(shown[:, known], axis=0)
     constant = np.where(known & (smallest == largest), smallest, np.nan)
-    runs = tuple(run for k in np.flatnonzero(known & np.isnan(constant)) for run in _runs(int(k), shown, rate_hz))
+    runs = tuple(run for k in np.flatnonzero(known & np.isnan(constant)) for run in equal_runs(int(k), shown, rate_hz))
+    sound = shown.copy()  # what is stuck is neither noise nor weight, and neither are the jumps at its ends
+    for run in runs:
+        sound[run.first : run.first + run.frames, run.component] = np.nan
     noise = np.full(width, np.nan)
     if n:
-        variance = white_variance(even_stamps(n, rate_hz=rate_hz, start_s=0.0), shown)
+        variance = white_variance(even_stamps(n, rate_hz=rate_hz, start_s=0.0), sound)
         noise = np.where(variance > 0.0, np.sqrt(variance), np.nan)
+    weighs = gravity is not None and is_wrench and bool(np.isnan(constant[:3]).all())
     force_size, lever = _sizes(shown) if is_wrench and n and finite.all(axis=1).any() else (np.nan, np.nan)
     return EpisodeField(
         episode=episode,
@@ -133,12 +142,21 @@ def examined(
         runs=runs,
         force_size=force_size,
         lever=lever,
-        weight=None if gravity is None or not is_wrench else weight_fit(shown, gravity),
+        weight=weight_fit(sound, gravity) if weighs and gravity is not None else None,
     )
 
 
-def _runs(component: int, values: FloatArray, rate_hz: float) -> list[EqualRun]:
-    """Runs that the values elsewhere in the episode make unlikely."""
+def equal_runs(component: int, values: FloatArray, rate_hz: float) -> list[EqualRun]:
+    """Find runs of equal values that the values elsewhere in the episode make unlikely.
+
+    Args:
+        component: Number of the component.
+        values: Frames of the field; shape (n, k); NaN in gaps.
+        rate_hz: Frames per second.
+
+    Returns:
+        The runs, during which another component changes where there is one.
+    """
     column = values[:, component]
     same = np.diff(column) == 0.0
     least = max(_SHORTEST_FRAMES, round(_SHORTEST_S * rate_hz))
@@ -155,7 +173,7 @@ def _runs(component: int, values: FloatArray, rate_hz: float) -> list[EqualRun]:
         if len(same) * share ** (last - first) < _BY_CHANCE:
             value = float(column[first])
             at_end = bool(value in (np.nanmin(column), np.nanmax(column)))
-            kept.append(EqualRun(component=component, frames=last - first + 1, value=value, at_end=at_end))
+            kept.append(EqualRun(component=component, first=first, frames=last - first + 1, value=value, at_end=at_end))
     return kept
 
 
@@ -216,14 +234,16 @@ def weight_fit(wrench: FloatArray, gravity: FloatArray) -> WeightFit | None:
     if np.count_nonzero(usable) < _FEWEST or not _turns(gravity[usable] / size[usable]):
         return None
     down = gravity / size
-    weight, error, bias, bias_error, left = _fitted(wrench[usable, :3], down[usable])
+    weight, error, bias, bias_error, weights, left = _fitted(wrench[usable, :3], down[usable])
+    of_frames = np.zeros(len(down))
+    of_frames[usable] = weights
     lags = range(-min(_LAGS, len(down) // 4), min(_LAGS, len(down) // 4) + 1)
     residuals = {0: left}
     for lag in lags if weight != 0.0 else ():
         ahead, behind = down[max(0, -lag) : len(down) - max(0, lag)], slice(max(0, lag), len(down) + min(0, lag))
         both = usable[behind] & np.isfinite(ahead).all(axis=1)
         if np.count_nonzero(both) >= _FEWEST and _turns(ahead[both]):
-            residuals[lag] = _fitted(wrench[behind, :3][both], ahead[both])[4]
+            residuals[lag] = float(np.median(_line(wrench[behind, :3][both], ahead[both], of_frames[behind][both])[3]))
     best = min(residuals, key=lambda lag: (residuals[lag], abs(lag)))
     late = best if residuals[best] < _CLEARLY * left else 0
     return WeightFit(
@@ -240,29 +260,35 @@ def _turns(down: FloatArray) -> bool:
     return bool(np.linalg.svd(down - down.mean(axis=0), compute_uv=False)[1] > _LEAST_TURN * np.sqrt(len(down)))
 
 
-def _fitted(force: FloatArray, down: FloatArray) -> tuple[float, float, FloatArray, FloatArray, float]:
-    """Weight, its error, bias, its errors, and the median size of what is left."""
+def _line(force: FloatArray, down: FloatArray, weights: FloatArray) -> tuple[float, FloatArray, float, FloatArray]:
+    """Weight and bias by least squares, the sum of squares that determines the weight, and sizes of what is left."""
+    share = weights / weights.sum()
+    mean_down, mean_force = share @ down, share @ force
+    turned = down - mean_down
+    moment = float(weights @ (turned**2).sum(axis=1))
+    slope = float(weights @ (turned * (force - mean_force)).sum(axis=1)) / moment
+    bias = mean_force - slope * mean_down
+    return slope, bias, moment, np.linalg.norm(force - slope * down - bias, axis=1)
+
+
+def _fitted(force: FloatArray, down: FloatArray) -> tuple[float, float, FloatArray, FloatArray, FloatArray, float]:
+    """Weight, its error, bias, its errors, weights of the frames, and the median size of what is left."""
     weights = np.ones(len(force))
-    slope, bias, left = 0.0, np.zeros(3), np.zeros(len(force))
-    scale, moment, total = 0.0, 1.0, 1.0
-    for _ in range(_ROUNDS):
-        total = float(weights.sum())
-        mean_down = weights @ down / total
-        mean_force = weights @ force / total
-        turned = down - mean_down
-        moment = float(weights @ (turned**2).sum(axis=1))
-        slope = float(weights @ (turned * (force - mean_force)).sum(axis=1)) / moment
-        bias = mean_force - slope * mean_down
-        left = np.linalg.norm(force - slope * down - bias, axis=1)
-        scale = float(np.median(left)) / 1.538  # median norm of three standard normal numbers
-        if scale <= 0.0:
-            break
+    slope, bias, moment, left = _line(force, down, weights)
+    scale = float(np.median(left)) / _MEDIAN_NORM
+    for _ in range(_ROUNDS if scale > 0.0 else 0):
         weights = np.minimum(1.0, _TUNED * np.sqrt(3.0) * scale / np.maximum(left, 1e-300))
+        before = slope
+        slope, bias, moment, left = _line(force, down, weights)
+        scale = float(np.median(left)) / _MEDIAN_NORM
+        if abs(slope - before) <= _SETTLED * abs(slope):
+            break
     # neighbouring frames go together where contacts last: fewer of them count
     residual = force - slope * down - bias
     products = float((residual[1:] * residual[:-1]).sum()) / max(float((residual**2).sum()), 1e-300)
     together = min(max(products, 0.0), 0.95)
     inflated = scale * np.sqrt((1.0 + together) / (1.0 - together))
     error = inflated / np.sqrt(moment)
+    total = float(weights.sum())
     bias_error = inflated * np.sqrt(1.0 / total + (weights @ down / total) ** 2 / moment)
-    return slope, float(error), bias, np.asarray(bias_error), float(np.median(left))
+    return slope, float(error), bias, np.asarray(bias_error), weights, float(np.median(left))

@@ -102,6 +102,21 @@ def wrench_field(dataset: LeRobotDataset, name: str | None) -> ForceField:
     )
 
 
+def any_field(dataset: LeRobotDataset, name: str | None) -> ForceField:
+    """Find the raw measurement that a calibration reads.
+
+    Args:
+        dataset: The dataset.
+        name: Name of its feature; the only wrench of the dataset if None.
+
+    Returns:
+        The field.
+    """
+    if name is None:
+        return wrench_field(dataset, None)
+    return ForceField(name=name, labels=dataset.feature(name).labels, is_wrench=False)
+
+
 def _wrenches(dataset: LeRobotDataset) -> Iterator[ForceField]:
     labels = [label for label, (feature, _) in dataset.labels.items() if not feature.name.startswith(_COMMANDED)]
     for match in column_matches([read_heading(label) for label in labels], ()):
@@ -134,28 +149,30 @@ class OrientationField:
     layout: OrientationLayout
     """What they mean."""
 
-    def gravity(self, values: FloatArray, place: str) -> FloatArray:
-        """Give gravity along the axes of the sensor.
+    def turned(self, values: FloatArray, place: str) -> tuple[FloatArray, FloatArray]:
+        """Give orientations and gravity.
 
         Args:
-            values: Orientations; shape (n, k); NaN where there is none.
+            values: Orientations; shape (n, k); a row with a gap is none.
             place: What is named in front of errors.
 
         Returns:
-            Shape (n, 3); m/s2; NaN where there is no orientation.
+            `world_R_sensor`, shape (n, 3, 3); and gravity along the axes of the sensor, shape (n, 3), m/s2; NaN where
+            there is no orientation.
 
         Raises:
             FormatError: If a row is no orientation.
         """
         signals, _ = orientation_signals(
-            values.copy(),
+            np.where(np.isfinite(values).all(axis=1, keepdims=True), values, np.nan),
             self.layout,
             unit="1",
             frame="sensor",
             stream=self.name,
             place=lambda row: f"{place}: frame {row}",
         )
-        return np.asarray(signals["gravity"].values)
+        turned = np.asarray(signals["orientation"].values).reshape(-1, 3, 3)
+        return turned, np.asarray(signals["gravity"].values)
 
 
 def orientation_candidates(dataset: LeRobotDataset) -> dict[str, tuple[tuple[str, ...], OrientationForm]]:

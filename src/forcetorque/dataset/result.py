@@ -163,7 +163,8 @@ class DatasetCheck(Result):
         Returns:
             A record per finding.
         """
-        return [row.flat() | {"episodes": episodes_text(row.episodes)} for row in self.findings]
+        named = [(row, episodes_text(row.episodes)) for row in self.findings]
+        return [row.model_copy(update={"episodes": ()}).flat() | {"episodes": text} for row, text in named]
 
     def columns(self) -> list[str]:
         """Name the columns of the CSV.

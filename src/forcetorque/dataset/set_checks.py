@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.base.units import SI_FACTORS, STANDARD_GRAVITY, si_factor
 from forcetorque.dataset.episode_checks import EpisodeField, EqualRun
 from forcetorque.dataset.force_fields import ForceField
 from forcetorque.dataset.result import DatasetFinding, Kind
@@ -35,8 +35,8 @@ _LARGEST_FORCE = 3000.0
 """95 % quantile of the force from which on it is no force of an arm in N."""
 _MASS_BAND = 1.5
 """Factor by which the weight may differ from that of the stated mass."""
-_UNITS_OF_FORCE = {"N": 1.0, "mN": 1e3, "kN": 1e-3, "kgf": 1.0 / STANDARD_GRAVITY, "lbf": 1.0 / 4.4482216152605}
-"""Numbers that 1 N is in units that loggers write."""
+_UNITS_OF_FORCE = {unit: 1.0 / factor for unit, (si_unit, factor) in SI_FACTORS.items() if si_unit == "N"}
+"""Number that 1 N is in each unit that loggers write."""
 
 
 def set_findings(
@@ -230,8 +230,6 @@ def _units(field: ForceField, episodes: Sequence[EpisodeField], mass_kg: float |
 
 def _lever_factor(force: str, moment: str) -> float:
     """From the quotient of moment and force in stated units to m."""
-    from forcetorque.base.units import si_factor
-
     return si_factor(moment)[1] / si_factor(force)[1]
 
 
