@@ -15,7 +15,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.errors import FitError, FormatError, OutputError, UnitError
-from forcetorque.dataset import added_features, compensate, compensate_dataset
+from forcetorque.dataset import added_features, check_dataset, compensate, compensate_dataset
 from forcetorque.dataset.compensate import Measurement
 from forcetorque.dataset.force_fields import orientation_field, wrench_field
 from forcetorque.dataset.tool import Tool
@@ -73,6 +73,8 @@ def test_what_is_left_is_noise_in_a_loadable_copy(tmp_path: Path, known: Tool, v
     (load,) = compensate_dataset(root, tmp_path / "out", **STATED).loads
     assert _digests(root) == before
     assert video.is_file()
+    check = check_dataset(tmp_path / "out", sense="sensor_to_world")
+    assert (check.fields, check.findings) == (("observation.wrench", ADDED), ())
     frames = require_loadable(tmp_path / "out")
     left, deviation = frames[ADDED], frames[f"{ADDED}_std"]
     np.testing.assert_allclose(left.std(axis=0), NOISE, rtol=0.2)  # of 300 samples, beside the error of the tool

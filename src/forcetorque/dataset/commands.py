@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.errors import ForceTorqueError, FormatError
 from forcetorque.results.command import Option, Saved, command
 
 if TYPE_CHECKING:
@@ -46,9 +46,9 @@ def check_dataset(
     ] = None,
     progress: "Progress" = lambda _: None,
 ) -> "DatasetCheck":
-    """Find dead, stuck, saturated, noisy, late, biased and drifting forces in a dataset.
+    """Find dead, stuck, late, biased and drifting forces in a dataset.
 
-    Example: forcetorque dataset check my_dataset --sense sensor_to_world --html check.html
+    Example: forcetorque dataset check my_dataset --sense sensor_to_world
 
     Python: `dataset.check_dataset("my_dataset", sense="sensor_to_world")`
 
@@ -93,14 +93,17 @@ def compensate_dataset(
         "Path | str", Option("Folder to make: a copy with two features more.", "--output", "-o", folder=True)
     ],
     *,
-    sense: Annotated[str, Option("What the rotation of the orientation does.", choices=_SENSES)],
+    sense: Annotated[
+        str | None, Option("What the rotation of the orientation does; never inferred.", choices=_SENSES)
+    ] = None,
     direction: Annotated[
-        str,
+        str | None,
         Option(
-            "Who acts on whom in the measurement: child_to_parent if a hanging tool reads down, else parent_to_child.",
+            "Who acts on whom in the measurement, never inferred: child_to_parent if a hanging tool reads down, else "
+            "parent_to_child.",
             choices=_DIRECTIONS,
         ),
-    ],
+    ] = None,
     feature: Annotated[str | None, Option("Feature with the measured wrench. Default: the only wrench.")] = None,
     force_unit: Annotated[str | None, Option("Unit of its forces, such as N. Default: by their names.")] = None,
     moment_unit: Annotated[str | None, Option("Unit of its moments, such as 'N m'. Default: by their names.")] = None,
@@ -150,8 +153,7 @@ def compensate_dataset(
 ) -> "CompensatedDataset":
     """Add the wrench without the weight and bias of the tool to a copy.
 
-    Example: forcetorque dataset compensate my_dataset -o compensated --sense sensor_to_world
-    --direction child_to_parent --force-unit N --moment-unit "N m"
+    Example: forcetorque dataset compensate data -o new --sense sensor_to_world
 
     Python: `dataset.compensate_dataset("my_dataset", "compensated", sense="sensor_to_world",
     direction="child_to_parent", force_unit="N", moment_unit="N m")`
@@ -160,7 +162,7 @@ def compensate_dataset(
         What was taken off and added.
 
     Raises:
-        FormatError: If the dataset is damaged, or lacks an orientation.
+        FormatError: If the dataset is damaged, lacks an orientation, or sense and direction are not given.
         UnitError: If units are neither given nor in the names.
         FitError: If the episodes do not determine weight and bias.
         OutputError: If the output is in the dataset, or the feature is there already.
@@ -175,6 +177,11 @@ def compensate_dataset(
 
     options: dict[str, Any] = {key: value for key, value in locals().items() if isinstance(value, str | float | bool)}
     dataset = read_dataset(Path(folder))
+    if sense is None or direction is None:
+        raise FormatError(
+            f"{folder}: expected --sense, sensor_to_world if the orientation turns vectors along the sensor's axes to "
+            "the world's, and --direction, child_to_parent if a hanging tool reads down: the format has neither"
+        )
     read = read_calibration(calibration) if isinstance(calibration, Path | str) else calibration
     options |= {"load": None if load is None else Path(load).read_text(encoding="utf-8"), "pose": pose}
     options["calibration"] = None if read is None else repr(read)

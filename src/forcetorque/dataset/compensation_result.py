@@ -22,8 +22,8 @@ _CONTACTS = 0.2
 class CompensatedDataset(Result):
     """A dataset with the wrench that the tool's weight and bias were taken off."""
 
-    schema_name: Literal["forcetorque/dataset_compensate/1"] = Field(
-        default="forcetorque/dataset_compensate/1", alias="schema"
+    schema_name: Literal["forcetorque/compensate_dataset/1"] = Field(
+        default="forcetorque/compensate_dataset/1", alias="schema"
     )
     """Form of the result."""
     source: str

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, FloatArray, array
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
 from forcetorque.formats.signals import even_stamps
 from forcetorque.recording.frozen_and_saturated_samples import flat_tops, ranges_of, white_variance
 from forcetorque.recording.stream_faults import true_runs
@@ -230,7 +230,7 @@ def weight_fit(wrench: FloatArray, gravity: FloatArray) -> WeightFit | None:
         Weight, bias and lag; None where gravity turns too little, or there are too few frames.
     """
     size = np.linalg.norm(gravity, axis=1, keepdims=True)
-    usable = np.isfinite(wrench).all(axis=1) & np.isfinite(gravity).all(axis=1)
+    usable: BoolArray = np.isfinite(np.hstack([wrench, gravity])).all(axis=1)
     if np.count_nonzero(usable) < _FEWEST or not _turns(gravity[usable] / size[usable]):
         return None
     down = gravity / size

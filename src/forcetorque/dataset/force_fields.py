@@ -19,6 +19,8 @@ from forcetorque.inspection.draft.streams import array_words, column_matches
 from forcetorque.recording.frames import OrientationForm, OrientationLayout, OrientationSense, orientation_signals
 
 _WORDS = {"wrench", "force", "forces", "torque", "torques", "moment", "moments", "effort", "ft", "tau"}
+_OF_ERRORS = {"std", "stddev", "sigma", "covariance"}
+"""Words of features that are errors of forces."""
 _COMMANDED = "action"
 """What the names of features begin with that were commanded, not measured."""
 
@@ -135,7 +137,8 @@ def _feature_of(dataset: LeRobotDataset, field: ForceField) -> Feature:
 
 
 def _is_force(feature: Feature) -> bool:
-    return not feature.name.startswith(_COMMANDED) and bool(_WORDS & set(array_words(feature.name)))
+    words = set(array_words(feature.name))
+    return not feature.name.startswith(_COMMANDED) and bool(_WORDS & words) and not _OF_ERRORS & words
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -109,7 +109,7 @@ class EpisodeFieldRow(Row):
 class DatasetCheck(Result):
     """What is wrong with the forces of a dataset."""
 
-    schema_name: Literal["forcetorque/dataset_check/1"] = Field(default="forcetorque/dataset_check/1", alias="schema")
+    schema_name: Literal["forcetorque/check_dataset/1"] = Field(default="forcetorque/check_dataset/1", alias="schema")
     """Form of the result."""
     source: str
     """Folder of the dataset."""

@@ -217,10 +217,10 @@ def read_dataset(root: Path) -> LeRobotDataset:
         FormatError: If the description is damaged, or of another version.
     """
     file = root / INFO
-    require_file(file, "the description of a LeRobot dataset")
+    require_file(file, "a description of a LeRobot dataset")
     if file.stat().st_size > _MOST_INFO:
         raise FormatError(f"{file}: expected at most {_MOST_INFO >> 20} MiB, got {file.stat().st_size >> 20} MiB")
-    info = _json(read_text(file, "the description of a LeRobot dataset"), str(file))
+    info = _json(read_text(file, "a description of a LeRobot dataset"), str(file))
     version = info.get("codebase_version")
     if version not in EPISODES:
         raise FormatError(
