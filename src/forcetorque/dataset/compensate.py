@@ -27,6 +27,7 @@ from forcetorque.dataset.frames import EpisodeBlocks, episode_frames, whole_numb
 from forcetorque.dataset.resumable_folder import resumable_folder
 from forcetorque.dataset.tool import KnownLoad, Tool, ToolSamples, identified
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.input_files import stated_in
 from forcetorque.formats.lerobot.dataset import INFO, Episode, LeRobotDataset, frame_batches
 from forcetorque.formats.lerobot.log_format import frame_numbers
 from forcetorque.formats.signals import even_stamps
@@ -220,14 +221,15 @@ def _identified(dataset: LeRobotDataset, request: Request, progress: Progress) -
         samples.add(episode.index, wrench[:most], gravity[:most], turned[:most], usable[:most])
         frames += episode.frames
         left.at(frames)
-    tool = identified(
-        samples,
-        noises,
-        known=request.known,
-        direction=request.direction,
-        mount=request.mount,
-        by_episode=request.by_episode,
-    )
+    with stated_in(str(dataset.root)):
+        tool = identified(
+            samples,
+            noises,
+            known=request.known,
+            direction=request.direction,
+            mount=request.mount,
+            by_episode=request.by_episode,
+        )
     return tool, left_out
 
 

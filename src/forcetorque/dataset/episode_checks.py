@@ -230,7 +230,7 @@ def weight_fit(wrench: FloatArray, gravity: FloatArray) -> WeightFit | None:
         Weight, bias and lag; None where gravity turns too little, or there are too few frames.
     """
     size = np.linalg.norm(gravity, axis=1, keepdims=True)
-    usable: BoolArray = np.isfinite(np.hstack([wrench, gravity])).all(axis=1)
+    usable: BoolArray = np.asarray(np.isfinite(np.hstack([wrench, gravity])).all(axis=1))
     if np.count_nonzero(usable) < _FEWEST or not _turns(gravity[usable] / size[usable]):
         return None
     down = gravity / size

@@ -114,8 +114,8 @@ def _dead(field: ForceField, episodes: Sequence[EpisodeField]) -> Iterator[Datas
         for one in episodes:
             if one.frames > 1 and not np.isnan(one.constant[k]):
                 by_value[float(one.constant[k])].append(one.episode)
-        for value, numbers in by_value.items():
-            groups[tuple(numbers), value].append(k)
+        for value, where in by_value.items():
+            groups[tuple(where), value].append(k)
     for (numbers, value), components in groups.items():
         every = len(components) == len(field.labels)
         names = "all components" if every else ", ".join(field.components[k] for k in components)
@@ -341,7 +341,7 @@ def _drifting(field: ForceField, episodes: Sequence[EpisodeField]) -> Iterator[D
     used = fitted if by_gravity else [one for one in episodes if np.isfinite(one.rest).any()]
     if len(used) < _TREND_EPISODES:
         return
-    sizes = np.array([np.nanmax(np.abs([one.smallest, one.largest]), axis=0) for one in used])
+    sizes = np.array([np.fmax(np.abs(one.smallest), np.abs(one.largest)) for one in used])
     for k, name in enumerate(field.components[:3] if by_gravity else field.components):
         levels = np.array(
             [one.weight.bias[k] if by_gravity and one.weight is not None else one.rest[k] for one in used]
@@ -349,7 +349,7 @@ def _drifting(field: ForceField, episodes: Sequence[EpisodeField]) -> Iterator[D
         known = np.isfinite(levels)
         if np.count_nonzero(known) < _TREND_EPISODES:
             continue
-        third = max(np.count_nonzero(known) // 3, 1)
+        third = max(int(np.count_nonzero(known)) // 3, 1)
         change = float(np.median(levels[known][-third:]) - np.median(levels[known][:third]))
         if abs(change) < _OF_FORCE * float(np.nanmedian(sizes[:, k])) or abs(kendall(levels[known])) < _TREND:
             continue

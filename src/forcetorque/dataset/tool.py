@@ -152,7 +152,7 @@ class ToolSamples:
         """
         if not self._wrench:
             raise FitError(
-                f"dataset: expected {self.size} frames in a row with measurement and orientation, got none; the field "
+                f"expected {self.size} frames in a row with measurement and orientation, got none; the field "
                 "or the orientation have gaps, or are stuck, all over it"
             )
         episode = np.array(self._episode)
@@ -288,13 +288,11 @@ def identified(
     (load,) = solution.loads
     if not load.is_determined or not np.isfinite(solution.covariance).all():
         reasons = "; ".join(solution.open_directions) or "gravity does not turn in the sensor"
-        raise FitError(
-            f"dataset: the episodes do not determine weight and bias: {reasons}; give --load, or turn the wrist more"
-        )
+        raise FitError(f"the episodes do not determine weight and bias: {reasons}; give --load, or turn the wrist more")
     if not load.mass > 0.0:
         reasons = "; ".join(f"{row.name}: {row.description}" for row in solution.hypotheses)
         raise FitError(
-            f"dataset: expected a mass above 0 kg, got {load.mass:.3g} kg; check --sense and --direction, whose signs "
+            f"expected a mass above 0 kg, got {load.mass:.3g} kg; check --sense and --direction, whose signs "
             f"decide it{f': {reasons}' if reasons else ''}"
         )
     known_noise = np.array([noise for noise in noises if np.isfinite(noise).all()])
