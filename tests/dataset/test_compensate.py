@@ -167,6 +167,24 @@ def test_what_is_not_stated_is_refused(
 
 
 @pytest.mark.long
+def test_a_turned_sensor_is_named_and_identified(tmp_path: Path) -> None:
+    """The orientation is that of a flange from which the sensor is turned by 0.5 rad about z."""
+    from scipy.spatial.transform import Rotation
+
+    episodes = tool_episodes([150, 150], seed=1)
+    for episode in episodes:
+        turned = Rotation.from_quat(episode["observation.ee_quat"]) * Rotation.from_euler("z", 0.5)
+        episode["observation.ee_quat"] = turned.as_quat()
+    root = write_dataset(tmp_path / "d", episodes)
+    wrong = compensate_dataset(root, tmp_path / "wrong", **STATED)
+    assert any("turned mount" in warning and "--unknown-mount" in warning for warning in wrong.warnings)
+    right = compensate_dataset(root, tmp_path / "right", **STATED, mount=True)
+    assert right.mount_rad is not None
+    np.testing.assert_allclose(np.array(right.mount_rad, dtype=float), [0.0, 0.0, 0.5], atol=0.005)
+    np.testing.assert_allclose(require_loadable(tmp_path / "right")[ADDED].std(axis=0), NOISE, rtol=0.2)
+
+
+@pytest.mark.long
 def test_a_wrong_sign_is_named(tmp_path: Path) -> None:
     """The mass is below zero."""
     with pytest.raises(FitError, match="expected a mass above 0 kg"):

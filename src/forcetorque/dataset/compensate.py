@@ -38,8 +38,8 @@ from forcetorque.robot.mounting import rotation_vector
 
 WORLD = "world"
 """The frame of the result whose axes are the world's; its origin is that of the sensor."""
-SENSOR = "sensor"
-"""The frame of the result that is the sensor's."""
+_OF_A_FILE = ('set mount = "unknown"', "give --unknown-mount")
+"""What the estimator advises for an experiment file, and what does the same here."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -309,7 +309,7 @@ def _result(
     if tool.known is not None:
         halves = 1.96 * np.sqrt(np.diag(tool.known.covariance))
         load = load.model_copy(update={"mass_half_width_95_kg": float(halves[0])})
-    warnings = [f"{row.name}: {row.description}" for row in solution.hypotheses]
+    warnings = [f"{row.name}: {row.description.replace(*_OF_A_FILE)}" for row in solution.hypotheses]
     tests = [test for test in solution.bias_tests if test.p_value is not None and test.p_value < 1e-3]
     if tests and not request.by_episode:
         largest = max(abs(value or 0.0) for value in tests[0].largest_difference[:3])
