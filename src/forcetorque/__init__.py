@@ -38,6 +38,7 @@ CAPABILITIES = (
     "evaluation",
     "inspection",
     "payload",
+    "dataset",
     "planning",
     "estimation",
     "sensor",

@@ -21,6 +21,7 @@ from tests.scenes.experiments import PARQUET, TWO, YARP, edit, snapshot
 INPUT_OPTIONS = {
     "--browser",
     "--calibration",
+    "--load",
     "--matrices",
     "--mesh-dir",
     "--plan",
@@ -36,6 +37,7 @@ TABLE_THAT_IS_READ = ("skin wrench", "--table")
 NEW_FOLDERS = {
     ("bench device", "--figures"),
     ("bench device", "--output"),
+    ("dataset compensate", "--output"),
     ("plan", "--output"),
     ("simulate", "--output"),
     ("study fits", "--output"),
@@ -51,6 +53,8 @@ WORDS = {
     "study compare": f"{PARQUET}",
     "bench contest": f"{PARQUET}",
     "bench device": f"{PARQUET}",
+    "dataset check": f"{PARQUET}",
+    "dataset compensate": f"{PARQUET}",
     "estimate": f"{PARQUET} -o new.csv",
     "export": "fitted.json --to csv",
     "bench gains": f"{PARQUET}",

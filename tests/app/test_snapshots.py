@@ -31,6 +31,7 @@ from forcetorque.workbench.simulated_benches import BenchFaults
 from tests.app.added_command import added_command
 from tests.app.commands import question_of, typed_commands
 from tests.app.outcome import Run
+from tests.formats.lerobot.datasets import tool_episodes, write_dataset
 from tests.locomotion.foot_forces import write_foot_forces
 from tests.scenes.benches import write_bench
 from tests.scenes.chambers import write_chambers
@@ -69,6 +70,7 @@ COMMANDS = _of_experiments() | {
     "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
     "robot coherence": ("robot", "coherence", PARQUET, "-c", "fitted.json", "--offset", "fitted", "--offset", "none"),
     "study compare": ("study", "compare", PARQUET, "-c", "fitted.json"),
+    "dataset check": ("dataset", "check", "learning/frames", "--sense", "sensor_to_world"),
     "bench device": ("bench", "device"),
     "bench contest": ("bench", "contest", "wrist/contest.toml"),
     "estimate": ("estimate", PARQUET, "-o", "contacts.parquet", "-c", "fitted.json"),
@@ -95,9 +97,9 @@ COMMANDS = _of_experiments() | {
     "bench workbench": ("bench", "workbench", "SIM001.toml"),
 }
 """What is typed; of a command that only needs an experiment nothing has to be stated."""
-WITHOUT_TABLE = {"demo", "fleet run", "payload", "robot torque-loop", "run", "schema", "simulate"}
+WITHOUT_TABLE = {"dataset compensate", "demo", "fleet run", "payload", "robot torque-loop", "run", "schema", "simulate"}
 """Shown elsewhere: `payload` needs a wrist, `fleet run` processes, `simulate`, `torque-loop`, `run` and `demo` minutes;
-`schema` is JSON."""
+`schema` is JSON; `dataset compensate` a dataset, which its own tests have."""
 
 
 def _write_limits(arm: Path) -> None:
@@ -142,11 +144,17 @@ def _write_sway(arm: Path) -> None:
     write_swaying(arm / "sway")
 
 
+def _write_dataset(arm: Path) -> None:
+    episodes = tool_episodes([60] * 6, seed=1, mass=[0.8] * 3 + [1.1] * 3)
+    episodes[1]["observation.wrench"][20:45, 3] = 0.123
+    write_dataset(arm / "learning" / "frames", episodes)
+
+
 def _write_log(arm: Path) -> None:
     shutil.copytree(FOLDER_OF_THE_TUTORIAL, arm / "begun")
 
 
-def _write_dataset(arm: Path) -> None:
+def _write_records(arm: Path) -> None:
     add_recordings([arm / PARQUET], arm / "dataset", AddOptions())
 
 
@@ -166,7 +174,8 @@ WRITTEN: Mapping[str, Callable[[Path], object]] = MappingProxyType(
         "sway/swaying.toml": _write_sway,
         "begun/log.csv": _write_log,
         "patch.txt": _write_patch,
-        "dataset": _write_dataset,
+        "dataset": _write_records,
+        "learning/frames": _write_dataset,
         "feet/standing.toml": _write_feet,
         "SIM001.toml": partial(write_bench, faults=BenchFaults(swapped=(3, 8))),
     }

@@ -38,6 +38,8 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
 from tests.formats.array_file import test_hdf5_and_npz as arrays
+from tests.formats.lerobot import test_log_format as lerobot
+from tests.formats.lerobot.datasets import write_dataset
 from tests.formats.robometry import test_log_format as robometry
 from tests.formats.robometry.logger import Leaf, write_log
 from tests.formats.ros import test_log_format as ros
@@ -161,6 +163,11 @@ def _bag_case(folder: Path, form: str, *, index: bool = False, packed: str = "")
     return Case(log=path, file=file, read=lambda: ros._read(path, *entries, tf, turn, odom))
 
 
+def _dataset_case(folder: Path, version: str, damaged: str) -> Case:
+    root = write_dataset(folder / "dataset", lerobot.EPISODES, version=version)
+    return Case(log=root, file=root / damaged, read=lambda: lerobot.read(root))
+
+
 CASES: dict[str, tuple[str, Callable[[Path], Case]]] = {
     "npz": ("npz", lambda folder: array_case(folder, "npz")),
     "hdf5": ("hdf5", lambda folder: array_case(folder, "hdf5")),
@@ -181,6 +188,16 @@ CASES: dict[str, tuple[str, Callable[[Path], Case]]] = {
     "mcap": ("ros", lambda folder: _bag_case(folder, "mcap")),
     "packed mcap": ("ros", lambda folder: _bag_case(folder, "mcap", packed="STORAGE")),
     "index": ("ros", lambda folder: _bag_case(folder, "mcap", index=True)),
+    "frames of a dataset": (
+        "lerobot",
+        lambda folder: _dataset_case(folder, "v3.0", "data/chunk-000/file-000.parquet"),
+    ),
+    "episodes of a dataset": (
+        "lerobot",
+        lambda folder: _dataset_case(folder, "v3.0", "meta/episodes/chunk-000/file-000.parquet"),
+    ),
+    "list of episodes": ("lerobot", lambda folder: _dataset_case(folder, "v2.1", "meta/episodes.jsonl")),
+    "description of a dataset": ("lerobot", lambda folder: _dataset_case(folder, "v2.1", "meta/info.json")),
 }
 """Name of the format that reads each, and how it is made."""
 

@@ -34,7 +34,7 @@ PANELS: Final[Mapping[str, tuple[str, ...]]] = {
     "Calibrate": ("calibrate", "payload", "tare"),
     "Evaluate": ("evaluate", "accept", "plan", "report", "view"),
     "Use": ("export", "estimate"),
-    "More": ("bench", "robot", "skin", "study", "fleet", "simulate", "schema"),
+    "More": ("bench", "robot", "skin", "study", "dataset", "fleet", "simulate", "schema"),
 }
 """Commands and groups in the order of work, as the help shows them."""
 GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
@@ -45,6 +45,10 @@ GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
     "robot": (
         "Examine a whole robot: feet, net force, motion, torque loops.",
         {name: name for name in ("balance", "coherence", "motion", "torque-loop")},
+    ),
+    "dataset": (
+        "Examine and compensate the forces of datasets for learning.",
+        {"check": "check-dataset", "compensate": "compensate-dataset"},
     ),
     "study": (
         "Compare estimation types, trials and sensors.",

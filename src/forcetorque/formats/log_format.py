@@ -269,6 +269,10 @@ class LogSketch:
     """How many rows, from the first, the smallest, largest and mean numbers are of; None for all."""
     stopped: str | None = None
     """Why they are not of all."""
+    rate_hz: float | None = None
+    """Rows per second, where the format has rows at even steps and no true times; None for times in columns."""
+    episodes: tuple[int, ...] = ()
+    """Numbers of the recordings that it holds, of which an experiment file names one; empty for a single one."""
 
     @property
     def range_text(self) -> str:

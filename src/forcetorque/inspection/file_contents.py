@@ -274,6 +274,21 @@ def column_rows(sketch: LogSketch, likely: dict[int, str]) -> tuple[ColumnRow, .
     return tuple(_column_row(column, likely.get(k)) for k, column in enumerate(sketch.columns))
 
 
+def times_text(sketch: LogSketch) -> str:
+    """Explain the times of a dataset whose format makes them up.
+
+    Args:
+        sketch: The dataset.
+
+    Returns:
+        A message.
+    """
+    return (
+        f"{len(sketch.episodes)} episode(s), each a recording; times are made up, frame / {sketch.rate_hz:g} Hz, "
+        "so jitter, lost frames and delays are not seen; `forcetorque dataset check` examines all episodes"
+    )
+
+
 def sketch_text(rows: Sequence[ColumnRow], source: str) -> str:
     """Explain the next step for a log that does not describe itself.
 

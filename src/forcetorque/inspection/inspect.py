@@ -38,6 +38,7 @@ from forcetorque.inspection.file_contents import (
     sketch_text,
     stream_rows,
     stream_table,
+    times_text,
 )
 from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
 from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
@@ -83,7 +84,7 @@ class Inspection(Result):
 
     answered_by: ClassVar[str | None] = "forcetorque.inspection.answers:inspection_answers"
 
-    of_several: ClassVar[tuple[str, ...]] = ("clocks", "sensor")
+    of_several: ClassVar[tuple[str, ...]] = ("clocks", "sensor", "times")
 
     schema_name: Literal["forcetorque/inspect/3"] = Field(default="forcetorque/inspect/3", alias="schema")
     """Form of the result."""
@@ -105,6 +106,8 @@ class Inspection(Result):
     """Arrays that no experiment file can specify, such as `1 x 3 struct array`, by name."""
     ranges_of: str | None = None
     """Rows of the smallest, largest and mean numbers, where these are not all rows, and the reason."""
+    times: str | None = None
+    """Recordings in a dataset and what its times are, where its format makes them up; in the JSON of datasets alone."""
     calibration: MakerCalibration | None = None
     """The calibration of the maker, where the file is one."""
     in_use_s: tuple[tuple[float, float], ...] = ()
@@ -124,6 +127,8 @@ class Inspection(Result):
             yield table_of(self.unread, f"{self.source}: what is in it")
             if self.ranges_of is not None:
                 yield f"smallest, largest and mean are {self.ranges_of}"
+            if self.times is not None:
+                yield self.times
             if self.skipped_arrays:
                 yield not_read_message(self.skipped_arrays)
             yield sketch_text(self.unread, self.source)
@@ -242,7 +247,7 @@ def _without_experiment(source: Path, name: str | None) -> Inspection | None:
         calibration = calibration_row(_prior(source))
         return Inspection(source=str(source), streams={}, duration_s=0.0, findings=(), calibration=calibration)
     known = recognised_format(source) if name is None else format_named(name)
-    if not (source.is_file() and isinstance(known, SketchingFormat)):
+    if not isinstance(known, SketchingFormat) or not (source.is_file() or known.recognises(source)):
         return None
     sketch = known.sketch(source)
     unread = column_rows(sketch, likely_quantities(sketch))
@@ -259,6 +264,7 @@ def _without_experiment(source: Path, name: str | None) -> Inspection | None:
         sensor=None if found is None else found[0],
         skipped_arrays=dict(sketch.skipped_arrays),
         ranges_of=f"of those{sketch.range_text} alone: {sketch.stopped}" if sketch.range_text else None,
+        times=None if sketch.rate_hz is None else times_text(sketch),
     )
 
 

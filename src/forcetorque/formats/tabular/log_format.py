@@ -19,6 +19,7 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import unpacked_limit
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.formats.headings import read_heading
+from forcetorque.formats.lerobot.dataset import dataset_of_file
 from forcetorque.formats.log_format import (
     LogContext,
     LogDescription,
@@ -100,14 +101,14 @@ def is_table(path: Path) -> bool:
         path: File or folder; it exists.
 
     Returns:
-        Whether it is a Parquet file, or a text with at least two columns, and numbers below at most one line of
-        headings. Numbers between blanks alone, without headings, may be anything, such as messages of a port. Other
-        lines may stand in front where all that is looked at behind them is the table.
+        Whether it is a Parquet file that no LeRobot dataset describes, or a text with at least two columns, and
+        numbers below at most one line of headings. Numbers between blanks alone, without headings, may be anything,
+        such as messages of a port. Other lines may stand in front where all that is looked at behind them is the table.
     """
     if not path.is_file():
         return False
     if is_parquet_file(path):
-        return True
+        return dataset_of_file(path) is None
     form = table_form(first_lines(path))
     return form is not None and (form.has_headings or form.delimiter != " ")
 
@@ -411,7 +412,7 @@ def _layout(entry: TabularStream, number: int) -> TableLayout:
         skip_rows=entry.skip_rows,
         column_names=entry.column_names,
         stamp=entry.stamp_of(number),
-        signals=tuple(_declared(signal) for signal in entry.signal),
+        signals=tuple(declared_signal(signal) for signal in entry.signal),
     )
 
 
@@ -423,7 +424,15 @@ def _numbered_on(segments: list[Stream]) -> list[Stream]:
     ]
 
 
-def _declared(signal: SignalTable) -> TableSignal:
+def declared_signal(signal: SignalTable) -> TableSignal:
+    """Give a reader what an experiment file specifies of columns.
+
+    Args:
+        signal: The columns.
+
+    Returns:
+        The signal of a layout.
+    """
     return TableSignal(
         quantity=signal.quantity,
         columns=signal.columns,

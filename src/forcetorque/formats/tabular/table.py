@@ -58,7 +58,7 @@ def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str
     if not file.is_file():
         raise MissingFileError(f"{file}: expected a table, there is no such file")
     rows = parquet_rows(file, layout) if is_parquet_file(file) else text_rows(file, layout)
-    return _reading(rows, layout, stream=stream, clock=clock)
+    return read_rows(rows, layout, stream=stream, clock=clock)
 
 
 def table_columns(path: Path) -> list[str]:
@@ -88,10 +88,24 @@ def read_frame(frame: Any, layout: TableLayout, *, stream: str, clock: str) -> L
     Raises:
         FormatError: If a column is not there, or holds no numbers.
     """
-    return _reading(frame_rows(frame, layout), layout, stream=stream, clock=clock)
+    return read_rows(frame_rows(frame, layout), layout, stream=stream, clock=clock)
 
 
-def _reading(rows: Rows, layout: TableLayout, *, stream: str, clock: str) -> LogReading:
+def read_rows(rows: Rows, layout: TableLayout, *, stream: str, clock: str) -> LogReading:
+    """Read rows in one pass.
+
+    Args:
+        rows: The rows.
+        layout: What their columns mean.
+        stream: Name for the stream.
+        clock: Name of the clock of its stamps; a table without times has the clock `row`.
+
+    Returns:
+        The stream, in SI units, and findings.
+
+    Raises:
+        FormatError: If a field is no number, or there are more or fewer rows than stated.
+    """
     factors = [_factors(rows.name, signal) for signal in layout.signals]
     stamp_ns, numbers = _numbers(rows, layout)
     signals: dict[str, Signal] = {}

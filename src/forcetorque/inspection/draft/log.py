@@ -27,6 +27,7 @@ from forcetorque.inspection.draft.tables_and_arrays import (
     array_lines,
     array_streams,
     array_time,
+    episode_lines,
     table_lines,
     table_streams,
 )
@@ -79,6 +80,8 @@ def draft_log(
             tables = [sketch_table(path, column_names) for path in paths]
             return DraftedLog(paths=tuple(paths), format=_TABLES, streams=table_streams(tables, joints))
         sketches = [known.sketch(path) for path in paths]
+        if sketches[0].is_table:
+            return DraftedLog(paths=tuple(paths), format=format_name(known), streams=table_streams(sketches, joints))
         return DraftedLog(
             paths=tuple(paths),
             format=format_name(known),
@@ -138,6 +141,8 @@ def recording_lines(log: DraftedLog, folder: Path, model: RobotModel | None, fra
     """
     if log.description is not None:
         return _described_lines(log.description, folder, model, log.left_out)
+    if any(stream.table is not None and stream.table.episodes for stream in log.streams):
+        return episode_lines(log, folder, model, frames)
     if log.format == _TABLES:
         return table_lines(log, folder, model, frames)
     return array_lines(log, folder, model, frames)

@@ -12,6 +12,7 @@ from forcetorque.base.toml_file import OPEN
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.formats.headings import Heading, read_heading
+from forcetorque.formats.lerobot.dataset import dataset_of_file
 from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_message
 from forcetorque.formats.tabular.numbers import ISO8601
 from forcetorque.inspection.draft.joints import joints_question
@@ -163,6 +164,33 @@ def table_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
             lines.append(line("file", sketch.path.resolve().relative_to(root).as_posix()))
             lines += [*_form_lines(sketch), *_stamp_lines(sketch)]
             lines += _signal_lines(stream, sketch, model, frames)
+    return lines
+
+
+def episode_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames: Mapping[str, str]) -> list[str]:
+    """Write the `[recording]` table of one episode of a dataset.
+
+    Args:
+        log: The dataset, or one of its files.
+        folder: Folder of the experiment file, from which paths count.
+        model: The robot; None for a wrist sensor without one.
+        frames: Frame of the wrench of a stream, by the stream.
+
+    Returns:
+        Its lines.
+    """
+    path = log.paths[0]
+    lines = ["[recording]", line("format", log.format), line("path", relative(dataset_of_file(path) or path, folder))]
+    for stream in log.streams:
+        sketch = stream.table
+        if sketch is None:
+            continue
+        first, last = sketch.episodes[0], sketch.episodes[-1]
+        words = f"one of the episodes {first} to {last}; an episode is a recording, so draft a file of each"
+        lines.append(line("episode", first) if first == last else question("episode", words, first))
+        lines += ["", "[[recording.stream]]", line("name", stream.name)]
+        lines.append(remark(f"times are made up: frame_index / {sketch.rate_hz:g} Hz; a delay is not seen in them"))
+        lines += _signal_lines(stream, sketch, model, frames)
     return lines
 
 

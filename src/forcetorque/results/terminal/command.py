@@ -288,7 +288,7 @@ def _plain(name: str, parameter: Parameter, option: Option) -> Parameter:
     if not flags and parameter.kind is not Parameter.KEYWORD_ONLY:
         argument = typer.Argument(help=option.help)
         return _typed(name, Annotated[kind if required else kind | None, argument], *(() if required else (None,)))
-    default = None if parameter.default == () or option.reads else parameter.default
+    default = None if required or parameter.default == () or option.reads else parameter.default
     return _option(
         name,
         kind,

@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The result of `forcetorque dataset check`: findings over a dataset, and a record for each episode and field."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from enum import StrEnum
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.result import Result
+from forcetorque.results.table import Row, Shown, Table, table_of
+
+_MOST_SHOWN = 40
+"""Records of episodes in the table, the worst first; JSON and CSV have all."""
+_MOST_RANGES = 6
+"""Ranges of episode numbers that a text names."""
+
+
+class Kind(StrEnum):
+    """What a finding is about."""
+
+    DEAD = "dead"
+    """One value in all frames of an episode."""
+    STUCK = "stuck"
+    """One value for longer than noise or motion allow."""
+    SATURATED = "saturated"
+    """Frames at an end of the range."""
+    MISSING = "missing"
+    """Frames without a finite value."""
+    UNITS = "units"
+    """Sizes that no arm measures in the units that they would have."""
+    LATE = "late"
+    """The force follows another logged signal."""
+    TOOL_CHANGE = "tool_change"
+    """The weight along gravity changes between episodes."""
+    BIASED = "biased"
+    """The bias of an episode is not that of the others."""
+    DRIFTING = "drifting"
+    """Bias or level at rest move over the dataset."""
+    NOISY = "noisy"
+    """More noise than in other episodes, or along other axes."""
+
+
+_WORDS = {Kind.TOOL_CHANGE: "change of tool", Kind.UNITS: "implausible units"}
+
+
+class DatasetFinding(Row):
+    """What is wrong with a force field in some episodes."""
+
+    field: Annotated[str, Shown("field")]
+    """The field."""
+    component: Annotated[str | None, Shown("component")]
+    """Its component; None for several or all."""
+    kind: Annotated[Kind, Shown("kind")]
+    """What it is about."""
+    harm: Annotated[bool, Shown("harm")]
+    """Whether a policy that is trained on it learns something false; else it is a remark."""
+    episodes: tuple[int, ...]
+    """Numbers of the episodes."""
+    frames: Annotated[int, Shown("frames")]
+    """Number of frames that it is counted in; 0 where it is not of single frames."""
+    size: float | None
+    """Its size, in `unit`; None where it has none."""
+    unit: str | None
+    """Unit of the size; None where it has none, or the dataset does not name it."""
+    message: Annotated[str, Shown("finding")]
+    """The finding as text."""
+
+    @property
+    def text(self) -> str:
+        """Field, finding and episodes in one line."""
+        return f"{self.field}: {self.message} ({episodes_text(self.episodes)})"
+
+
+class EpisodeFieldRow(Row):
+    """A force field in one episode."""
+
+    episode: Annotated[int, Shown("episode")]
+    """Number of the episode."""
+    field: Annotated[str, Shown("field")]
+    """The field."""
+    frames: Annotated[int, Shown("frames")]
+    """Number of its frames."""
+    missing: Annotated[int, Shown("missing")]
+    """Numbers that are missing."""
+    dead: Annotated[tuple[str, ...], Shown("dead")]
+    """Components with one value."""
+    stuck_frames: Annotated[int, Shown("stuck, frames")]
+    """Frames in which a component repeats one value for longer than by chance, over all components."""
+    clipped_frames: Annotated[int, Shown("clipped, frames")]
+    """Frames in which a component stays at an end of its range that it jumped to, over all components."""
+    noise_over_usual: Annotated[float | None, Shown("noise over usual", digits=1)]
+    """Noise of the worst component over its median in all episodes; None where too few frames tell."""
+    weight: Annotated[float | None, Shown("weight", digits=3, error="weight_error")]
+    """Weight along gravity, in the unit of the field; None where it is not separable from the bias, or not logged."""
+    weight_error: float | None
+    """Its standard error."""
+
+    @property
+    def concern(self) -> tuple[int, float]:
+        """How much is wrong, for sorting."""
+        wrong = self.missing + self.stuck_frames + self.clipped_frames + self.frames * len(self.dead)
+        return wrong, self.noise_over_usual or 0.0
+
+
+class DatasetCheck(Result):
+    """What is wrong with the forces of a dataset."""
+
+    schema_name: Literal["forcetorque/check_dataset/1"] = Field(default="forcetorque/check_dataset/1", alias="schema")
+    """Form of the result."""
+    source: str
+    """Folder of the dataset."""
+    version: str
+    """Version of its layout."""
+    fps: float
+    """Frames per second."""
+    episodes: int
+    """Number of episodes."""
+    frames: int
+    """Number of frames."""
+    fields: tuple[str, ...]
+    """Fields that were examined."""
+    findings: tuple[DatasetFinding, ...]
+    """Findings, harm first."""
+    not_checked: tuple[str, ...]
+    """What was not examined, and what it needs."""
+    records_of_episodes: tuple[EpisodeFieldRow, ...]
+    """A record for each episode and field."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.dataset.result:check_answer"
+
+    @property
+    def passed(self) -> bool:
+        """Whether no finding is one of harm."""
+        return not any(finding.harm for finding in self.findings)
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give findings, then records of episodes.
+
+        Yields:
+            Tables and messages.
+        """
+        if self.findings:
+            table = table_of(self.findings, f"{self.source}: findings")
+            where = [episodes_text(finding.episodes) for finding in self.findings]
+            rows = tuple((*row[:-1], text, row[-1]) for row, text in zip(table.rows, where, strict=True))
+            headings = (*table.headings[:-1], "episodes", table.headings[-1])
+            yield Table(caption=table.caption, headings=headings, rows=rows)
+        worst = sorted(self.records_of_episodes, key=lambda row: row.concern, reverse=True)[:_MOST_SHOWN]
+        if worst:
+            shown = sorted(worst, key=lambda row: (row.episode, row.field))
+            rest = len(self.records_of_episodes) - len(shown)
+            of_all = f", the {len(shown)} worst of {rest + len(shown)}" if rest else ""
+            yield table_of(shown, f"{self.source}: episodes{of_all}")
+        yield from (f"not checked: {text}" for text in self.not_checked)
+
+    def records(self) -> list[dict[str, object]]:
+        """Make flat records, for CSV.
+
+        Returns:
+            A record per finding.
+        """
+        named = [(row, episodes_text(row.episodes)) for row in self.findings]
+        return [row.model_copy(update={"episodes": ()}).flat() | {"episodes": text} for row, text in named]
+
+    def columns(self) -> list[str]:
+        """Name the columns of the CSV.
+
+        Returns:
+            Keys of a finding.
+        """
+        return list(DatasetFinding.model_fields)
+
+
+def episodes_text(numbers: Sequence[int]) -> str:
+    """Name episodes.
+
+    Args:
+        numbers: Their numbers, rising.
+
+    Returns:
+        Such as `episode 3` or `episodes 0-4, 7`, of many ranges the first.
+    """
+    ranges: list[list[int]] = []
+    for number in numbers:
+        if ranges and number == ranges[-1][1] + 1:
+            ranges[-1][1] = number
+        else:
+            ranges.append([number, number])
+    shown = [str(first) if first == last else f"{first}-{last}" for first, last in ranges[:_MOST_RANGES]]
+    rest = sum(last - first + 1 for first, last in ranges[_MOST_RANGES:])
+    more = f" and {rest} more" if rest else ""
+    return f"episode{'s' if len(numbers) > 1 else ''} {', '.join(shown)}{more}"
+
+
+def check_answer(check: DatasetCheck) -> Answer:
+    """Give the answer of a check.
+
+    Args:
+        check: The check.
+
+    Returns:
+        The worst findings first.
+    """
+    harm = [finding for finding in check.findings if finding.harm]
+    remarks = [finding for finding in check.findings if not finding.harm]
+    kinds = list(dict.fromkeys(_WORDS.get(finding.kind, finding.kind.value) for finding in harm))
+    verdict = (
+        f"HARM: {', '.join(kinds)}" if harm else f"NO HARM, {len(remarks)} remark(s)" if remarks else "NO HARM FOUND"
+    )
+    shown = [finding.text for finding in (harm or remarks)[:2]]
+    rest = len(check.findings) - len(shown)
+    if rest > 0:
+        shown[-1] += f"; {rest} more finding(s)"
+    lacking = (f"not checked: {check.not_checked[0]}",) if check.not_checked else ()
+    named = sorted({number for finding in harm for number in finding.episodes})
+    some = bool(named) and len(named) < check.episodes
+    step = "leave out or repair these episodes; see them all with --details" if some else ""
+    if harm and not some:
+        step = "repair the log of the field, or do not train on it; see all findings with --details"
+    return Answer(
+        subject=f"{check.source}: {check.episodes} episodes, {check.frames} frames of {', '.join(check.fields)}",
+        verdict=verdict,
+        why=(*shown, *lacking)[:3],
+        step=step,
+        concern=Concern.BAD if harm else Concern.UNCERTAIN if check.findings else Concern.NONE,
+    )

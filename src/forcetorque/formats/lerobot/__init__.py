@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Datasets of LeRobot, in which one episode is one recording."""
