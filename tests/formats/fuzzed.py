@@ -43,6 +43,8 @@ from tests.formats.robometry.logger import Leaf, write_log
 from tests.formats.ros import test_log_format as ros
 from tests.formats.ros.bags import Types, write_bag
 from tests.formats.tabular import test_large_and_columnar as tables
+from tests.formats.ur_rtde import test_log_format as ur_rtde
+from tests.formats.ur_rtde.recordings import recorded, write_binary, write_text
 from tests.formats.yarp.port_logs import write_port
 
 SENSE = {"sense": "sensor_to_world"}
@@ -161,6 +163,12 @@ def _bag_case(folder: Path, form: str, *, index: bool = False, packed: str = "")
     return Case(log=path, file=file, read=lambda: ros._read(path, *entries, tf, turn, odom))
 
 
+def _rtde_case(folder: Path, *, binary: bool) -> Case:
+    columns = recorded(ur_rtde.TOOL, samples=3)
+    path = write_binary(folder / "log", columns) if binary else write_text(folder / "log", columns)
+    return Case(log=path, file=path, read=lambda: ur_rtde._read(path, moment_about="flange"))
+
+
 CASES: dict[str, tuple[str, Callable[[Path], Case]]] = {
     "npz": ("npz", lambda folder: array_case(folder, "npz")),
     "hdf5": ("hdf5", lambda folder: array_case(folder, "hdf5")),
@@ -180,6 +188,8 @@ CASES: dict[str, tuple[str, Callable[[Path], Case]]] = {
     "packed sqlite3": ("ros", lambda folder: _bag_case(folder, "sqlite3", packed="MESSAGE")),
     "mcap": ("ros", lambda folder: _bag_case(folder, "mcap")),
     "packed mcap": ("ros", lambda folder: _bag_case(folder, "mcap", packed="STORAGE")),
+    "rtde": ("ur_rtde", lambda folder: _rtde_case(folder, binary=False)),
+    "binary rtde": ("ur_rtde", lambda folder: _rtde_case(folder, binary=True)),
     "index": ("ros", lambda folder: _bag_case(folder, "mcap", index=True)),
 }
 """Name of the format that reads each, and how it is made."""

@@ -168,7 +168,9 @@ def _described_lines(
     content = description.table.model_dump(mode="json", exclude_none=True, warnings=False)
     streams = content.pop("stream", ())
     content["path"] = relative(description.table.path, folder)
-    lines = ["[recording]", *(line(key, value) for key, value in content.items() if value not in ({}, []))]
+    undetermined = {key: question(key, words) for key, words in description.undetermined.items()}
+    known = {key: line(key, value) for key, value in content.items() if value not in ({}, [])}
+    lines = ["[recording]", *(known | undetermined).values()]
     for entry in (one for one in streams if one.get("name") not in left_out):
         lines += ["", "[[recording.stream]]", *_stream_lines(entry, model)]
     return lines
