@@ -38,6 +38,8 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
 from tests.formats.array_file import test_hdf5_and_npz as arrays
+from tests.formats.franka import test_log_format as franka
+from tests.formats.franka.states import states, write_states, write_table
 from tests.formats.robometry import test_log_format as robometry
 from tests.formats.robometry.logger import Leaf, write_log
 from tests.formats.ros import test_log_format as ros
@@ -169,6 +171,12 @@ def _rtde_case(folder: Path, *, binary: bool) -> Case:
     return Case(log=path, file=path, read=lambda: ur_rtde._read(path, moment_about="flange"))
 
 
+def _franka_case(folder: Path, *, table: bool) -> Case:
+    write = write_table if table else write_states
+    path = write(folder / "log", states(samples=2))
+    return Case(log=path, file=path, read=lambda: franka._read(path))
+
+
 CASES: dict[str, tuple[str, Callable[[Path], Case]]] = {
     "npz": ("npz", lambda folder: array_case(folder, "npz")),
     "hdf5": ("hdf5", lambda folder: array_case(folder, "hdf5")),
@@ -190,6 +198,8 @@ CASES: dict[str, tuple[str, Callable[[Path], Case]]] = {
     "packed mcap": ("ros", lambda folder: _bag_case(folder, "mcap", packed="STORAGE")),
     "rtde": ("ur_rtde", lambda folder: _rtde_case(folder, binary=False)),
     "binary rtde": ("ur_rtde", lambda folder: _rtde_case(folder, binary=True)),
+    "states": ("franka", lambda folder: _franka_case(folder, table=False)),
+    "table of states": ("franka", lambda folder: _franka_case(folder, table=True)),
     "index": ("ros", lambda folder: _bag_case(folder, "mcap", index=True)),
 }
 """Name of the format that reads each, and how it is made."""

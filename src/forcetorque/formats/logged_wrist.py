@@ -5,12 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array
+from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import cross
 from forcetorque.base.wrench import MeasureDirection
+from forcetorque.recording.recording import Finding
 
 FLANGE = "tool0"
 """Frame of the mechanical flange as the controller has it, which is that of an all-zero tool: z points out of the
@@ -43,6 +46,8 @@ class DeclaredLoad(ArrayRecord):
 class LoggedWrist:
     """What the format of a log fixes of the wrench at the flange of an arm."""
 
+    controller: str
+    """Kind of the controller, `ur` or `franka`."""
     stream: str
     """Stream with the wrench, and with orientation and gravity of the flange."""
     frame: str = FLANGE
@@ -56,6 +61,42 @@ class LoggedWrist:
     """Start and end of motions, to which no load at rest is fitted; ns."""
     assumed: tuple[str, ...] = ()
     """What is taken from the format and not from the log, in a few words each."""
+
+
+def first_of_repeats(stamp_ns: IntArray, where: Path) -> BoolArray:
+    """Find the rows that a controller sent, where a recorder with a clock of its own wrote some of them twice.
+
+    Args:
+        stamp_ns: Time of each row by the clock of the controller; shape (n,); ns.
+        where: The log, for messages.
+
+    Returns:
+        Rows whose time is not that of the row before; shape (n,).
+
+    Raises:
+        FormatError: If time goes back.
+    """
+    steps = np.diff(stamp_ns)
+    for row in np.flatnonzero(steps < 0)[:1]:
+        raise FormatError(
+            f"{where}: row {row + 2}: expected a time after {1e-9 * stamp_ns[row]:.3f} s, got "
+            f"{1e-9 * stamp_ns[row + 1]:.3f} s: the controller was started again; split the file there"
+        )
+    return np.concatenate([[True], steps > 0])
+
+
+def repeats_finding(stream: str, count: int) -> tuple[Finding, ...]:
+    """Report rows that were left out.
+
+    Args:
+        stream: Stream of the rows.
+        count: Their number.
+
+    Returns:
+        One finding; none for no row.
+    """
+    text = f"{count} row(s) repeat the time of the row before, as recorders faster than the robot make; left out"
+    return (Finding(stream=stream, kind="repeated_rows", message=text, count=count),) if count else ()
 
 
 def weight_of(mass: FloatArray, centre_of_mass: FloatArray, gravity: FloatArray) -> FloatArray:

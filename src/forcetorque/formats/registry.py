@@ -20,6 +20,7 @@ from pydantic_core import CoreSchema
 from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.input_file import accept_input, read_xml
 from forcetorque.formats.array_file.log_format import Hdf5Format, MatlabFormat, NpzFormat
+from forcetorque.formats.franka.log_format import FrankaFormat
 from forcetorque.formats.log_format import LogContext, LogDescription, LogFormat, LogReading, LogTable
 from forcetorque.formats.prior.registry import holds_prior
 from forcetorque.formats.robometry.log_format import RobometryFormat
@@ -113,6 +114,7 @@ LOG_FORMATS: tuple[LogFormat[Any], ...] = (
     NpzFormat(),
     RosFormat(),
     UrRtdeFormat(),
+    FrankaFormat(),
 )
 
 

@@ -119,7 +119,7 @@ def test_a_cut_row_of_a_binary_file_is_named(tmp_path: Path) -> None:
         ("actual_TCP_pose_0", 1e5, "actual_TCP_pose: expected a position in m, got .* it is in mm"),
         ("tcp_offset_2", 1e3, "tcp_offset: expected a position in m, got 150"),
         ("tcp_offset_5", 57.3, "tcp_offset: expected a rotation vector in rad, got 68"),
-        ("timestamp", -1.0, "timestamp: expected a time after .* the controller was started again"),
+        ("timestamp", -1.0, "row 2: expected a time after .* the controller was started again"),
     ],
 )
 def test_other_units_are_refused(tmp_path: Path, field: str, factor: float, match: str) -> None:

@@ -31,6 +31,7 @@ from forcetorque.formats.logged_wrist import (
     LoggedWrist,
     declared_loads,
     motions,
+    repeats_finding,
     weight_of,
 )
 from forcetorque.formats.ur_rtde.recorded_fields import RecordedFields, heading_of, read_fields
@@ -308,6 +309,7 @@ def _wrist(table: UrRtdeLog, fields: RecordedFields) -> LoggedWrist:
         agrees = ", as ft_raw_wrench in the log" if _agreeing_point(table, fields) is table.moment_about else ""
         assumed.append(f"moment about the {table.moment_about}{agrees}")
     return LoggedWrist(
+        controller="ur",
         stream=WRIST,
         measure_direction=MeasureDirection.CHILD_TO_PARENT,
         declared=declared_loads(fields.stamp_ns, mass, centre),
@@ -354,9 +356,7 @@ def _findings(fields: RecordedFields, undetermined: Mapping[str, str]) -> tuple[
         Finding(stream=WRIST, kind="undetermined", message=f"{key}: neither log nor format says: {words}", count=1)
         for key, words in undetermined.items()
     ]
-    if fields.repeated:
-        text = f"{fields.repeated} row(s) repeat the time of the row before, as recorders faster than the robot make; "
-        findings.append(Finding(stream=WRIST, kind="repeated_rows", message=f"{text}left out", count=fields.repeated))
+    findings += repeats_finding(WRIST, fields.repeated)
     if fields.cut_bytes:
         text = f"the last row is cut after {fields.cut_bytes} bytes, and left out"
         findings.append(Finding(stream=WRIST, kind="cut_row", message=text, count=1))

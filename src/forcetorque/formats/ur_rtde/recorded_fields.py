@@ -21,6 +21,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import require_file, require_unpacked
+from forcetorque.formats.logged_wrist import first_of_repeats
 from forcetorque.formats.tabular.table import read_table
 from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 
@@ -176,13 +177,7 @@ def _binary(path: Path, heading: Heading, columns: Sequence[str]) -> tuple[IntAr
 def _without_repeats(
     path: Path, fields: Sequence[str], stamp_ns: IntArray, numbers: FloatArray, cut_bytes: int
 ) -> RecordedFields:
-    steps = np.diff(stamp_ns)
-    for row in np.flatnonzero(steps < 0)[:1]:
-        raise FormatError(
-            f"{path}: row {row + 2}: {TIME}: expected a time after {1e-9 * stamp_ns[row]:.3f} s, got "
-            f"{1e-9 * stamp_ns[row + 1]:.3f} s: the controller was started again; split the file there"
-        )
-    kept = np.concatenate([[True], steps > 0])
+    kept = first_of_repeats(stamp_ns, path)
     ends = np.cumsum([LENGTHS[field] for field in fields])[:-1]
     values = dict(zip(fields, np.split(numbers[kept], ends, axis=1), strict=True))
     return RecordedFields(stamp_ns=stamp_ns[kept], values=values, repeated=int((~kept).sum()), cut_bytes=cut_bytes)

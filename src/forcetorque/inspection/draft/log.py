@@ -170,6 +170,9 @@ def _described_lines(
     content["path"] = relative(description.table.path, folder)
     undetermined = {key: question(key, words) for key, words in description.undetermined.items()}
     known = {key: line(key, value) for key, value in content.items() if value not in ({}, [])}
+    if all(str(name).startswith(_MADE_UP) for name in content.get("joints", ())) and "joints" in known:
+        del known["joints"]
+        known |= {} if model is None else {"joints": joints_question(len(content["joints"]), "joints", model)}
     lines = ["[recording]", *(known | undetermined).values()]
     for entry in (one for one in streams if one.get("name") not in left_out):
         lines += ["", "[[recording.stream]]", *_stream_lines(entry, model)]
