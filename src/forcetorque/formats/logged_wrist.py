@@ -61,6 +61,8 @@ class LoggedWrist:
     """Start and end of motions, to which no load at rest is fitted; ns."""
     assumed: tuple[str, ...] = ()
     """What is taken from the format and not from the log, in a few words each."""
+    contradictions: tuple[str, ...] = ()
+    """What other fields of the log contradict."""
 
 
 def first_of_repeats(stamp_ns: IntArray, where: Path) -> BoolArray:

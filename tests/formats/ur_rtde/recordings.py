@@ -70,6 +70,16 @@ def recorded(
     return columns
 
 
+def accelerometer(columns: dict[str, FloatArray], *, up: FloatArray) -> FloatArray:
+    """What an accelerometer along the axes of the flange reads at rest; shape (n, 3)."""
+    tcp, offset = (
+        Rotation.from_rotvec(np.column_stack([columns[f"{name}_{k}"] for k in (3, 4, 5)]))
+        for name in ("actual_TCP_pose", "tcp_offset")
+    )
+    felt: FloatArray = (tcp * offset.inv()).inv().apply(up)
+    return felt
+
+
 def write_text(path: Path, columns: dict[str, FloatArray], *, delimiter: str = " ") -> Path:
     """As record.py with blanks and full precision, or startFileRecording with commas and six decimals."""
     form = "{!r}" if delimiter == " " else "{:.6f}"

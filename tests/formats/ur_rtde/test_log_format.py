@@ -15,7 +15,7 @@ from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.registry import recognised_format
 from forcetorque.formats.ur_rtde.log_format import MomentPoint, UrRtdeFormat, UrRtdeLog
 from forcetorque.inspection.draft.draft import draft_experiment
-from tests.formats.ur_rtde.recordings import GRAVITY, RATE_HZ, Tool, recorded, write_binary, write_text
+from tests.formats.ur_rtde.recordings import GRAVITY, RATE_HZ, Tool, accelerometer, recorded, write_binary, write_text
 
 TOOL = Tool()
 ROUNDING = 1e-9
@@ -49,9 +49,12 @@ def test_the_tool_explains_the_wrench_at_the_flange(tmp_path: Path, form: str, *
         write_text(path, columns, delimiter="," if form == "commas" else " ")
     assert isinstance(recognised_format(path), UrRtdeFormat)
     points = list(MomentPoint) if about_tcp else list(MomentPoint)[::-1]
-    other, right = (np.abs(_left(_read(path, moment_about=point), TOOL)).max() for point in points)
+    right = np.abs(_left(_read(path, moment_about=points[1]), TOOL)).max()
     assert right < (SIX_DECIMALS if form == "commas" else ROUNDING)
-    assert other > 0.5
+    without_raw = write_text(tmp_path / "other", recorded(TOOL, about_tcp=about_tcp, noise=0.0, raw=False))
+    assert np.abs(_left(_read(without_raw, moment_about=points[0]), TOOL)).max() > 0.5
+    with pytest.raises(FormatError, match=f"moment_about: expected {points[1]}, .* got {points[0]}"):
+        _read(path, moment_about=points[0])
     described = UrRtdeFormat().describe(path)
     assert isinstance(described.table, UrRtdeLog)
     assert described.table.moment_about == points[1]  # ft_raw_wrench shows it
@@ -128,6 +131,31 @@ def test_other_units_are_refused(tmp_path: Path, field: str, factor: float, matc
     columns[field] = columns[field] * factor
     with pytest.raises(FormatError, match=match):
         UrRtdeFormat().describe(write_text(tmp_path / "log.txt", columns))
+
+
+def test_a_base_on_a_wall_is_noticed(tmp_path: Path) -> None:
+    """The accelerometer of the tool contradicts gravity along -z of the base, and says where things fall."""
+    columns = recorded(TOOL)
+    for k, felt in enumerate(accelerometer(columns, up=np.array([0.0, GRAVITY, 0.0])).T):
+        columns[f"actual_tool_accelerometer_{k}"] = felt
+    path = write_text(tmp_path / "log.txt", columns)
+    with pytest.raises(FormatError, match=r"gravity_direction: expected \[0.0, -1.0, 0.0\], in which things fall"):
+        UrRtdeFormat().describe(path)
+    _read(path, moment_about="flange", gravity_direction=[0.0, -1.0, 0.0])
+
+
+def test_a_wrong_rotation_of_the_tcp_is_named(tmp_path: Path) -> None:
+    """The force is turned against ft_raw_wrench by what tcp_offset is off, and by nothing where it is right."""
+    columns = recorded(TOOL)
+    wrist = UrRtdeFormat().describe(write_text(tmp_path / "log", columns)).wrist
+    assert wrist is not None
+    assert not wrist.contradictions
+    columns["tcp_offset_5"] = columns["tcp_offset_5"] + np.pi / 2
+    description = UrRtdeFormat().describe_specified(write_text(tmp_path / "log", columns), {"moment_about": "flange"})
+    assert description.wrist is not None
+    (words,) = description.wrist.contradictions
+    assert "turned by (0, 0, 90) deg" in words.replace("-0,", "0,")
+    assert [finding.kind for finding in description.reading.findings] == ["other_axes"]
 
 
 def test_a_log_without_a_pose_is_refused(tmp_path: Path) -> None:

@@ -34,6 +34,7 @@ from forcetorque.formats.logged_wrist import (
     repeats_finding,
     weight_of,
 )
+from forcetorque.formats.ur_rtde.consistency import agreeing_point, require_gravity_as_felt, turned_by
 from forcetorque.formats.ur_rtde.recorded_fields import RecordedFields, heading_of, read_fields
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
@@ -57,8 +58,6 @@ JOINTS = (
 """Joints in the order of `actual_q`, by their names in ur_description."""
 _FARTHEST_M = 5.0
 """No arm of this make reaches so far; m."""
-_WITHOUT_SENSOR = 5e3
-"""`ft_raw_wrench` of an arm without a sensor is a constant near 1e4; N."""
 
 
 class MomentPoint(StrEnum):
@@ -151,7 +150,9 @@ def _described_table(path: Path, fields: RecordedFields, specified: Mapping[str,
     reading = "actual_TCP_force" if "actual_TCP_force" in fields.values else "ft_raw_wrench"
     content = {"format": "ur_rtde", "path": path, "reading": reading} | specified
     table = checked_tables(content, UrRtdeLog, path)
-    if table.moment_about is not None or {"tcp_offset", "payload_kg"} & set(_undetermined(table, fields)):
+    if table.moment_about is not None or {"tcp_offset", "payload_kg", "payload_cog_m"} & set(
+        _undetermined(table, fields)
+    ):
         return table
     return table.model_copy(update={"moment_about": _agreeing_point(table, fields)})
 
@@ -265,38 +266,44 @@ def _along_flange(logged: FloatArray, pose: _FlangePose, point: MomentPoint | No
     return wrench
 
 
-_AGREES = 0.2
-"""Share of its change that two readings of one wrench may differ by (heuristic)."""
+def _points(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> dict[str, FloatArray]:
+    """Wrench at the flange, declared payload included, if the logged moment is about each point."""
+    mass, centre = _payload(table, fields)
+    weight = weight_of(mass, centre, np.einsum("nji,j->ni", pose.base_R_flange, table.world_gravity))
+    logged = fields.values["actual_TCP_force"]
+    return {point: _along_flange(logged, pose, point) + weight for point in MomentPoint}
 
 
 def _agreeing_point(table: UrRtdeLog, fields: RecordedFields) -> MomentPoint | None:
-    """The point about which the moment changes as that of `ft_raw_wrench`; None where that lacks or shows nothing."""
-    # both differ by the weight of the declared payload, and by a constant, the zero, while the payload stays the same
     raw = fields.values.get("ft_raw_wrench")
-    if table.reading == "ft_raw_wrench" or raw is None or not np.abs(raw[:, :3]).max(initial=0.0) < _WITHOUT_SENSOR:
+    if table.reading == "ft_raw_wrench" or raw is None:
         return None
-    pose = _flange_pose(table, fields)
-    mass, centre = _payload(table, fields)
-    change = _about_mean(raw)
-    shares = {}
-    for point in MomentPoint:
-        gravity = np.einsum("nji,j->ni", pose.base_R_flange, table.world_gravity)
-        own = _along_flange(fields.values["actual_TCP_force"], pose, point) + weight_of(mass, centre, gravity)
-        difference = _about_mean(own - raw)
-        force, moment = (
-            float(np.sqrt((difference[:, part] ** 2).sum() / max((change[:, part] ** 2).sum(), 1e-300)))
-            for part in (slice(0, 3), slice(3, 6))
+    point = agreeing_point(raw, _points(table, fields, _flange_pose(table, fields)))
+    return None if point is None else MomentPoint(point)
+
+
+def _require_no_contradiction(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> None:
+    agreeing = None if table.moment_about is None else _agreeing_point(table, fields)
+    if agreeing not in (None, table.moment_about):
+        raise FormatError(
+            f"{table.path}: moment_about: expected {agreeing}, about which the moment of actual_TCP_force changes as "
+            f"that of ft_raw_wrench in the log, got {table.moment_about}"
         )
-        if not force < _AGREES:
-            return None
-        shares[point] = moment
-    best, other = sorted(shares, key=lambda point: shares[point])
-    return best if shares[best] < _AGREES < shares[other] else None
+    felt = fields.values.get("actual_tool_accelerometer")
+    require_gravity_as_felt(table.path, felt, pose.base_R_flange, table.world_gravity / table.gravity)
 
 
-def _about_mean(values: FloatArray) -> FloatArray:
-    finite = values[np.isfinite(values).all(axis=1)]
-    return finite - finite.mean(axis=0) if len(finite) else finite
+def _other_axes(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> str:
+    """Text about a flange that is turned against `ft_raw_wrench`; empty for none."""
+    if table.reading == "ft_raw_wrench":
+        return ""
+    turn = turned_by(fields.values.get("ft_raw_wrench"), _points(table, fields, pose)[MomentPoint.FLANGE])
+    if turn is None:
+        return ""
+    return (
+        f"the flange is turned by ({', '.join(f'{angle:.0f}' for angle in turn)}) deg (rotation vector) against "
+        "ft_raw_wrench: check the rotation in tcp_offset, and whether the wrench was turned before it was recorded"
+    )
 
 
 def _wrist(table: UrRtdeLog, fields: RecordedFields) -> LoggedWrist:
@@ -315,6 +322,7 @@ def _wrist(table: UrRtdeLog, fields: RecordedFields) -> LoggedWrist:
         declared=declared_loads(fields.stamp_ns, mass, centre),
         moving=motions(fields.stamp_ns, pose.base_R_flange, pose.base_p_flange),
         assumed=tuple(assumed),
+        contradictions=tuple(words for words in (_other_axes(table, fields, pose),) if words),
     )
 
 
@@ -325,11 +333,15 @@ def _reading(table: UrRtdeLog, fields: RecordedFields, undetermined: Mapping[str
         signals["wrench"] = Signal.of_fixed("wrench", fields.values[table.reading], frame=frame)
     else:
         pose = _flange_pose(table, fields)
+        _require_no_contradiction(table, fields, pose)
         orientation, gravity = pose.base_R_flange, table.world_gravity
         signals["wrench"] = Signal.of_fixed("wrench", _flange_wrench(table, fields, pose), frame=FLANGE)
         signals["orientation"] = Signal.of_fixed("orientation", orientation.reshape(-1, 9), frame=FLANGE)
         signals["gravity"] = Signal.of_fixed("gravity", np.einsum("nji,j->ni", orientation, gravity), frame=FLANGE)
         signals["translation"] = Signal.of_fixed("translation", pose.base_p_flange, frame=FLANGE)
+    findings = _findings(fields, undetermined)
+    if not undetermined and (words := _other_axes(table, fields, pose)):
+        findings = (*findings, Finding(stream=WRIST, kind="other_axes", message=words, count=len(fields.stamp_ns)))
     streams = {WRIST: signals}
     motion = {"actual_q": ("position", "rad"), "actual_qd": ("velocity", "rad/s")}
     joints = {
@@ -347,7 +359,7 @@ def _reading(table: UrRtdeLog, fields: RecordedFields, undetermined: Mapping[str
             Stream(name=name, clock=CLOCK, stamp_ns=fields.stamp_ns, signals=signals)
             for name, signals in streams.items()
         ),
-        findings=_findings(fields, undetermined),
+        findings=findings,
     )
 
 

@@ -86,7 +86,19 @@ def draft_log(
             arrays=sketches[0].columns,
             skipped_arrays=sketches[0].skipped_arrays,
         )
-    description = known.describe(paths[0])
+    return draft_of_description(known.describe(paths[0]), joints)
+
+
+def draft_of_description(description: LogDescription, joints: Collection[str] = ()) -> DraftedLog:
+    """Take a log that describes itself.
+
+    Args:
+        description: The log.
+        joints: Joints of the robot; none for a wrist sensor without one.
+
+    Returns:
+        What can be told of it.
+    """
     streams = tuple(
         DraftedStream(
             name=stream.name,
@@ -96,7 +108,8 @@ def draft_log(
         )
         for stream in description.reading.streams
     )
-    return DraftedLog(paths=tuple(paths), format=format_name(known), streams=streams, description=description)
+    table = description.table
+    return DraftedLog(paths=(table.path,), format=table.format, streams=streams, description=description)
 
 
 def without_streams(log: DraftedLog, names: Collection[str]) -> DraftedLog:
