@@ -11,12 +11,15 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
+from forcetorque.base.pose import skew
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.load_estimates import HypothesisRow
 from forcetorque.payload.load_on_wrist_sensor import LOAD_LINK, WristLoads, wrist_loads
 from forcetorque.payload.load_warnings import overweight_loads
 from forcetorque.payload.result import WeighedLoad
+from forcetorque.payload.robot_files.arms import ARMS, arm_text, not_held
+from forcetorque.payload.robot_files.flange_load import flange_load
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
 from forcetorque.payload.robot_files.robot_load import RobotLoad
@@ -28,7 +31,15 @@ from forcetorque.payload.robot_files.ros import (
 )
 from forcetorque.recording.recording import Use
 
-_WITHOUT_COMMENTS = (LoadFormat.MC_RTC, LoadFormat.HRPSYS)
+_REMARKS = {
+    LoadFormat.MC_RTC: "",
+    LoadFormat.HRPSYS: "",
+    LoadFormat.KUKA: "; forcetorque kuka\n",
+    LoadFormat.ABB: "! forcetorque abb\n",
+    LoadFormat.URDF: "<!-- forcetorque urdf -->\n",
+    LoadFormat.MJCF: "<!-- forcetorque mjcf -->\n",
+}
+"""First line of files that have no remarks after #."""
 
 
 def write_load_file(
@@ -46,7 +57,7 @@ def write_load_file(
         load: The load.
         form: Form of the file.
         world_frame: For `gravity-filter`, the frame of tf whose z axis points up.
-        body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body; shape (4, 4); m.
+        body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body, for an arm in its flange; shape (4, 4); m.
     """
     texts: dict[LoadFormat, Callable[[], str]] = {
         LoadFormat.ROS2_BROADCASTER: lambda: broadcaster_text(load),
@@ -56,8 +67,8 @@ def write_load_file(
         LoadFormat.MC_RTC: lambda: mc_rtc_text(load, body_H_sensor=body_H_sensor),
         LoadFormat.HRPSYS: lambda: hrpsys_text(load),
     }
-    mark = "" if form in _WITHOUT_COMMENTS else f"# forcetorque {form}\n"
-    write_bytes_atomically(Path(path), (mark + texts[form]()).encode())
+    text = arm_text(flange_load(load, form, body_H_sensor), form) if form in ARMS else texts[form]()
+    write_bytes_atomically(Path(path), (_REMARKS.get(form, f"# forcetorque {form}\n") + text).encode())
 
 
 def robot_load(
@@ -104,6 +115,8 @@ def robot_load(
         (support,) = supports.values()
         inertia = experiment.model_on(support).links[LOAD_LINK]
         mass, centre = inertia.mass, inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3)
+        about_centre = inertia.second_moment + mass * skew(centre) @ skew(centre)
+        known_inertia = None if wrist.loads[0].inertia is None else about_centre
     else:
         (load,) = weighed.loads
         if load.mass_kg is None or None in load.centre_of_mass_m:
@@ -112,6 +125,9 @@ def robot_load(
                 "open: `forcetorque payload` says what to record"
             )
         mass, centre = load.mass_kg, np.array(load.centre_of_mass_m, dtype=np.float64)
+        known_inertia = None if load.inertia_kgm2 is None else np.array(load.inertia_kgm2, dtype=np.float64)
+        if known_inertia is not None and not np.isfinite(known_inertia).all():
+            known_inertia = None
     matrix = run.sensor.prior if run.sensor.quantity == "raw" else None
     return RobotLoad(
         sensor=run.sensor.name,
@@ -119,9 +135,23 @@ def robot_load(
         direction=wrist.direction,
         mass=mass,
         centre_of_mass=centre,
+        inertia=known_inertia,
         bias=known,
         matrix=np.eye(6) if matrix is None else matrix,
     )
+
+
+def require_agreeing_logs(weighed: WeighedLoad) -> None:
+    """Refuse a load of logs whose other fields contradict its frame.
+
+    Args:
+        weighed: The load.
+
+    Raises:
+        ExperimentError: If one of them does.
+    """
+    for words in (words for arm in weighed.arms for words in arm.contradictions):
+        raise ExperimentError(f"expected a load that the log agrees with, of which a robot is told: {words}")
 
 
 def _contradictions(run: SensorRun, hanging: WristLoads, weighed: WeighedLoad | None) -> Iterator[str]:
@@ -154,12 +184,14 @@ def export_load(
         output: File to write or to replace.
         form: Form of the file.
         world_frame: For `gravity-filter`, the frame of tf whose z axis points up.
-        body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body; shape (4, 4); m.
+        body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body, for an arm in its flange; shape (4, 4); m.
         force: Whether a file that is neither a result nor a figure may be replaced.
 
     Returns:
-        What the program does with it, in words.
+        What the program does with it, and what its file cannot hold with the error that this causes.
     """
     refuse_output(output, force=force)
     write_load_file(output, load, form, world_frame=world_frame, body_H_sensor=body_H_sensor)
-    return form.convention
+    if form not in ARMS:
+        return form.convention
+    return "; ".join([form.convention, *not_held(flange_load(load, form, body_H_sensor), form, load.bias)])
