@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A simulated arm with a tool of known mass, recorded as RTDE recorders write."""
+"""A simulated arm with a tool of known mass, recorded as RTDE recorders write.
+
+`python -m tests.formats.ur_rtde.recordings` writes the recording that the guide to wrist sensors reads.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
 
+GUIDE = Path(__file__).resolve().parents[3] / "docs" / "tutorial" / "ur_recording.csv"
 GRAVITY = 9.80665
 RATE_HZ = 125.0
 TCP_OFFSET = np.array([0.01, 0.0, 0.15, 0.0, 0.0, 1.2])
@@ -80,12 +84,23 @@ def accelerometer(columns: dict[str, FloatArray], *, up: FloatArray) -> FloatArr
     return felt
 
 
-def write_text(path: Path, columns: dict[str, FloatArray], *, delimiter: str = " ") -> Path:
+def recording_text(columns: dict[str, FloatArray], *, delimiter: str = " ") -> str:
     """As record.py with blanks and full precision, or startFileRecording with commas and six decimals."""
     form = "{!r}" if delimiter == " " else "{:.6f}"
     rows = zip(*columns.values(), strict=True)
     lines = [delimiter.join(columns), *(delimiter.join(form.format(float(value)) for value in row) for row in rows)]
-    path.write_text("\n".join(lines) + "\n", encoding="ascii")
+    return "\n".join(lines) + "\n"
+
+
+def guide_text() -> str:
+    """The recording of the guide: 14 poses of 4 rows, a payload of 0.4 kg that the controller subtracts."""
+    columns = recorded(Tool(), poses=14, samples=4, declared=((0.4, (0.0, 0.0, 0.04)),), seed=7)
+    return recording_text({name: values for name, values in columns.items() if "actual_q" not in name}, delimiter=",")
+
+
+def write_text(path: Path, columns: dict[str, FloatArray], *, delimiter: str = " ") -> Path:
+    """Write `recording_text`."""
+    path.write_text(recording_text(columns, delimiter=delimiter), encoding="ascii")
     return path
 
 
@@ -97,3 +112,7 @@ def write_binary(path: Path, columns: dict[str, FloatArray]) -> Path:
         rows[name] = values
     path.write_bytes(f"{' '.join(names)}\n{' '.join(types)}\n".encode() + rows.tobytes())
     return path
+
+
+if __name__ == "__main__":
+    GUIDE.write_text(guide_text(), encoding="ascii")
