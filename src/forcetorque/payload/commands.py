@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.input_file import accept_input
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.results.terminal.options import (
@@ -149,11 +150,12 @@ def payload(
     from forcetorque.payload.robot_files.export import require_agreeing_logs, robot_load
 
     log = start_logging()
+    _declare_experiment_file(experiments, save_experiment, output_format, force=force)
     refuse_load_file(output, to, output_format, force=force)
     refuse_a_file_twice(experiments)
     specified = _specified(recording or ())
     logs = [path for path in experiments if not is_experiment_file(path)]
-    _refuse_without_log(logs, specified, save_experiment, output_format, force=force)
+    _refuse_without_log(logs, specified, save_experiment)
     runs, arms = [], []
     for path in experiments:
         log.info("reading %s", path)
@@ -195,23 +197,23 @@ def _specified(entries: Sequence[str]) -> dict[str, object]:
     return values
 
 
-def _refuse_without_log(
-    logs: Sequence[Path],
-    specified: Mapping[str, object],
-    save_experiment: Path | None,
-    output_format: Format,
-    *,
-    force: bool,
+def _declare_experiment_file(
+    experiments: Sequence[Path], save_experiment: Path | None, output_format: Format, *, force: bool
 ) -> None:
-    """Say that options are for a log, and one experiment file for one log, before anything is read."""
-    if specified and not logs:
-        raise ForceTorqueError("--recording: expected a log, got experiment files; state the keys in their [recording]")
+    """Say what is wrong with the experiment file to write before anything is read; no input is replaced by it."""
     if save_experiment is None:
         return
-    if len(logs) != 1:
-        raise ForceTorqueError(f"--save-experiment {save_experiment}: expected one log, got {len(logs)}")
     refuse_two_on_standard_output(save_experiment, output_format)
     declare_outputs(save_experiment, force=force)
+    for path in experiments:
+        accept_input(path)
+
+
+def _refuse_without_log(logs: Sequence[Path], specified: Mapping[str, object], save_experiment: Path | None) -> None:
+    if specified and not logs:
+        raise ForceTorqueError("--recording: expected a log, got experiment files; state the keys in their [recording]")
+    if save_experiment is not None and len(logs) != 1:
+        raise ForceTorqueError(f"--save-experiment {save_experiment}: expected one log, got {len(logs)}")
 
 
 def tare(
