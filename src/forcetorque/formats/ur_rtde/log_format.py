@@ -148,7 +148,7 @@ class UrRtdeFormat:
 
 def _described_table(path: Path, fields: RecordedFields, specified: Mapping[str, object]) -> UrRtdeLog:
     reading = "actual_TCP_force" if "actual_TCP_force" in fields.values else "ft_raw_wrench"
-    content = {"format": "ur_rtde", "path": path, "reading": reading} | specified
+    content = {"format": "ur_rtde", "path": path, "reading": reading, **specified}
     table = checked_tables(content, UrRtdeLog, path)
     if table.moment_about is not None or {"tcp_offset", "payload_kg", "payload_cog_m"} & set(
         _undetermined(table, fields)
