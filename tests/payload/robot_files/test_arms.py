@@ -97,7 +97,7 @@ def _urdf(text: str) -> Back:
     """The reader of URDF: a link that is fixed to the flange, with the flange beside it."""
     root = fromstring(text)
     (inertial,) = root.iter("inertial")
-    assert root.find("joint/parent").attrib == {"link": "tool0"}  # type: ignore[union-attr]
+    assert root.find("joint/parent").attrib == {"link": "tool0"}
     values = {tag.tag: tag.attrib for tag in inertial}
     six = [float(values["inertia"][name]) for name in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")]
     return float(values["mass"]["value"]), np.array(_numbers(values["origin"]["xyz"])), _symmetric(six)
@@ -140,6 +140,7 @@ def test_the_load_comes_back(tmp_path: Path, form: LoadFormat) -> None:
         assert inertia is None
         assert "it holds no inertia: up to 0.0055 N m are missed for each rad/s2" in words
         return
+    assert inertia is not None
     expected = np.diag(np.diag(INERTIA)) if form is LoadFormat.FANUC else INERTIA
     np.testing.assert_allclose(inertia, expected, atol=DIGITS * 0.01)
     assert ("no products of inertia: up to 0.0008 N m" in words) == (form is LoadFormat.FANUC)
@@ -183,6 +184,7 @@ def test_a_sensor_on_the_flange_has_a_pose(tmp_path: Path) -> None:
             _written(tmp_path, sensor, form)
     _, centre, inertia = _ur(_written(tmp_path, sensor, LoadFormat.UR, pose)[0])
     np.testing.assert_allclose(centre, pose[:3, :3] @ LOAD.centre_of_mass + pose[:3, 3], rtol=1e-7)
+    assert inertia is not None
     np.testing.assert_allclose(inertia, pose[:3, :3] @ INERTIA @ pose[:3, :3].T, atol=DIGITS * 0.01)
 
 
