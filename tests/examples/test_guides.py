@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.formats.ur_rtde.recordings import GUIDE, guide_text
 from tests.page_commands import run_page
 from tests.scenes.wrist_table import FILE, table_text
 
@@ -48,6 +49,7 @@ def test_guides_are_short() -> None:
 def test_the_table_of_the_wrist_is_what_its_script_writes() -> None:
     """So that the truth of the guide is known."""
     assert FILE.read_text(encoding="utf-8") == table_text()
+    assert GUIDE.read_text(encoding="ascii") == guide_text()
 
 
 def test_another_output_is_noticed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -38,6 +38,8 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
 from tests.formats.array_file import test_hdf5_and_npz as arrays
+from tests.formats.franka import test_log_format as franka
+from tests.formats.franka.states import states, write_states, write_table
 from tests.formats.lerobot import test_log_format as lerobot
 from tests.formats.lerobot.datasets import write_dataset
 from tests.formats.robometry import test_log_format as robometry
@@ -45,6 +47,8 @@ from tests.formats.robometry.logger import Leaf, write_log
 from tests.formats.ros import test_log_format as ros
 from tests.formats.ros.bags import Types, write_bag
 from tests.formats.tabular import test_large_and_columnar as tables
+from tests.formats.ur_rtde import test_log_format as ur_rtde
+from tests.formats.ur_rtde.recordings import recorded, write_binary, write_text
 from tests.formats.yarp.port_logs import write_port
 
 SENSE = {"sense": "sensor_to_world"}
@@ -168,6 +172,18 @@ def _dataset_case(folder: Path, version: str, damaged: str) -> Case:
     return Case(log=root, file=root / damaged, read=lambda: lerobot.read(root))
 
 
+def _rtde_case(folder: Path, *, binary: bool) -> Case:
+    columns = recorded(ur_rtde.TOOL, samples=3)
+    path = write_binary(folder / "log", columns) if binary else write_text(folder / "log", columns)
+    return Case(log=path, file=path, read=lambda: ur_rtde._read(path, moment_about="flange"))
+
+
+def _franka_case(folder: Path, *, table: bool) -> Case:
+    write = write_table if table else write_states
+    path = write(folder / "log", states(samples=2))
+    return Case(log=path, file=path, read=lambda: franka._read(path))
+
+
 CASES: dict[str, tuple[str, Callable[[Path], Case]]] = {
     "npz": ("npz", lambda folder: array_case(folder, "npz")),
     "hdf5": ("hdf5", lambda folder: array_case(folder, "hdf5")),
@@ -187,6 +203,10 @@ CASES: dict[str, tuple[str, Callable[[Path], Case]]] = {
     "packed sqlite3": ("ros", lambda folder: _bag_case(folder, "sqlite3", packed="MESSAGE")),
     "mcap": ("ros", lambda folder: _bag_case(folder, "mcap")),
     "packed mcap": ("ros", lambda folder: _bag_case(folder, "mcap", packed="STORAGE")),
+    "rtde": ("ur_rtde", lambda folder: _rtde_case(folder, binary=False)),
+    "binary rtde": ("ur_rtde", lambda folder: _rtde_case(folder, binary=True)),
+    "states": ("franka", lambda folder: _franka_case(folder, table=False)),
+    "table of states": ("franka", lambda folder: _franka_case(folder, table=True)),
     "index": ("ros", lambda folder: _bag_case(folder, "mcap", index=True)),
     "frames of a dataset": (
         "lerobot",

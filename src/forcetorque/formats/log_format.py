@@ -13,6 +13,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.toml_file import Table
+from forcetorque.formats.logged_wrist import LoggedWrist
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Stream
 
@@ -82,6 +83,12 @@ class LogDescription:
     """What the `[recording]` table of an experiment file would specify of it."""
     reading: LogReading
     """What is in it, and what could not be read as a finding."""
+    undetermined: Mapping[str, str] = field(default_factory=dict)
+    """Keys of the table that neither log nor format determines, each with the question for it."""
+    wrist: LoggedWrist | None = None
+    """Of the log of an arm what is known of the wrench at its flange; None for other logs, or without a wrench."""
+    wrist_lacks: str = ""
+    """Why there is no such wrench in the log of an arm."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -112,6 +119,25 @@ class LoggedRobot:
     """Why there is no URDF although the log has some; empty where that is not so."""
     frames: Mapping[str, FixedFrame] = field(default_factory=dict)
     """Frames that do not move against others, by their names."""
+
+
+@runtime_checkable
+class ArmLoggingFormat(Protocol):
+    """A format whose logs have the wrench at the flange of an arm, whose frame and sign the format fixes."""
+
+    def describe_specified(self, path: Path, specified: Mapping[str, object]) -> LogDescription:
+        """Read a log without an experiment file, with what is known beside it.
+
+        Args:
+            path: File or folder that is recognised.
+            specified: Values of keys of the `[recording]` table, those that `undetermined` of a description names.
+
+        Returns:
+            As of `describe`, with `wrist` or `wrist_lacks`.
+
+        Raises:
+            ForceTorqueError: If nothing of it can be read, or a value is none of its key.
+        """
 
 
 @runtime_checkable

@@ -20,6 +20,7 @@ from pydantic_core import CoreSchema
 from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.input_file import accept_input, read_xml
 from forcetorque.formats.array_file.log_format import Hdf5Format, MatlabFormat, NpzFormat
+from forcetorque.formats.franka.log_format import FrankaFormat
 from forcetorque.formats.lerobot.log_format import LeRobotFormat
 from forcetorque.formats.log_format import LogContext, LogDescription, LogFormat, LogReading, LogTable
 from forcetorque.formats.prior.registry import holds_prior
@@ -27,6 +28,7 @@ from forcetorque.formats.robometry.log_format import RobometryFormat
 from forcetorque.formats.ros.log_format import RosFormat
 from forcetorque.formats.tabular.dialect import rejection_reason
 from forcetorque.formats.tabular.log_format import TabularFormat
+from forcetorque.formats.ur_rtde.log_format import UrRtdeFormat
 from forcetorque.formats.yarp.log_format import YarpFormat
 from forcetorque.recording.alignment import joined_stream
 from forcetorque.recording.storage import INDEX_FILE, read_recording
@@ -112,6 +114,8 @@ LOG_FORMATS: tuple[LogFormat[Any], ...] = (
     Hdf5Format(),
     NpzFormat(),
     RosFormat(),
+    UrRtdeFormat(),
+    FrankaFormat(),
     LeRobotFormat(),
 )
 
@@ -200,6 +204,8 @@ def recognised_format(path: Path) -> LogFormat[Any] | None:
     """
     accept_input(path)
     formats = [known for known in LOG_FORMATS if known.recognises(path)]
+    # a table whose headings are those of a format is a log of that format
+    formats = [known for known in formats if not isinstance(known, TabularFormat)] or formats
     if len(formats) > 1:
         raise FormatError(
             f"{path}: expected a log of one format, got signs of {' and '.join(map(format_name, formats))} "

@@ -29,7 +29,8 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
     Yields:
         One answer each.
     """
-    contradicted = [row for row in weighed.hypotheses if row.severity == "contradiction"]
+    contradicted = any(row.severity == "contradiction" for row in weighed.hypotheses)
+    contradicted |= any(arm.contradictions for arm in weighed.arms)
     step, command = _payload_step(weighed)
     for load in weighed.loads:
         name = "" if load.load == "load" else f", {load.load}"
@@ -37,7 +38,7 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
         yield Answer(
             subject=f"{weighed.sensor} ({weighed.serial}){name}",
             verdict=_load_verdict(load),
-            why=_reasons(weighed),
+            why=(*_reasons(weighed), *_assumed(weighed)),
             step=step,
             command=command,
             concern=Concern.BAD if contradicted else Concern.UNCERTAIN if doubtful else Concern.NONE,
@@ -71,6 +72,12 @@ def _turned(weighed: WeighedLoad) -> Iterator[str]:
         yield mount_words(weighed.mount_rad, weighed.mount_half_width_rad)
     if weighed.tilt_rad is not None:
         yield tilt_words(weighed.tilt_rad, weighed.tilt_half_width_rad)
+
+
+def _assumed(weighed: WeighedLoad) -> Iterator[str]:
+    """What was taken from the format of logs without an experiment file."""
+    for words in dict.fromkeys("; ".join(arm.assumed) for arm in weighed.arms):
+        yield f"assumed: {words}"
 
 
 def _worst_session(weighed: WeighedLoad) -> str | None:
@@ -134,6 +141,8 @@ def _samples(weighed: WeighedLoad) -> str:
 
 
 def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
+    if contradictions := [words for arm in weighed.arms for words in arm.contradictions]:
+        return contradictions[0], ""
     if weighed.hypotheses:
         first = weighed.hypotheses[0]
         return f"check for {first.name}: {first.description}", ""
@@ -144,9 +153,11 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
         return words, typed("inspect", EXPERIMENT)
     if weighed.undetermined:
         return "record more postures, which turn the load about other axes", ""
-    return "write it to a file that the robot reads", typed(
-        "payload", EXPERIMENT, "--to", LoadFormat.FT_TOOLS.value, "-o", "load.yaml"
-    )
+    step = "write it to a file that the robot reads"
+    if not weighed.arms:
+        return step, typed("payload", EXPERIMENT, "--to", LoadFormat.FT_TOOLS.value, "-o", "load.yaml")
+    specified = [word for entry in weighed.arms[-1].specified for word in ("--recording", entry)]
+    return step, typed("payload", EXPERIMENT, *specified, "--to", weighed.arms[-1].controller, "-o", "load.txt")
 
 
 def tare_answers(tare: Tare) -> Iterator[Answer]:

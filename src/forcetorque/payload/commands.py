@@ -3,19 +3,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import tomllib
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.input_file import accept_input
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.results.terminal.options import (
     DetailsOption,
     ExperimentArgument,
-    ExperimentsArgument,
     ForceOption,
     FormatOption,
     SensorOption,
@@ -53,7 +54,8 @@ SensorPoseOption = Annotated[
     tuple[float, float, float, float, float, float] | None,
     typer.Option(
         "--sensor-pose",
-        help="Pose x y z (m) roll pitch yaw (rad) of the sensor in its parent body, as in a URDF, for mc-rtc.",
+        help="Pose x y z (m) roll pitch yaw (rad) of the sensor, as in a URDF: in its parent body for mc-rtc, in the "
+        "flange for an arm.",
     ),
 ]
 
@@ -109,12 +111,29 @@ def write_load(
 
 
 def payload(
-    experiments: ExperimentsArgument,
+    experiments: Annotated[
+        list[Path],
+        typer.Argument(
+            help="Experiment files (TOML) with the same sensor, or logs of arms whose format fixes frame and sign; "
+            "see docs/payload/payload.md."
+        ),
+    ],
     to: LoadFormatOption = None,
     output: LoadFileOption = None,
     world_frame: WorldFrameOption = None,
     sensor_pose: SensorPoseOption = None,
     override: OverrideOption = None,
+    recording: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--recording",
+            help="Key of [recording] that a log lacks, as moment_about=flange or payload_kg=0; repeat for more.",
+        ),
+    ] = None,
+    save_experiment: Annotated[
+        Path | None,
+        typer.Option("--save-experiment", help="Experiment file to write of a log; - for standard output."),
+    ] = None,
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
@@ -123,34 +142,91 @@ def payload(
 
     Example: forcetorque payload wrist.toml --to ft-tools -o load.yaml
 
+    Of an arm by Universal Robots or Franka the log is enough: `forcetorque payload record.csv`.
+
     Python: `run.payload()`, over experiments `payload.weigh_load([run, other["arm_ft"]])`; `--to`: loads of
     robots (docs/payload/robot_load.md)
     """
+    from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.loading import load_experiment
     from forcetorque.experiment.sensor_run import SensorRun
     from forcetorque.payload.identify import weigh_load
-    from forcetorque.payload.robot_files.export import robot_load
+    from forcetorque.payload.load_of_log import experiment_of_log, is_experiment_file
+    from forcetorque.payload.robot_files.export import require_agreeing_logs, robot_load
 
     log = start_logging()
+    _declare_experiment_file(experiments, save_experiment, output, output_format, force=force)
     refuse_load_file(output, to, output_format, force=force)
     refuse_a_file_twice(experiments)
-    runs = []
+    specified = _specified(recording or ())
+    logs = [path for path in experiments if not is_experiment_file(path)]
+    _refuse_without_log(logs, specified, save_experiment)
+    runs, arms = [], []
     for path in experiments:
         log.info("reading %s", path)
-        content = load_experiment(path)
+        if path in logs:
+            at = Path() if save_experiment in (None, STANDARD_OUTPUT) else save_experiment.parent
+            alone = experiment_of_log(path, specified, at)
+            arms.append(alone.arm)
+            content = alone.experiment
+            if save_experiment is not None:
+                write_bytes_atomically(save_experiment, alone.content.encode())
+        else:
+            content = load_experiment(path)
         runs.append(SensorRun(content, content.sensors[0]))
     with stated_in(", ".join(str(path) for path in experiments)):
-        load = weigh_load(runs)
+        load = weigh_load(runs).model_copy(update={"arms": tuple(arms)})
         if output is not None and to is not None:
+            require_agreeing_logs(load)
             robot = robot_load(runs[-1], load.sessions[-1].bias, weighed=load, override=override)
             log.info("the bias is that of %r, the last power-up; tare before use", load.sessions[-1].session)
             write_load(robot, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)
-    if output == STANDARD_OUTPUT:  # the file itself went there
+    if STANDARD_OUTPUT in (output, save_experiment):  # the file itself went there
         show_warnings(load)
     else:
         show(load, output_format, details=details, experiments=experiments)
+
+
+def _specified(entries: Sequence[str]) -> dict[str, object]:
+    """Values by key, as TOML has them; a word needs no quotes."""
+    values: dict[str, object] = {}
+    for entry in entries:
+        key, equals, text = entry.partition("=")
+        if not (equals and key.strip().isidentifier() and text.strip()):
+            raise ForceTorqueError(f"--recording: expected KEY=VALUE, as moment_about=flange, got {entry!r}")
+        try:
+            values[key.strip()] = tomllib.loads(f"value = {text}")["value"]
+        except tomllib.TOMLDecodeError:
+            values[key.strip()] = text.strip()
+    return values
+
+
+def _declare_experiment_file(
+    experiments: Sequence[Path],
+    save_experiment: Path | None,
+    output: Path | None,
+    output_format: Format,
+    *,
+    force: bool,
+) -> None:
+    """Say what is wrong with the experiment file to write before anything is read; no input is replaced by it."""
+    if save_experiment is None:
+        return
+    if save_experiment == output == STANDARD_OUTPUT:
+        raise ForceTorqueError("--save-experiment -: expected a file beside --output -, got standard output for both")
+    refuse_two_on_standard_output(save_experiment, output_format)
+    declare_outputs(save_experiment, force=force)
+    for path in experiments:
+        accept_input(path)
+
+
+def _refuse_without_log(logs: Sequence[Path], specified: Mapping[str, object], save_experiment: Path | None) -> None:
+    if specified and not logs:
+        raise ForceTorqueError("--recording: expected a log, got experiment files; state the keys in their [recording]")
+    if save_experiment is not None and len(logs) != 1:
+        raise ForceTorqueError(f"--save-experiment {save_experiment}: expected one log, got {len(logs)}")
 
 
 def tare(

@@ -329,12 +329,25 @@ def _masses(masses: Sequence[float | None]) -> str:
     return ", ".join("-" if mass is None else f"{mass:.4g}" for mass in masses)
 
 
+class ArmLog(Row):
+    """A log of an arm that was read without an experiment file."""
+
+    controller: Annotated[str, Shown("controller")]
+    """Kind of the controller, `ur` or `franka`."""
+    specified: tuple[str, ...]
+    """Keys of `[recording]` with the values that were given beside the log, as `moment_about="flange"`."""
+    assumed: tuple[str, ...]
+    """What is taken from the format of the log, or from what is usual."""
+    contradictions: tuple[str, ...]
+    """What other fields of the log contradict."""
+
+
 class WeighedLoad(Result):
     """What hangs on a wrist sensor or on a robot, and the sensor's biases."""
 
     answered_by: ClassVar[str | None] = "forcetorque.payload.answers:payload_answers"
 
-    of_several: ClassVar[tuple[str, ...]] = ("recordings", "disagreements")
+    of_several: ClassVar[tuple[str, ...]] = ("recordings", "disagreements", "arms")
     interval_uses = ()
 
     schema_name: Literal["forcetorque/payload/3"] = Field(default="forcetorque/payload/3", alias="schema")
@@ -383,6 +396,8 @@ class WeighedLoad(Result):
     """What each of several recordings says by itself."""
     disagreements: tuple[str, ...] = ()
     """Where they differ by more than their intervals, in sentences."""
+    arms: tuple[ArmLog, ...] = ()
+    """Logs that were read without an experiment file."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the loads, then biases, what is open and what disagrees.

@@ -276,4 +276,4 @@ def test_damaged_numbers_are_refused(tmp_path: Path) -> None:
 def test_every_form_says_what_its_program_does() -> None:
     """The sign of the bias and of the weight is stated for each, in words that differ."""
     words = [form.convention for form in LoadFormat]
-    assert len(set(words)) == len(words) == 6
+    assert len(set(words)) == len(words) == 14

@@ -44,6 +44,7 @@ from forcetorque.inspection.draft.sensors_and_supports import (
 from forcetorque.inspection.draft.streams import DraftedLog, relative
 from forcetorque.inspection.draft.tables_and_arrays import INERTIAL, example_names
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
+from forcetorque.inspection.draft.wrist_of_arm import wrist_interval_lines, wrist_load_lines
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
 from forcetorque.recording.recording import NO_MOTION, Recording
 from forcetorque.results.answer import Answer, Concern, typed
@@ -318,7 +319,10 @@ def _written(
         own = prior_lines(sensor, sensors, priors, folder, on_robot=model is not None)
         lines += sensor_lines(sensor, own, on_robot=model is not None)
     extra: list[str] = []
-    if model is None:
+    wrist = None if log.description is None or model is not None or not sensors else log.description.wrist
+    if wrist is not None:
+        lines += wrist_load_lines(wrist)
+    elif model is None:
         lines += _wrist_lines(log, sensors)
     elif sensors:
         lines += support_lines(base, model, _imus(log), evidence[0] if evidence else None)
@@ -327,6 +331,9 @@ def _written(
         if bare:
             lines += load_lines(bare[0], model)
     words = WHOLE_LOG if sensors else "all of the log, to look at"
+    if wrist is not None:
+        lines += wrist_interval_lines(wrist)
+        return "\n".join(lines) + "\n", tuple(notes), recording
     for interval in intervals or whole_log(words, use="calibration" if sensors else "ignore"):
         lines += interval_lines(interval, extra)
     lines += accuracy_lines(sensors, priors)

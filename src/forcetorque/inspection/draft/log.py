@@ -89,7 +89,19 @@ def draft_log(
             arrays=sketches[0].columns,
             skipped_arrays=sketches[0].skipped_arrays,
         )
-    description = known.describe(paths[0])
+    return draft_of_description(known.describe(paths[0]), joints)
+
+
+def draft_of_description(description: LogDescription, joints: Collection[str] = ()) -> DraftedLog:
+    """Take a log that describes itself.
+
+    Args:
+        description: The log.
+        joints: Joints of the robot; none for a wrist sensor without one.
+
+    Returns:
+        What can be told of it.
+    """
     streams = tuple(
         DraftedStream(
             name=stream.name,
@@ -99,7 +111,8 @@ def draft_log(
         )
         for stream in description.reading.streams
     )
-    return DraftedLog(paths=tuple(paths), format=format_name(known), streams=streams, description=description)
+    table = description.table
+    return DraftedLog(paths=(table.path,), format=table.format, streams=streams, description=description)
 
 
 def without_streams(log: DraftedLog, names: Collection[str]) -> DraftedLog:
@@ -173,7 +186,12 @@ def _described_lines(
     content = description.table.model_dump(mode="json", exclude_none=True, warnings=False)
     streams = content.pop("stream", ())
     content["path"] = relative(description.table.path, folder)
-    lines = ["[recording]", *(line(key, value) for key, value in content.items() if value not in ({}, []))]
+    undetermined = {key: question(key, words) for key, words in description.undetermined.items()}
+    known = {key: line(key, value) for key, value in content.items() if value not in ({}, [])}
+    if all(str(name).startswith(_MADE_UP) for name in content.get("joints", ())) and "joints" in known:
+        del known["joints"]
+        known |= {} if model is None else {"joints": joints_question(len(content["joints"]), "joints", model)}
+    lines = ["[recording]", *(known | undetermined).values()]
     for entry in (one for one in streams if one.get("name") not in left_out):
         lines += ["", "[[recording.stream]]", *_stream_lines(entry, model)]
     return lines

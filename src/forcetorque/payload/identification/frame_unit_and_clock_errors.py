@@ -130,18 +130,26 @@ def _others(problem: LoadProblem) -> Iterator[tuple[str, str, float, LoadProblem
         )
         words = "the rotation is transposed: it is that of the world in the sensor's axes; state the other sense"
         yield "transposed rotation", words, _BETTER, turned
-        along = np.concatenate(
-            [np.einsum("nji,nj->ni", rows.orientation, rows.wrench[:, axes]) for axes in FORCE_AND_MOMENT],
-            axis=1,
-        )
         words = "the wrench is along the axes of the world, not of the sensor: turn it, or state the other frame"
-        yield "wrench in world axes", words, _BETTER, replace(problem, rows=replace(rows, wrench=along))
+        yield "wrench in world axes", words, _BETTER, _wrench_turned(problem, rows.orientation.transpose(0, 2, 1))
+        words = (
+            "the wrench was along the axes of the sensor before it was turned into them: leave [[transform]] out, or "
+            "record the field as the controller sends it"
+        )
+        yield "wrench turned twice", words, _BETTER, _wrench_turned(problem, rows.orientation)
     if not problem.mount:
         turn = min(quarter_turns()[1:], key=lambda turn: float(((turn - first_mount(problem)) ** 2).sum()))
         words = f"the sensor is turned against the axes of the motion: {turn_words(turn)}; state the frames so"
         acceleration = rows.proper_acceleration @ turn.T
         turned = replace(problem, rows=_turned(rows, turn, acceleration), tilt=False)
         yield "turned axes", words, _CLEARLY, turned
+
+
+def _wrench_turned(problem: LoadProblem, turn: FloatArray) -> LoadProblem:
+    """The problem with wrenches that are turned, each by its own rotation; `turn` has shape (n, 3, 3)."""
+    rows = problem.rows
+    wrench = np.hstack([np.einsum("nij,nj->ni", turn, rows.wrench[:, axes]) for axes in FORCE_AND_MOMENT])
+    return replace(problem, rows=replace(rows, wrench=wrench))
 
 
 def _turned(rows: LoadRows, turn: FloatArray, acceleration: FloatArray) -> LoadRows:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_bytes_atomically
+from forcetorque.base.pose import skew
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.load_estimates import HypothesisRow
@@ -18,6 +19,8 @@ from forcetorque.payload.identify import weigh_load
 from forcetorque.payload.load_on_wrist_sensor import LOAD_LINK, WristLoads, wrist_loads
 from forcetorque.payload.load_warnings import overruled, overweight_loads, reason_to_withhold
 from forcetorque.payload.result import WeighedLoad
+from forcetorque.payload.robot_files.arms import ARMS, arm_text, not_held
+from forcetorque.payload.robot_files.flange_load import flange_load
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
 from forcetorque.payload.robot_files.robot_load import RobotLoad
@@ -29,7 +32,16 @@ from forcetorque.payload.robot_files.ros import (
 )
 from forcetorque.recording.recording import Use
 
-_WITHOUT_COMMENTS = (LoadFormat.MC_RTC, LoadFormat.HRPSYS)
+_HASH = ("# ", "")
+_REMARKS: Mapping[LoadFormat, tuple[str, str] | None] = {
+    LoadFormat.MC_RTC: None,
+    LoadFormat.HRPSYS: None,
+    LoadFormat.KUKA: ("; ", ""),
+    LoadFormat.ABB: ("! ", ""),
+    LoadFormat.URDF: ("<!-- ", " -->"),
+    LoadFormat.MJCF: ("<!-- ", " -->"),
+}
+"""What begins and ends a remark of files whose remarks do not stand after #; None where there are none."""
 
 
 def write_load_file(
@@ -50,7 +62,7 @@ def write_load_file(
         load: The load.
         form: Form of the file.
         world_frame: For `gravity-filter`, the frame of tf whose z axis points up.
-        body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body; shape (4, 4); m.
+        body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body, for an arm in its flange; shape (4, 4); m.
     """
     texts: dict[LoadFormat, Callable[[], str]] = {
         LoadFormat.ROS2_BROADCASTER: lambda: broadcaster_text(load),
@@ -60,18 +72,20 @@ def write_load_file(
         LoadFormat.MC_RTC: lambda: mc_rtc_text(load, body_H_sensor=body_H_sensor),
         LoadFormat.HRPSYS: lambda: hrpsys_text(load),
     }
-    if form in _WITHOUT_COMMENTS:
-        mark, beside = "", load.override
+    text = arm_text(flange_load(load, form, body_H_sensor), form) if form in ARMS else texts[form]()
+    remarks = _REMARKS.get(form, _HASH)
+    if remarks is None:
+        if load.override is not None:
+            write_bytes_atomically(_override_file(path), f"{path}: {load.override}\n".encode())
     else:
-        mark, beside = f"# forcetorque {form}\n" + (f"# {load.override}\n" if load.override else ""), None
-    text = mark + texts[form]()
-    if beside is not None:
-        write_bytes_atomically(_override_file(path), f"{path}: {beside}\n".encode())
+        begin, end = remarks
+        lines = [f"forcetorque {form}", *([] if load.override is None else [load.override.replace("--", "- -")])]
+        text = "".join(f"{begin}{line}{end}\n" for line in lines) + text
     write_bytes_atomically(Path(path), text.encode())
 
 
 def _override_file(path: Path | str) -> Path:
-    """The file beside one without comments, which says why a doubtful load was written."""
+    """The file beside one without remarks, which says why a doubtful load was written."""
     if str(path) == str(STANDARD_OUTPUT):
         raise ExperimentError("--output: expected a file, beside which the reason is written, got standard output")
     return Path(f"{path}.override.txt")
@@ -134,6 +148,8 @@ def robot_load(
         (support,) = supports.values()
         inertia = experiment.model_on(support).links[LOAD_LINK]
         mass, centre = inertia.mass, inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3)
+        about_centre = inertia.second_moment + mass * skew(centre) @ skew(centre)
+        known_inertia = None if wrist.loads[0].inertia is None else about_centre
     else:
         (load,) = weighed.loads
         if load.mass_kg is None or None in load.centre_of_mass_m:
@@ -142,6 +158,9 @@ def robot_load(
                 "open: `forcetorque payload` says what to record"
             )
         mass, centre = load.mass_kg, np.array(load.centre_of_mass_m, dtype=np.float64)
+        known_inertia = None if load.inertia_kgm2 is None else np.array(load.inertia_kgm2, dtype=np.float64)
+        if known_inertia is not None and not np.isfinite(known_inertia).all():
+            known_inertia = None
     matrix = run.sensor.prior if run.sensor.quantity == "raw" else None
     return RobotLoad(
         sensor=run.sensor.name,
@@ -149,10 +168,24 @@ def robot_load(
         direction=wrist.direction,
         mass=mass,
         centre_of_mass=centre,
+        inertia=known_inertia,
         bias=known,
         matrix=np.eye(6) if matrix is None else matrix,
         override=note,
     )
+
+
+def require_agreeing_logs(weighed: WeighedLoad) -> None:
+    """Refuse a load of logs whose other fields contradict its frame.
+
+    Args:
+        weighed: The load.
+
+    Raises:
+        ExperimentError: If one of them does.
+    """
+    for words in (words for arm in weighed.arms for words in arm.contradictions):
+        raise ExperimentError(f"expected a load that the log agrees with, of which a robot is told: {words}")
 
 
 def _contradictions(run: SensorRun, hanging: WristLoads, weighed: WeighedLoad | None) -> Iterator[str]:
@@ -185,12 +218,14 @@ def export_load(
         output: File to write or to replace.
         form: Form of the file.
         world_frame: For `gravity-filter`, the frame of tf whose z axis points up.
-        body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body; shape (4, 4); m.
+        body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body, for an arm in its flange; shape (4, 4); m.
         force: Whether a file that is neither a result nor a figure may be replaced.
 
     Returns:
-        What the program does with it, in words.
+        What the program does with it, and what its file cannot hold with the error that this causes.
     """
     refuse_output(output, force=force)
     write_load_file(output, load, form, world_frame=world_frame, body_H_sensor=body_H_sensor)
-    return form.convention
+    if form not in ARMS:
+        return form.convention
+    return "; ".join([form.convention, *not_held(flange_load(load, form, body_H_sensor), form, load.bias)])

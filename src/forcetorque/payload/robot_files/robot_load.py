@@ -29,6 +29,8 @@ class RobotLoad:
     """Mass; kg."""
     centre_of_mass: FloatArray = field(metadata=array(3))
     """Position c in the sensor's frame; shape (3,); m."""
+    inertia: FloatArray | None = field(default=None, metadata=array(3, 3))
+    """About the centre of mass along the sensor's axes; shape (3, 3); kg m2; None where it is unknown."""
     bias: FloatArray = field(metadata=array(6))
     """Reading without load; shape (6,); N, N m."""
     matrix: FloatArray = field(default_factory=lambda: np.eye(6), metadata=array(6, None))
@@ -38,9 +40,9 @@ class RobotLoad:
 
     def __post_init__(self) -> None:
         check_arrays(self)
-        for name in ("centre_of_mass", "bias", "matrix"):
+        for name in ("centre_of_mass", "inertia", "bias", "matrix"):
             values = getattr(self, name)
-            if not np.isfinite(values).all():
+            if values is not None and not np.isfinite(values).all():
                 raise FormatError(f"load of {self.sensor!r}: {name}: expected finite numbers, got {values.tolist()}")
         if not (np.isfinite(self.mass) and self.mass >= 0.0):
             raise FormatError(f"load of {self.sensor!r}: mass: expected at least 0 kg, got {self.mass:g}")

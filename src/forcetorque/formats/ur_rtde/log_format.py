@@ -1,0 +1,375 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Recordings of RTDE as a format of logs: the wrench at the flange, its orientation, and the joints [1].
+
+`actual_TCP_force` is the external force on the tool along the axes of the base, less the declared payload. Its moment
+is about the flange on e-Series, and about the TCP on CB3 and with an external sensor, which the log does not say.
+`ft_raw_wrench` is the measurement before zero and payload, along the axes of the flange by what its users do.
+
+References:
+[1] Universal Robots, RTDE guide; Universal_Robots_ROS2_Driver, issues 1287, 1615 and 1849 on the reference point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+
+from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.base.errors import FormatError
+from forcetorque.base.pose import cross
+from forcetorque.base.toml_file import NotNegative, Positive, checked_tables
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable
+from forcetorque.formats.logged_wrist import (
+    FLANGE,
+    LoggedWrist,
+    declared_loads,
+    motions,
+    repeats_finding,
+    weight_of,
+)
+from forcetorque.formats.ur_rtde.consistency import agreeing_point, require_gravity_as_felt, turned_by
+from forcetorque.formats.ur_rtde.recorded_fields import RecordedFields, heading_of, read_fields
+from forcetorque.recording.recording import Finding
+from forcetorque.recording.stream import Signal, Stream
+
+CLOCK = "controller"
+"""Clock of the stamps: seconds since the controller started."""
+WRIST = "wrist"
+"""Stream with the wrench, orientation and position of the flange."""
+BASE = "base"
+"""Frame of the controller's base, which ur_description calls so too; `base_link` there is turned by pi about z."""
+TOOL = "tool"
+"""Frame of the accelerometer in the tool flange."""
+JOINTS = (
+    "shoulder_pan_joint",
+    "shoulder_lift_joint",
+    "elbow_joint",
+    "wrist_1_joint",
+    "wrist_2_joint",
+    "wrist_3_joint",
+)
+"""Joints in the order of `actual_q`, by their names in ur_description."""
+_FARTHEST_M = 5.0
+"""No arm of this make reaches so far; m."""
+
+
+class MomentPoint(StrEnum):
+    """Point about which `actual_TCP_force` has its moment."""
+
+    FLANGE = "flange"
+    """Origin of the flange: e-Series with its own sensor."""
+    TCP = "tcp"
+    """Tool centre point: CB3, and an external sensor."""
+
+
+class UrRtdeLog(LogTable):
+    """A recording of the real-time data exchange of Universal Robots."""
+
+    format: Literal["ur_rtde"]
+    """Format of the recording."""
+    path: Path
+    """File of record.py, or of startFileRecording of ur_rtde."""
+    reading: Literal["actual_TCP_force", "ft_raw_wrench"] = "actual_TCP_force"
+    """Field with the wrench."""
+    moment_about: MomentPoint | None = None
+    """Point about which `actual_TCP_force` has its moment: `flange` on e-Series, `tcp` on CB3 or with an external
+    sensor; needed unless the TCP is the flange."""
+    tcp_offset: Annotated[FloatArray, ArrayField((6,))] | None = None
+    """Pose of the TCP in the flange, m and rotation vector in rad, of a log without `tcp_offset`."""
+    payload_kg: NotNegative | None = None
+    """Mass that the controller subtracts, of a log without `payload`; 0 where none was set."""
+    payload_cog_m: Annotated[FloatArray, ArrayField((3,))] | None = None
+    """Centre of mass of that payload in the flange; m."""
+    gravity_direction: Annotated[FloatArray, ArrayField((3,))] | None = None
+    """Direction in which things fall along the axes of the base; [0, 0, -1] if left out."""
+    gravity: Positive = STANDARD_GRAVITY
+    """Magnitude of gravity; m/s2."""
+
+    @property
+    def world_gravity(self) -> FloatArray:
+        """Gravity along the axes of the base; shape (3,); m/s2."""
+        down = np.array([0.0, 0.0, -1.0]) if self.gravity_direction is None else self.gravity_direction
+        return self.gravity * down / np.linalg.norm(down)
+
+
+_QUESTIONS = {
+    "moment_about": "point about which actual_TCP_force has its moment: flange on e-Series with its own sensor, tcp on "
+    "CB3 or with an external sensor",
+    "tcp_offset": "pose of the TCP in the flange while this was recorded, [x, y, z, rx, ry, rz] in m and rad as the "
+    "installation has it; record the field tcp_offset to have it in the log",
+    "payload_kg": "mass that was set as payload, which the controller subtracts; 0.0 where none was set; record the "
+    "field payload to have it in the log",
+    "payload_cog_m": "centre of mass of that payload in the flange, [x, y, z] in m; record the field payload_cog to "
+    "have it in the log",
+}
+
+
+class UrRtdeFormat:
+    """Recordings of RTDE, text or binary, whose field names fix units, frames and signs."""
+
+    table = UrRtdeLog
+    sign = "a recording of RTDE (Universal Robots)"
+
+    def recognises(self, path: Path) -> bool:
+        """Look at the names in the first line."""
+        return heading_of(path) is not None
+
+    def describe(self, path: Path) -> LogDescription:
+        """Read all of it; the wrench stays along the axes of the base where a key is undetermined."""
+        return self.describe_specified(path, {})
+
+    def describe_specified(self, path: Path, specified: Mapping[str, object]) -> LogDescription:
+        """Read all of it, with keys of the table that the log lacks."""
+        fields = read_fields(path)
+        table = _described_table(path, fields, specified)
+        undetermined = {key: _QUESTIONS[key] for key in _undetermined(table, fields)}
+        return LogDescription(
+            table=table,
+            reading=_reading(table, fields, undetermined),
+            undetermined=undetermined,
+            wrist=_wrist(table, fields),
+        )
+
+    def read(self, specified: UrRtdeLog, context: LogContext) -> LogReading:
+        """Read the streams with the wrench in the frame of the flange."""
+        fields = read_fields(context.file(specified.path))
+        if undetermined := _undetermined(specified, fields):
+            key = undetermined[0]
+            raise FormatError(f"{specified.path}: recording: {key}: expected {_QUESTIONS[key]}; got none")
+        return _reading(specified, fields, {})
+
+
+def _described_table(path: Path, fields: RecordedFields, specified: Mapping[str, object]) -> UrRtdeLog:
+    reading = "actual_TCP_force" if "actual_TCP_force" in fields.values else "ft_raw_wrench"
+    content = {"format": "ur_rtde", "path": path, "reading": reading, **specified}
+    table = checked_tables(content, UrRtdeLog, path)
+    if table.moment_about is not None or {"tcp_offset", "payload_kg", "payload_cog_m"} & set(
+        _undetermined(table, fields)
+    ):
+        return table
+    return table.model_copy(update={"moment_about": _agreeing_point(table, fields)})
+
+
+def _undetermined(table: UrRtdeLog, fields: RecordedFields) -> list[str]:
+    """Keys that are needed and neither in the log nor in the table."""
+    lacking = []
+    if table.reading not in fields.values:
+        raise FormatError(
+            f"{table.path}: expected the field {table.reading}, which reading names, got {', '.join(fields.values)}"
+        )
+    if "actual_TCP_pose" not in fields.values:
+        raise FormatError(
+            f"{table.path}: expected the field actual_TCP_pose, which turns the wrench into the flange, got "
+            f"{', '.join(fields.values)}; add it to the recipe and record again"
+        )
+    offset = fields.values.get("tcp_offset", table.tcp_offset)
+    if offset is None:
+        lacking.append("tcp_offset")
+    if table.reading == "actual_TCP_force":
+        has_distance = offset is None or bool(np.any(np.atleast_2d(offset)[:, :3]))
+        if table.moment_about is None and has_distance:
+            lacking.append("moment_about")
+        if "payload" not in fields.values and table.payload_kg is None:
+            lacking.append("payload_kg")
+        elif "payload_cog" not in fields.values and table.payload_cog_m is None and _payload(table, fields)[0].any():
+            lacking.append("payload_cog_m")
+    return lacking
+
+
+def _payload(table: UrRtdeLog, fields: RecordedFields) -> tuple[FloatArray, FloatArray]:
+    """Mass, shape (n,), and centre of mass, shape (n, 3), that the controller subtracts; zero where nothing is said."""
+    count = len(fields.stamp_ns)
+    if table.reading == "ft_raw_wrench":
+        return np.zeros(count), np.zeros((count, 3))
+    mass = fields.values["payload"][:, 0] if "payload" in fields.values else np.full(count, table.payload_kg or 0.0)
+    centre = fields.values.get("payload_cog")
+    if centre is None:
+        stated = np.zeros(3) if table.payload_cog_m is None else table.payload_cog_m
+        centre = np.broadcast_to(stated, (count, 3))
+    return mass, centre
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _FlangePose:
+    """Pose of the flange in the base, and of the TCP in the flange."""
+
+    base_R_flange: FloatArray
+    """Shape (n, 3, 3)."""
+    base_p_flange: FloatArray
+    """Shape (n, 3); m."""
+    flange_p_tcp: FloatArray
+    """Shape (n, 3); m."""
+
+
+def _flange_pose(table: UrRtdeLog, fields: RecordedFields) -> _FlangePose:
+    pose, offset = fields.values["actual_TCP_pose"], fields.values.get("tcp_offset")
+    if offset is None:
+        offset = np.broadcast_to(np.zeros(6) if table.tcp_offset is None else table.tcp_offset, pose.shape)
+    for name, values in (("actual_TCP_pose", pose), ("tcp_offset", offset)):
+        _require_units(table.path, name, values)
+    base_R_flange = _rotations(pose[:, 3:]) @ _rotations(offset[:, 3:]).transpose(0, 2, 1)
+    return _FlangePose(
+        base_R_flange=base_R_flange,
+        base_p_flange=pose[:, :3] - np.einsum("nij,nj->ni", base_R_flange, offset[:, :3]),
+        flange_p_tcp=offset[:, :3],
+    )
+
+
+def _require_units(path: Path, name: str, values: FloatArray) -> None:
+    """Refuse millimetres and degrees, which make values that no arm has."""
+    farthest, turn = (float(np.nanmax(np.abs(part), initial=0.0)) for part in (values[:, :3], values[:, 3:]))
+    if farthest > _FARTHEST_M:
+        raise FormatError(
+            f"{path}: {name}: expected a position in m, got {farthest:.4g}, farther than an arm reaches: it is in mm; "
+            "record the field as the controller sends it"
+        )
+    if turn > 2.0 * np.pi:
+        raise FormatError(
+            f"{path}: {name}: expected a rotation vector in rad, got {turn:.4g}, more than a turn: it is in deg, or "
+            "no rotation vector; record the field as the controller sends it"
+        )
+
+
+def _rotations(vectors: FloatArray) -> FloatArray:
+    """Rotation matrices of rotation vectors; shape (n, 3, 3); NaN where a number lacks."""
+    from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
+
+    known = np.isfinite(vectors).all(axis=1)
+    matrices = np.full((len(vectors), 3, 3), np.nan)
+    if known.any():
+        matrices[known] = Rotation.from_rotvec(vectors[known]).as_matrix()
+    return matrices
+
+
+def _flange_wrench(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> FloatArray:
+    """Wrench of the tool on the flange, with the declared payload; shape (n, 6); N, N m."""
+    logged = fields.values[table.reading]
+    if table.reading == "ft_raw_wrench":
+        return logged
+    wrench = _along_flange(logged, pose, table.moment_about)
+    mass, centre = _payload(table, fields)
+    gravity = np.einsum("nji,j->ni", pose.base_R_flange, table.world_gravity)
+    return wrench + weight_of(mass, centre, gravity)
+
+
+def _along_flange(logged: FloatArray, pose: _FlangePose, point: MomentPoint | None) -> FloatArray:
+    wrench = np.hstack([np.einsum("nji,nj->ni", pose.base_R_flange, part) for part in (logged[:, :3], logged[:, 3:])])
+    if point is MomentPoint.TCP:
+        wrench[:, 3:] += cross(pose.flange_p_tcp, wrench[:, :3])
+    return wrench
+
+
+def _points(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> dict[str, FloatArray]:
+    """Wrench at the flange, declared payload included, if the logged moment is about each point."""
+    mass, centre = _payload(table, fields)
+    weight = weight_of(mass, centre, np.einsum("nji,j->ni", pose.base_R_flange, table.world_gravity))
+    logged = fields.values["actual_TCP_force"]
+    return {point: _along_flange(logged, pose, point) + weight for point in MomentPoint}
+
+
+def _agreeing_point(table: UrRtdeLog, fields: RecordedFields) -> MomentPoint | None:
+    raw = fields.values.get("ft_raw_wrench")
+    if table.reading == "ft_raw_wrench" or raw is None:
+        return None
+    point = agreeing_point(raw, _points(table, fields, _flange_pose(table, fields)))
+    return None if point is None else MomentPoint(point)
+
+
+def _require_no_contradiction(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> None:
+    agreeing = None if table.moment_about is None else _agreeing_point(table, fields)
+    if agreeing not in (None, table.moment_about):
+        raise FormatError(
+            f"{table.path}: moment_about: expected {agreeing}, about which the moment of actual_TCP_force changes as "
+            f"that of ft_raw_wrench in the log, got {table.moment_about}"
+        )
+    felt = fields.values.get("actual_tool_accelerometer")
+    require_gravity_as_felt(table.path, felt, pose.base_R_flange, table.world_gravity / table.gravity)
+
+
+def _other_axes(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> str:
+    """Text about a flange that is turned against `ft_raw_wrench`; empty for none."""
+    if table.reading == "ft_raw_wrench":
+        return ""
+    turn = turned_by(fields.values.get("ft_raw_wrench"), _points(table, fields, pose)[MomentPoint.FLANGE])
+    if turn is None:
+        return ""
+    return (
+        f"the flange is turned by ({', '.join(f'{angle:.0f}' for angle in turn)}) deg (rotation vector) against "
+        "ft_raw_wrench: check the rotation in tcp_offset, and whether the wrench was turned before it was recorded"
+    )
+
+
+def _wrist(table: UrRtdeLog, fields: RecordedFields) -> LoggedWrist:
+    pose = _flange_pose(table, fields)  # without a tcp_offset that of the TCP, which moves when the flange does
+    mass, centre = _payload(table, fields)
+    assumed = [f"{table.reading} is the force of the tool on the arm"]
+    if table.reading == "ft_raw_wrench":
+        assumed.append("along the axes of the flange")
+    elif table.moment_about is not None:
+        agrees = ", as ft_raw_wrench in the log" if _agreeing_point(table, fields) is table.moment_about else ""
+        assumed.append(f"moment about the {table.moment_about}{agrees}")
+    return LoggedWrist(
+        controller="ur",
+        stream=WRIST,
+        measure_direction=MeasureDirection.CHILD_TO_PARENT,
+        declared=declared_loads(fields.stamp_ns, mass, centre),
+        moving=motions(fields.stamp_ns, pose.base_R_flange, pose.base_p_flange),
+        assumed=tuple(assumed),
+        contradictions=tuple(words for words in (_other_axes(table, fields, pose),) if words),
+    )
+
+
+def _reading(table: UrRtdeLog, fields: RecordedFields, undetermined: Mapping[str, str]) -> LogReading:
+    signals: dict[str, Signal] = {}
+    if undetermined:
+        frame = BASE if table.reading == "actual_TCP_force" else FLANGE
+        signals["wrench"] = Signal.of_fixed("wrench", fields.values[table.reading], frame=frame)
+    else:
+        pose = _flange_pose(table, fields)
+        _require_no_contradiction(table, fields, pose)
+        orientation, gravity = pose.base_R_flange, table.world_gravity
+        signals["wrench"] = Signal.of_fixed("wrench", _flange_wrench(table, fields, pose), frame=FLANGE)
+        signals["orientation"] = Signal.of_fixed("orientation", orientation.reshape(-1, 9), frame=FLANGE)
+        signals["gravity"] = Signal.of_fixed("gravity", np.einsum("nji,j->ni", orientation, gravity), frame=FLANGE)
+        signals["translation"] = Signal.of_fixed("translation", pose.base_p_flange, frame=FLANGE)
+    findings = _findings(fields, undetermined)
+    if not undetermined and (words := _other_axes(table, fields, pose)):
+        findings = (*findings, Finding(stream=WRIST, kind="other_axes", message=words, count=len(fields.stamp_ns)))
+    streams = {WRIST: signals}
+    motion = {"actual_q": ("position", "rad"), "actual_qd": ("velocity", "rad/s")}
+    joints = {
+        quantity: Signal(quantity=quantity, values=fields.values[field], columns=JOINTS, units=(unit,) * len(JOINTS))
+        for field, (quantity, unit) in motion.items()
+        if field in fields.values
+    }
+    if "position" in joints:
+        streams["joints"] = joints
+    if (felt := fields.values.get("actual_tool_accelerometer")) is not None:
+        acceleration = Signal.of_fixed("proper_acceleration", felt, frame=TOOL)
+        streams["tool_accelerometer"] = {"proper_acceleration": acceleration}
+    return LogReading(
+        streams=tuple(
+            Stream(name=name, clock=CLOCK, stamp_ns=fields.stamp_ns, signals=signals)
+            for name, signals in streams.items()
+        ),
+        findings=findings,
+    )
+
+
+def _findings(fields: RecordedFields, undetermined: Mapping[str, str]) -> tuple[Finding, ...]:
+    findings = [
+        Finding(stream=WRIST, kind="undetermined", message=f"{key}: neither log nor format says: {words}", count=1)
+        for key, words in undetermined.items()
+    ]
+    findings += repeats_finding(WRIST, fields.repeated)
+    if fields.cut_bytes:
+        text = f"the last row is cut after {fields.cut_bytes} bytes, and left out"
+        findings.append(Finding(stream=WRIST, kind="cut_row", message=text, count=1))
+    return tuple(findings)

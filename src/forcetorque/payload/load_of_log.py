@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The experiment of a log alone: of an arm whose format fixes frame, units and sign of the wrench at its flange."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from forcetorque.base.errors import ExperimentError, MissingFileError
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.input_files import InMemory
+from forcetorque.experiment.loading import load_tables
+from forcetorque.formats.log_format import ArmLoggingFormat, LogDescription
+from forcetorque.formats.logged_wrist import LoggedWrist
+from forcetorque.formats.registry import LOG_FORMATS, format_name, not_recognised, recognised_format
+from forcetorque.inspection.draft.log import draft_of_description, recording_lines
+from forcetorque.inspection.draft.toml_lines import line, toml_value
+from forcetorque.inspection.draft.wrist_of_arm import wrist_interval_lines, wrist_load_lines
+from forcetorque.payload.result import ArmLog
+from forcetorque.results.number_text import amount
+
+SERIAL = "not stated"
+"""Serial number of a sensor that is part of the arm, in an experiment file of its log."""
+_MOST_MOVING = 0.95
+"""Share of a log in which an arm moves, from which on too little is left to weigh at rest (heuristic)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class LogAlone:
+    """An experiment that was made of a log."""
+
+    experiment: Experiment
+    """The experiment."""
+    content: str
+    """Its file, as TOML."""
+    arm: ArmLog
+    """What the log is of, and what was assumed."""
+
+
+def is_experiment_file(path: Path) -> bool:
+    """Check whether a file is an experiment file and no log.
+
+    Args:
+        path: A path.
+
+    Returns:
+        Whether its name ends in .toml, or there is no log there.
+    """
+    return path.suffix.lower() == ".toml" or not path.exists() or recognised_format(path) is None
+
+
+def experiment_of_log(path: Path, specified: Mapping[str, object], folder: Path) -> LogAlone:
+    """Make the experiment of a log of an arm.
+
+    Args:
+        path: The log.
+        specified: Values of keys of the `[recording]` table that neither log nor format determines.
+        folder: Folder of the experiment file, from which its paths count.
+
+    Returns:
+        The experiment, with one sensor at the flange.
+
+    Raises:
+        MissingFileError: If there is no such log.
+        FormatError: If it is damaged, or contradicts itself.
+        ExperimentError: If its format does not fix frame and sign of a wrench, or a key is undetermined.
+    """
+    description, wrist = _description(path, specified)
+    content = "\n".join(_lines(path, description, wrist, folder)) + "\n"
+    experiment = load_tables(tomllib.loads(content), InMemory(), folder=folder)
+    arm = ArmLog(
+        controller=wrist.controller,
+        specified=tuple(f"{key}={toml_value(value)}" for key, value in specified.items()),
+        assumed=tuple(_assumed(wrist, experiment)),
+        contradictions=wrist.contradictions,
+    )
+    return LogAlone(experiment=experiment, content=content, arm=arm)
+
+
+def _description(path: Path, specified: Mapping[str, object]) -> tuple[LogDescription, LoggedWrist]:
+    if not path.exists():
+        raise MissingFileError(f"{path}: expected an experiment file or a log, there is none")
+    known = recognised_format(path)
+    if known is None:
+        raise not_recognised(path)
+    if not isinstance(known, ArmLoggingFormat):
+        names = " or ".join(format_name(one) for one in LOG_FORMATS if isinstance(one, ArmLoggingFormat))
+        raise ExperimentError(
+            f"{path}: expected an experiment file, or a log whose format fixes frame and sign of a wrench ({names}), "
+            f"got a log of the format {format_name(known)}; `forcetorque init {path}` begins an experiment file"
+        )
+    description = known.describe_specified(path, specified)
+    wrist = description.wrist
+    if wrist is None:
+        raise ExperimentError(f"{path}: expected the wrench at the flange of an arm, got {description.wrist_lacks}")
+    if description.undetermined:
+        wanted = "; ".join(f"{key}, {words}" for key, words in description.undetermined.items())
+        example = next(iter(description.undetermined))
+        raise ExperimentError(
+            f"{path}: expected what neither log nor format says: {wanted}; give each by --recording {example}=..."
+        )
+    return description, wrist
+
+
+def _lines(path: Path, description: LogDescription, wrist: LoggedWrist, folder: Path) -> Sequence[str]:
+    return [
+        line("schema", "forcetorque/experiment/1"),
+        line("name", path.stem),
+        "",
+        *recording_lines(draft_of_description(description), folder, None, {}),
+        "",
+        "[[sensor]]",
+        line("name", wrist.stream),
+        line("stream", wrist.stream),
+        line("serial", SERIAL, "of a sensor that a calibration is made of, its serial number"),
+        line("prior", "identity"),
+        *wrist_load_lines(wrist),
+        *wrist_interval_lines(wrist),
+    ]
+
+
+def _assumed(wrist: LoggedWrist, experiment: Experiment) -> Sequence[str]:
+    gravity = experiment.recording.stream(wrist.stream).signal("gravity").values
+    size = float((gravity[0] ** 2).sum() ** 0.5)
+    masses = list(dict.fromkeys(declared.mass for declared in wrist.declared))
+    known = ", ".join(amount(mass, "kg") for mass in masses)
+    words = [*wrist.assumed, f"gravity {size:.6g} m/s2"]
+    if any(masses):
+        words.append(f"the declared payload of {known} is part of the load")
+    start, end = wrist.declared[0].start_ns, wrist.declared[-1].end_ns
+    moving = sum(last - first for first, last in wrist.moving)
+    if moving > _MOST_MOVING * (end - start):
+        raise ExperimentError(
+            f"expected an arm at rest in several postures, got one that moves in {100 * moving / (end - start):.0f} % "
+            "of the log; hold it still in at least four postures, half a second each"
+        )
+    if moving:
+        words.append(f"{1e-9 * moving:.1f} of {1e-9 * (end - start):.1f} s in motion are left out")
+    return words
