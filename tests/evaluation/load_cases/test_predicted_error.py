@@ -12,7 +12,8 @@ from forcetorque.base.errors import FitError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.load_cases.load_case import LoadCase, pushes_around_sensor
 from forcetorque.evaluation.load_cases.predicted_error import ErrorMagnitude, predict_from_posterior, predict_prior
-from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
+from forcetorque.experiment.calibration.model_error import ErrorTerm, TermKind
+from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from tests.scenes.experiments import PARQUET
@@ -97,7 +98,9 @@ def test_every_source_adds_its_own_mean_square() -> None:
 def test_errors_of_the_robot_model_are_taken_off_the_others() -> None:
     """Of a posterior of which a third is theirs, a third of all but the noise."""
     posterior, case = _posterior(), _case(offset="fitted", changes={"temperature": 8.0})
-    of_model = posterior.model_copy(update={"model_covariance": posterior.covariance / 3.0})
+    errors = tuple(ErrorTerm(name=str(k), kind=TermKind.MASS, deviation=1.0) for k in range(9))
+    part = ModelPart(terms=errors, term_covariance=np.eye(9) / 3.0, response=np.linalg.cholesky(posterior.covariance))
+    of_model = posterior.model_copy(update={"model": part})
     exact, wrong = (predict_from_posterior(one, case).force for one in (posterior, of_model))
     assert exact.sources["model"] == 0.0
     np.testing.assert_array_equal(wrong.draws, exact.draws)
