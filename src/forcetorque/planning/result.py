@@ -275,11 +275,16 @@ def of_model(row: PlannedRecording) -> str:
     Returns:
         The end of a sentence; empty where it is little.
     """
-    force = row.force_by_model_N > _MOST * row.force_after_N and np.isfinite(row.force_allowed_N)
-    moment = row.moment_by_model_Nm > _MOST * row.moment_after_Nm and np.isfinite(row.moment_allowed_Nm)
-    if not (force or moment):
+    parts = [
+        f"{by_model:.2g} {unit}"
+        for by_model, error, allowed, unit in (
+            (row.force_by_model_N, row.force_after_N, row.force_allowed_N, "N"),
+            (row.moment_by_model_Nm, row.moment_after_Nm, row.moment_allowed_Nm, "N m"),
+        )
+        if by_model > _MOST * error and np.isfinite(allowed)
+    ]
+    if not parts:
         return ""
-    parts = [f"{row.force_by_model_N:.2g} N"] * force + [f"{row.moment_by_model_Nm:.2g} N m"] * moment
     return f"; tolerances of the robot model make {' and '.join(parts)} of it"
 
 
