@@ -127,7 +127,7 @@ class Laboratory:
         rng = np.random.default_rng([self.seed, _ROBOT])
         errors = RobotErrors.draw(model, mass=MASS, centre_m=CENTRE_M, joint_zero_rad=np.deg2rad(ZERO_DEG), rng=rng)
         about, tilt = rng.uniform(0.0, 2.0 * np.pi), np.deg2rad(TILT_DEG)
-        down = [np.sin(tilt) * np.cos(about), np.sin(tilt) * np.sin(about), -np.cos(tilt)]
+        down = np.array([np.sin(tilt) * np.cos(about), np.sin(tilt) * np.sin(about), -np.cos(tilt)])
         return Stand(model=errors.applied_to(model), support=self.limb.support, gravity_direction=down)
 
     def unrecorded(self) -> SensorRun:
@@ -279,7 +279,7 @@ def main() -> None:
     options = parser.parse_args()
     if options.quick:
         options.seeds, options.limbs = 1, list(LIMBS)[:1]
-    trials = []
+    trials: list[Trial] = []
     for seed in range(options.first_seed, options.first_seed + options.seeds):
         for limb in options.limbs:
             with tempfile.TemporaryDirectory() as folder:

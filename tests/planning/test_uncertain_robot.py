@@ -47,7 +47,7 @@ def _recording(number: int, loads: FloatArray, mass: ErrorTerm = MASS) -> Planne
     model = np.stack([0.7 * loads, rng.normal(size=loads.shape) * [5.0, 5.0, 5.0, 0.5, 0.5, 0.5]], axis=2)
     n = len(loads)
     return PlannedLoads(
-        time_s=np.arange(n) + 0.5, wrench=loads, variables=np.zeros((n, 0)), terms=(mass, own), model=model
+        time_s=np.arange(0.5, n), wrench=loads, variables=np.zeros((n, 0)), terms=(mass, own), model=model
     )
 
 

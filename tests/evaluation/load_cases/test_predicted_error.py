@@ -99,7 +99,9 @@ def test_errors_of_the_robot_model_are_taken_off_the_others() -> None:
     """Of a posterior of which a third is theirs, a third of all but the noise."""
     posterior, case = _posterior(), _case(offset="fitted", changes={"temperature": 8.0})
     errors = tuple(ErrorTerm(name=str(k), kind=TermKind.MASS, deviation=1.0) for k in range(9))
-    part = ModelPart(terms=errors, term_covariance=np.eye(9) / 3.0, response=np.linalg.cholesky(posterior.covariance))
+    part = ModelPart(
+        terms=errors, term_covariance=np.eye(9) / 3.0, response=np.asarray(np.linalg.cholesky(posterior.covariance))
+    )
     of_model = posterior.model_copy(update={"model": part})
     exact, wrong = (predict_from_posterior(one, case).force for one in (posterior, of_model))
     assert exact.sources["model"] == 0.0
