@@ -115,6 +115,7 @@ _FILE = """schema = "forcetorque/experiment/1"
 name = "planned"
 [robot]
 urdf = "{urdf}"
+tolerance = "exact"
 [[sensor]]
 name = "{sensor}"
 serial = "{serial}"

@@ -54,6 +54,7 @@ def _unrecorded(folder: Path, rest: str = PLAN) -> SensorRun:
 name = "new arm"
 [robot]
 urdf = "arm.urdf"
+tolerance = "exact"
 [[sensor]]
 name = "arm_ft"
 serial = "SIM001"

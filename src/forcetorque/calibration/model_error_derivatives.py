@@ -3,15 +3,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.noise.means import WINDOW_ROUNDING, WINDOW_S
-from forcetorque.calibration.joint.model_error_columns import body_columns, delay_terms, error_terms
-from forcetorque.experiment.calibration.model_error import ACCELERATION, DELAY, EXACT, ZERO, ErrorTerm, TermKind
+from forcetorque.calibration.joint.model_error_columns import (
+    acceleration_columns,
+    body_columns,
+    delay_terms,
+    error_terms,
+)
+from forcetorque.experiment.calibration.model_error import (
+    EXACT,
+    ZERO,
+    ErrorTerm,
+    ModelTolerance,
+    TermKind,
+)
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, MovingSupport, Support
@@ -30,6 +41,8 @@ SAMPLES_PER_WINDOW: Final = 10
 """Samples of a window at which the columns are computed: what the model may have wrong moves no faster than a robot."""
 _STEP: Final = 1e-6
 """Step of numerical derivatives by joint positions; rad or m."""
+_BLOCK: Final = 512
+"""Samples that are differentiated at once."""
 _ROUNDING: Final = 1e-6
 """Share of the largest effect of a term below which one is rounding, such as that of a yaw about gravity."""
 
@@ -42,6 +55,112 @@ class ModelColumns:
     """The numbers."""
     columns: FloatArray
     """Derivatives, means over w windows; shape (w, 6, terms); N, N m per unit of the term."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UncertainPart:
+    """The part of a robot beyond a sensor, and what may be wrong with its model."""
+
+    tree: BodyTree
+    """The robot with what is attached, rooted at the link whose motion is known."""
+    bare: BodyTree
+    """The robot without: what is attached is specified or identified by itself."""
+    part: SubModel
+    """The part."""
+    tolerance: ModelTolerance
+    """How far the model may be off."""
+    terms: tuple[ErrorTerm, ...]
+    """Masses and centres of its links, zeros of the joints between the root and these, acceleration of the root."""
+
+    @classmethod
+    def of(cls, tree: BodyTree, bare: BodyTree, sensor: str, tolerance: ModelTolerance) -> UncertainPart | None:
+        """Find the part.
+
+        Args:
+            tree: As of the class.
+            bare: As of the class.
+            sensor: Name of the sensor.
+            tolerance: As of the class.
+
+        Returns:
+            The part; None where the model is exact, or no link beyond the sensor has inertia.
+        """
+        if tolerance == EXACT:
+            return None
+        part = next((part for part in sub_models(tree, [sensor]) if part.sensor == sensor), None)
+        if part is None or not heavy_bodies(tree, part):
+            return None
+        terms = error_terms(bare, [part], tolerance)
+        return cls(tree=tree, bare=bare, part=part, tolerance=tolerance, terms=terms)
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Joints that the expected wrench depends on."""
+        return joints_of_part(self.tree, self.part)
+
+    def without(self, kind: TermKind) -> UncertainPart:
+        """Leave out the terms of a kind.
+
+        Args:
+            kind: The kind.
+
+        Returns:
+            The part with the others.
+        """
+        return replace(self, terms=tuple(term for term in self.terms if term.kind is not kind))
+
+    def terms_in(self, recording: str) -> tuple[ErrorTerm, ...]:
+        """Name the terms, and the delay of the readings, in a recording.
+
+        Args:
+            recording: Its name, which the acceleration gets: another recording may have another error.
+
+        Returns:
+            The terms of `derivatives`.
+        """
+        own = (
+            term.model_copy(update={"name": f"{term.name} in {recording}"})
+            if term.kind is TermKind.ACCELERATION
+            else term
+            for term in self.terms
+        )
+        return (*own, *delay_terms([recording], self.tolerance))
+
+    def derivatives(self, joints: JointMotion, root: RootMotion, rates: FloatArray) -> FloatArray:
+        """Differentiate the expected wrench by the terms, and by the delay of the readings where there may be one.
+
+        Args:
+            joints: Motion of at least `joints`; n samples.
+            root: Motion of the root link's frame; one sample or n.
+            rates: Rates of change of the expected wrench; shape (n, 6); N/s, N m/s.
+
+        Returns:
+            Derivatives; shape (n, 6, terms); N, N m per unit of the term.
+        """
+        blocks = (slice(start, start + _BLOCK) for start in range(0, len(joints), _BLOCK))
+        columns = [self._derivatives(joints.samples(block), root.samples(block)) for block in blocks]
+        late = [-rates[:, :, None]] if self.tolerance.delay_s > 0.0 else []
+        return np.concatenate([np.concatenate(columns), *late], axis=2)
+
+    def _derivatives(self, joints: JointMotion, root: RootMotion) -> FloatArray:
+        """Derivatives by `terms`; shape (n, 6, terms)."""
+        names = {term.name for term in self.terms}
+        equation = next(part_equations(self.tree, [self.part], joints, root))
+        expected, transmission = _expected(equation)
+        columns = body_columns(self.bare, equation) | acceleration_columns(self.tree, equation)
+        columns = {name: column for name, column in columns.items() if name in names}
+        from_root = -np.linalg.inv(transmission)
+        derivatives = {name: np.einsum("nij,nj->ni", from_root, column) for name, column in columns.items()}
+        turned = [joint for joint in self.joints if f"{ZERO}{joint}" in names]
+        # all joints at once: a pass over the bodies takes longer than its samples
+        each = np.tile(np.arange(len(joints)), len(turned))
+        steps = np.repeat(_STEP * np.array([[one == name for name in joints.names] for one in turned]), len(joints), 0)
+        shifted = joints.samples(each)
+        shifted = replace(shifted, position=shifted.position + steps.reshape(shifted.position.shape))
+        again, _ = _expected(next(part_equations(self.tree, [self.part], shifted, root.samples(each))))
+        of_joints = (again.reshape(len(turned), *expected.shape) - expected) / _STEP
+        derivatives |= {f"{ZERO}{joint}": column for joint, column in zip(turned, of_joints, strict=True)}
+        return np.stack([np.zeros_like(expected), *(derivatives[term.name] for term in self.terms)], axis=2)[:, :, 1:]
 
 
 def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> ModelColumns:
@@ -65,38 +184,33 @@ def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> ModelCol
     experiment, support, loads = run.experiment, interval.support, run.experiment.loads
     tolerance = experiment.fit_options.tolerance
     of_load = loads is not None and (loads.applied is not None or loads.in_place_of_robot)
-    if tolerance == EXACT or support is None or of_load:
+    if support is None or of_load:
         return nothing
     tree = build_tree(experiment.model_on(support), support.frame)
-    part = next((part for part in sub_models(tree, [run.sensor.name]) if part.sensor == run.sensor.name), None)
-    if part is None or not heavy_bodies(tree, part):
-        return nothing
     bare = tree if loads is None else build_tree(experiment.model, support.frame)
-    with_acceleration = _measured_at_root(run, support, tree)
-    terms = [
-        term
-        for term in (*error_terms(bare, [part], tolerance), *delay_terms([data.recording], tolerance))
-        if with_acceleration or term.kind is not TermKind.ACCELERATION
-    ]
+    uncertain = UncertainPart.of(tree, bare, run.sensor.name, tolerance)
+    if uncertain is None:
+        return nothing
+    if not _measured_at_root(run, support, tree):
+        uncertain = uncertain.without(TermKind.ACCELERATION)
+    terms = uncertain.terms_in(data.recording)
     if not terms:
         return nothing
     joints, root = robot_motion_at(
         experiment.recording,
         experiment.model,
         support,
-        joints_of_part(tree, part),
+        uncertain.joints,
         run.stream,
         np.round(data.time_s[picked] * 1e9).astype(np.int64),
         processing=experiment.processing,
     )
-    derivatives = _derivatives(tree, bare, part, joints, root)
-    derivatives[f"{DELAY}{data.recording}"] = -_rates(data)[picked]
-    columns = np.stack([derivatives[term.name] for term in terms], axis=2)
+    columns = uncertain.derivatives(joints, root, _rates(data)[picked])
     means = _means(columns, window[picked], len(nothing.columns))
     effect = np.abs(means).max(axis=(0, 1)) * [term.deviation for term in terms]
     moved = effect > _ROUNDING * effect.max(initial=0.0)
     return ModelColumns(
-        terms=tuple(_of_recording(term, data.recording) for term, used in zip(terms, moved, strict=True) if used),
+        terms=tuple(term for term, used in zip(terms, moved, strict=True) if used),
         columns=means[:, :, moved],
     )
 
@@ -107,13 +221,6 @@ def _measured_at_root(run: SensorRun, support: Support | MovingSupport, tree: Bo
         return True
     frame = imu_frame(run.experiment.model, run.experiment.recording, support)
     return tree.frames[frame][0] == tree.frames[support.frame][0]
-
-
-def _of_recording(term: ErrorTerm, recording: str) -> ErrorTerm:
-    """The term under a name that only the recording has, where another recording may have another error."""
-    if term.kind is not TermKind.ACCELERATION:
-        return term
-    return term.model_copy(update={"name": f"{term.name} in {recording}"})
 
 
 def _picked(data: DataSet) -> tuple[IntArray, IntArray]:
@@ -142,33 +249,8 @@ def _means(columns: FloatArray, window: IntArray, windows: int) -> FloatArray:
     return total / np.maximum(np.bincount(window[whole], minlength=windows), 1)[:, None, None]
 
 
-def _derivatives(
-    tree: BodyTree, bare: BodyTree, part: SubModel, joints: JointMotion, root: RootMotion
-) -> dict[str, FloatArray]:
-    """Derivatives of the expected wrench, shape (n, 6) each, by name of the term.
-
-    Masses and centres are those of the robot without attached loads, which are specified or identified by themselves.
-
-    Returns:
-        N, N m per unit of the term.
-    """
-    equation = next(part_equations(tree, [part], joints, root))
-    expected, transmission = _expected(equation)
-    columns = body_columns(bare, equation)
-    columns |= {name: column for name, column in body_columns(tree, equation).items() if ACCELERATION in name}
-    derivatives = {name: -_read(transmission, column) for name, column in columns.items()}
-    for joint in joints_of_part(tree, part):
-        again = next(part_equations(tree, [part], joints.shifted({joint: _STEP}), root))
-        derivatives[f"{ZERO}{joint}"] = (_expected(again)[0] - expected) / _STEP
-    return derivatives
-
-
 def _expected(equation: PartEquation) -> tuple[FloatArray, FloatArray]:
     """What the sensor at the base of a part must read, and its transmission; shapes (n, 6) and (n, 6, 6)."""
     transmission = equation.transmission[:, 0]
-    return _read(transmission, equation.demand), transmission
-
-
-def _read(transmission: FloatArray, wrench: FloatArray) -> FloatArray:
-    """What a sensor reads that transmits wrenches; shape (n, 6)."""
-    return np.asarray(np.linalg.solve(transmission, wrench[..., None])[..., 0], dtype=np.float64)
+    reading = np.linalg.solve(transmission, equation.demand[..., None])[..., 0]
+    return np.asarray(reading, dtype=np.float64), transmission

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from forcetorque.planning.joint_calibration_plan import useful_steps
-from forcetorque.planning.result import PlannedRecording, helps
+from forcetorque.planning.result import PlannedRecording, helps, of_model
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import amount, bounded
 
@@ -36,6 +36,7 @@ def plan_answer(plan: Plan) -> Answer:
         why=(
             f"{_errors(first)}; held at {first.support}, tool: {first.tool}",
             *([f"after all {len(plan.recordings)} recordings: {_after(last)}"] if several else []),
+            *([words.removeprefix("; ")] if (words := of_model(last)) else []),
         ),
         step=(
             "name a folder for the trajectories by --output"

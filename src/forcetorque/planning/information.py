@@ -14,7 +14,8 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import SlowNoise, Timeline
 from forcetorque.experiment.calibration import assumptions as expected
 from forcetorque.experiment.calibration.assumptions import LOADS, QUADRATIC, Assumptions, rows_of
-from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
+from forcetorque.experiment.calibration.model_error import ErrorTerm
+from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS, quadratic_terms
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 
@@ -140,6 +141,10 @@ class PlannedLoads(ArrayRecord):
     """Loads; shape (n, 6); N, N m."""
     variables: FloatArray = field(metadata=array("n", None))
     """Linear variables of the posterior, less their reference values; shape (n, v)."""
+    terms: tuple[ErrorTerm, ...] = ()
+    """Errors of the robot model that the loads depend on; those of the recording alone have a name of their own."""
+    model: FloatArray | None = field(default=None, metadata=array("n", 6, None))
+    """Derivatives of the loads by these; shape (n, 6, terms); N, N m per unit of the term; None without terms."""
 
     @property
     def columns(self) -> FloatArray:
@@ -186,12 +191,21 @@ class Nuisance:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Knowledge:
-    """What is known of a sensor, to which recordings can be added."""
+    """What is known of a sensor, to which recordings can be added.
+
+    Errors of the robot model are common to all rows, and to recordings of the same robot. Given these errors, the
+    unknowns of a row are independent of those of the other rows.
+    """
 
     posterior: Posterior
     """Matrix, variables, and the offset of the last recording."""
     together: FloatArray
-    """Covariance of matrix, variables and quadratic terms without the repeatability; shape (rows, q, q)."""
+    """Covariance of matrix, variables and quadratic terms without the repeatability, given the errors of the robot
+    model; shape (rows, q, q)."""
+    model: ModelPart
+    """Errors of the robot model, and what these unknowns owe to them."""
+    recordings: int
+    """Number of planned recordings so far."""
     seconds: float
     """How much was fitted so far, which the mean load is of; s."""
     nuisance: Nuisance | None
@@ -215,15 +229,28 @@ class Knowledge:
         together = np.zeros((len(posterior.mean), used + terms, used + terms))
         together[:, :used, :used] = posterior.covariance[:, :used, :used]
         together[:, :6, :6] = posterior.mean_covariance
+        model = ModelPart.exact(*together.shape[:2])
+        if posterior.model is not None:
+            response = np.zeros((*together.shape[:2], len(posterior.model.terms)))
+            response[:, :used] = posterior.model.response[:, :used]
+            model = posterior.model.model_copy(update={"response": response})
+            together -= model.covariance
         if nuisance is not None:
             together[:, used:, used:] = nuisance.deviation[:, None, None] ** 2 * np.eye(terms)
         return cls(
             posterior=posterior,
             together=together,
+            model=model,
+            recordings=0,
             seconds=seconds,
             nuisance=nuisance,
             centre=None,
         )
+
+    @property
+    def next_recording(self) -> str:
+        """Name of the recording to come, which has errors of acceleration and delay of its own."""
+        return f"planned recording {self.recordings + 1}"
 
     def updated(self, loads: PlannedLoads) -> Knowledge:
         """Add a recording.
@@ -239,48 +266,99 @@ class Knowledge:
         line, columns = Timeline.of(loads.time_s), loads.columns
         if self.nuisance is not None:
             columns = np.hstack([columns, self.nuisance.columns(loads.wrench, centre)])
-        mean = columns.mean(axis=0)
-        products = {shape: _product(line, columns - mean, shape) for shape in set(map(_shape, posterior.noise))}
+        model = self.model.with_terms(loads.terms)
+        by_model = self._model_columns(loads, model)
+        q, terms = columns.shape[1], len(model.terms)
         repeated = posterior.covariance[:, :6, :6] - posterior.mean_covariance
-        together = np.empty_like(self.together)
+        together, response = np.empty_like(self.together), np.empty_like(model.response)
         covariance = np.zeros((len(together), used + 1, used + 1))
+        kept = np.zeros((len(together), used + 1, terms))
+        term_information = np.zeros((terms, terms))
         moved = np.zeros((used + 1, 6))
-        moved[:6], moved[used] = np.eye(6), -mean[:6]
+        moved[:6], moved[used] = np.eye(6), -columns[:, :6].mean(axis=0)
+        products: dict[tuple[SlowNoise, int], tuple[FloatArray, FloatArray, FloatArray, float]] = {}
         for k, noise in enumerate(posterior.noise):
-            information, weighed, worth = products[_shape(noise)]
+            # rows have the same columns where the robot model is exact
+            key = _shape(noise), k if terms else 0
+            if key not in products:
+                products[key] = _product(line, np.hstack([columns, by_model[k]]), key[0])
+            information, mean, weighed, worth = products[key]
             variance = max(noise.white, _LEAST_NOISE) ** 2
-            together[k] = _narrowed(self.together[k], information / variance)
+            information = information / variance
+            before, own, mixed = model.response[k], information[:q, :q], information[:q, q:]
+            together[k] = _narrowed(self.together[k], own)
+            # of the errors themselves, whose change moves the unknowns too
+            along = own @ before + mixed
+            response[k] = before - together[k] @ along
+            term_information += (
+                information[q:, q:] + before.T @ along + mixed.T @ before - along.T @ together[k] @ along
+            )
             # from the unknowns to those that are kept and the offset
-            turned = np.vstack([np.eye(used, len(mean)), -(mean + weighed)])
+            to_offset = -(mean + weighed)
+            turned = np.vstack([np.eye(used, q), to_offset[:q]])
+            kept[k] = turned @ response[k]
+            kept[k, used] += to_offset[q:]
             covariance[k] = turned @ together[k] @ turned.T + moved @ repeated[k] @ moved.T
             covariance[k, used, used] += variance / worth
+        term_covariance = _narrowed(model.term_covariance, term_information)
+        model = ModelPart(terms=model.terms, term_covariance=term_covariance, response=response)
+        of_posterior = ModelPart(terms=model.terms, term_covariance=term_covariance, response=kept)
         seconds = self.seconds + len(line)
         update = {
             "sessions": (_SESSION,),
             "drift": False,
             "mean": np.zeros((len(together), used + 1)),
-            "covariance": covariance,
-            "mean_covariance": together[:, :6, :6].copy(),
-            "model_covariance": None,
-            "load_centre": (self.seconds * posterior.load_centre + len(line) * mean[:6]) / seconds,
+            "covariance": covariance + of_posterior.covariance,
+            "mean_covariance": (together + model.covariance)[:, :6, :6],
+            "model": of_posterior if terms else None,
+            "load_centre": (self.seconds * posterior.load_centre - len(line) * moved[used]) / seconds,
         }
-        after = posterior.model_copy(update=update)
-        return Knowledge(posterior=after, together=together, seconds=seconds, nuisance=self.nuisance, centre=centre)
+        return Knowledge(
+            posterior=posterior.model_copy(update=update),
+            together=together,
+            model=model,
+            recordings=self.recordings + 1,
+            seconds=seconds,
+            nuisance=self.nuisance,
+            centre=centre,
+        )
+
+    def _model_columns(self, loads: PlannedLoads, model: ModelPart) -> FloatArray:
+        """What a unit of every error of the model adds to the rows; shape (rows, n, terms)."""
+        columns = np.zeros((len(self.together), len(loads.time_s), len(model.terms)))
+        if loads.model is not None:
+            columns[:, :, model.places(loads.terms)] = rows_by_model(self.posterior, loads.model)
+        return columns
+
+
+def rows_by_model(posterior: Posterior, derivatives: FloatArray) -> FloatArray:
+    """Give what errors of the robot model add to the rows of a posterior.
+
+    Args:
+        posterior: The posterior.
+        derivatives: Derivatives of loads; shape (n, 6, terms); N, N m per unit of the term.
+
+    Returns:
+        Derivatives of the rows; shape (rows, n, terms).
+    """
+    return np.einsum("kc,nct->knt", np.linalg.pinv(posterior.to_wrench), derivatives)
 
 
 def _shape(noise: RowNoise) -> SlowNoise:
     return SlowNoise(time_constant_s=noise.time_constant_s, ratio=noise.ratio)
 
 
-def _product(line: Timeline, columns: FloatArray, noise: SlowNoise) -> tuple[FloatArray, FloatArray, float]:
-    """Information of the columns without the offset, their mean as it is weighed, and that of the offset alone."""
+def _product(line: Timeline, columns: FloatArray, noise: SlowNoise) -> tuple[FloatArray, FloatArray, FloatArray, float]:
+    """Information of columns beside an offset, their mean, that as weighed less it, and information of the offset."""
+    centre = columns.mean(axis=0)
+    columns = columns - centre
     size = np.abs(columns).max(axis=0, initial=0.0)
     size[size == 0.0] = 1.0
     product, _ = line.product(np.asfortranarray(np.column_stack([columns / size, np.ones(len(line))])), noise)
     worth = float(product[-1, -1])
     mean = product[-1, :-1] / worth
     information = product[:-1, :-1] - worth * np.outer(mean, mean)
-    return information * np.outer(size, size), mean * size, worth
+    return information * np.outer(size, size), centre, mean * size, worth
 
 
 def _narrowed(covariance: FloatArray, information: FloatArray) -> FloatArray:

@@ -153,7 +153,11 @@ def plan(
         advice=advice(rows, start.known.posterior, known.posterior, demand.criterion, places),
         recordings=tuple(rows),
         postures=tuple(row for k, one in enumerate(planned, 1) for row in posture_rows(k, one)),
-        limits=limits_of(calibrated=calibration is not None, posterior=start.known.posterior),
+        limits=limits_of(
+            calibrated=calibration is not None,
+            posterior=start.known.posterior,
+            tolerance=start.runs[0].experiment.fit_options.tolerance,
+        ),
         proposals=tuple(planned),
     )
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, RobotError
 from forcetorque.base.noise.means import means_over
+from forcetorque.calibration.model_error_derivatives import UncertainPart
+from forcetorque.experiment.calibration.model_error import ErrorTerm
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.information import Knowledge, PlannedLoads
@@ -44,6 +47,8 @@ class Workplace:
     """What is attached; `none` for nothing."""
     moved: tuple[str, ...]
     """Joints that move; the others rest."""
+    uncertain: UncertainPart | None = None
+    """What may be wrong with the robot model; None where it is exact."""
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -60,8 +65,28 @@ class Workplace:
         Returns:
             Wrenches in the sensor's frame; shape (n, 6); N, N m.
         """
-        root = RootMotion.fixed(self.stand.gravity_direction, gravity=self.stand.gravity)
-        return expected_wrenches(self.stand.tree, motion, root, [self.sensor])[self.sensor]
+        return expected_wrenches(self.stand.tree, motion, self._root, [self.sensor])[self.sensor]
+
+    @property
+    def _root(self) -> RootMotion:
+        return RootMotion.fixed(self.stand.gravity_direction, gravity=self.stand.gravity)
+
+    def by_model(
+        self, motion: JointMotion, rates: FloatArray, recording: str
+    ) -> tuple[tuple[ErrorTerm, ...], FloatArray]:
+        """Differentiate the loads by the errors of the robot model.
+
+        Args:
+            motion: Motion of all free joints.
+            rates: Rates of change of the loads; shape (n, 6); N/s, N m/s.
+            recording: Name of the recording, which has an acceleration and a delay of its own.
+
+        Returns:
+            The errors, and derivatives by them; shape (n, 6, terms); N, N m per unit of the term.
+        """
+        if self.uncertain is None:
+            return (), np.zeros((*rates.shape, 0))
+        return self.uncertain.terms_in(recording), self.uncertain.derivatives(motion, self._root, rates)
 
     def postures(self, count: int, rng: np.random.Generator) -> FloatArray:
         """Draw postures: the rest first, then as many with every joint anywhere as with every joint at an end.
@@ -99,6 +124,7 @@ def workplaces(run: SensorRun, table: PlanTable, clearance_deg: float, supports:
         ExperimentError: If there is none, a joint has no range left, or a tool does not hang on the sensor.
     """
     model, name = run.experiment.model, run.experiment.model.sensor(run.sensor.name).name
+    tolerance = run.experiment.fit_options.tolerance
     places: list[Workplace] = []
     carried: set[str] = set()
     for support in supports:
@@ -112,7 +138,8 @@ def workplaces(run: SensorRun, table: PlanTable, clearance_deg: float, supports:
             moved = _moving(stand, name)
             if moved:
                 label = NOTHING if tool is None else tool.name
-                places.append(Workplace(stand=stand, sensor=name, tool=label, moved=moved))
+                uncertain = UncertainPart.of(stand.tree, bare.tree, name, tolerance)
+                places.append(Workplace(stand=stand, sensor=name, tool=label, moved=moved, uncertain=uncertain))
     for tool in table.tool:
         if tool.name not in carried:
             raise ExperimentError(
@@ -264,7 +291,7 @@ class Demand:
     """How long to look for it."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Proposal:
     """A recording."""
 
@@ -274,10 +301,20 @@ class Proposal:
     """Temperature at the start and at the end; None where none was stated; degC."""
     trajectory: Waypoints
     """The motion of all free joints, from rest to rest."""
-    after: Knowledge
-    """What is known after it."""
-    value: float
-    """The criterion after it."""
+    known: Knowledge
+    """What is known before it."""
+    criterion: Criterion
+    """What it is to lower."""
+
+    @cached_property
+    def after(self) -> Knowledge:
+        """What is known after it."""
+        return self.known.updated(planned_loads(self.place, self.known, self.trajectory, self.temperature))
+
+    @cached_property
+    def value(self) -> float:
+        """The criterion after it."""
+        return self.criterion.value(self.after.posterior)
 
     @property
     def postures(self) -> FloatArray:
@@ -336,14 +373,18 @@ def propose(place: Workplace, known: Knowledge, demand: Demand, temperature: tup
     """
     rng = np.random.default_rng(_SEED)
     drawn = place.postures(demand.effort.postures, rng)
-    loads = place.loads(JointMotion.at_rest(place.stand.joints, drawn))
+    at_rest = JointMotion.at_rest(place.stand.joints, drawn)
+    loads = place.loads(at_rest)
     columns = np.hstack([loads, _variables(known.posterior, temperature, np.zeros(len(loads)))])
+    terms, model = place.by_model(at_rest, np.zeros_like(loads), known.next_recording)
     centred = _with_centre(known, loads, demand)
     choices = Choices(
         columns=columns,
         travel_s=lambda start: _travel(place, drawn[start], drawn) + demand.hold_s,
         hold_s=demand.hold_s,
         seconds=demand.seconds - demand.hold_s,
+        terms=terms,
+        model=model,
     )
     return search(
         lambda postures: _proposal(place, known, demand, temperature, postures),
@@ -356,13 +397,13 @@ def propose(place: Workplace, known: Knowledge, demand: Demand, temperature: tup
 
 
 def planned_loads(
-    place: Workplace, posterior: Posterior, trajectory: Waypoints, temperature: tuple[float, float] | None
+    place: Workplace, known: Knowledge, trajectory: Waypoints, temperature: tuple[float, float] | None
 ) -> PlannedLoads:
     """Compute the loads on the sensor during a motion.
 
     Args:
         place: Workplace of the motion.
-        posterior: Posterior of the sensor, whose variables are those of the loads.
+        known: What is known of the sensor, whose variables are those of the loads.
         trajectory: The motion.
         temperature: Temperature at the start and at the end.
 
@@ -372,9 +413,15 @@ def planned_loads(
     sampled = np.arange(0.0, trajectory.duration_s, 1.0 / _SAMPLED_HZ)
     motion = trajectory(sampled)
     share = sampled / max(trajectory.duration_s, 1.0)
-    columns = np.hstack([place.loads(motion), _variables(posterior, temperature, share)])
-    time, means, _ = means_over(sampled, columns)
-    return PlannedLoads(time_s=time, wrench=means[:, :6], variables=means[:, 6:])
+    loads = place.loads(motion)
+    rates = np.gradient(loads, 1.0 / _SAMPLED_HZ, axis=0)
+    terms, model = place.by_model(motion, rates, known.next_recording)
+    variables = _variables(known.posterior, temperature, share)
+    time, means, _ = means_over(sampled, np.hstack([loads, variables, model.reshape(len(loads), -1)]))
+    wrench, variables, model = np.split(means, [6, 6 + variables.shape[1]], axis=1)
+    return PlannedLoads(
+        time_s=time, wrench=wrench, variables=variables, terms=terms, model=model.reshape(len(time), 6, len(terms))
+    )
 
 
 def _best(
@@ -404,14 +451,8 @@ def _proposal(
 ) -> Proposal:
     moved = np.append(True, np.abs(np.diff(postures, axis=0)).max(axis=1) > 0.0)
     trajectory = place.stand.through(postures[moved], hold_s=demand.hold_s)
-    loads = planned_loads(place, known.posterior, trajectory, temperature)
-    after = known.updated(loads)
     return Proposal(
-        place=place,
-        temperature=temperature,
-        trajectory=trajectory,
-        after=after,
-        value=demand.criterion.value(after.posterior),
+        place=place, temperature=temperature, trajectory=trajectory, known=known, criterion=demand.criterion
     )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.predicted_error import PredictedError
+from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.planning.information import ASSUMED_NOISE
 from forcetorque.planning.proposal import NOTHING, Proposal, Workplace
@@ -58,6 +59,10 @@ class PlannedRecording(Row):
     """With 95 % it is no more than that."""
     moment_allowed_Nm: FloatOrNull
     """What is allowed; infinite where it is not evaluated."""
+    force_by_model_N: float = 0.0
+    """Part of the force error after it that comes of errors of the robot model, root mean square."""
+    moment_by_model_Nm: float = 0.0
+    """The same of the moment error."""
     within_allowed: float
     """Probability that both are within what is allowed after it."""
 
@@ -110,6 +115,8 @@ def recording_row(
         moment_after_Nm=after.moment.typical,
         moment_after_at_most_Nm=after.moment.at_most,
         moment_allowed_Nm=moment,
+        force_by_model_N=after.force.sources["model"],
+        moment_by_model_Nm=after.moment.sources["model"],
         within_allowed=after.within(force, moment),
     )
 
@@ -140,6 +147,8 @@ def posture_rows(number: int, proposal: Proposal) -> Iterator[PlannedPosture]:
 
 _STAYS = 0.7
 """Share of the prior's uncertainty of a load direction from which it counts as not taught."""
+_MOST = 0.7
+"""Share of an error from which errors of the robot model are named: half of its square."""
 _MATTERS = 0.1
 """Part that such a direction makes of what is left, or of what is allowed where that is more, to be named."""
 _SPAN = 1e-3
@@ -237,7 +246,7 @@ def advice(
         return (
             f"nothing within these limits helps: the best recording of {first.seconds:.0f} s leaves "
             f"{first.force_after_N:.3g} of {first.force_before_N:.3g} N and {first.moment_after_Nm:.3g} of "
-            f"{first.moment_before_Nm:.3g} N m{left}"
+            f"{first.moment_before_Nm:.3g} N m{of_model(first)}{left}"
         )
     attached = "nothing attached" if first.tool == NOTHING else f"{first.tool} attached"
     warm = "" if first.temperature_start_degC is None else f", {_temperature(first)} degC"
@@ -245,7 +254,7 @@ def advice(
         f"record first {first.postures} postures in {first.seconds:.0f} s, held at {first.support}, {attached}{warm}: "
         f"the expected error falls from {first.force_before_N:.3g} N and {first.moment_before_Nm:.3g} N m to "
         f"{first.force_after_N:.3g} N (at most {first.force_after_at_most_N:.3g}) and {first.moment_after_Nm:.3g} N m "
-        f"(at most {first.moment_after_at_most_Nm:.3g}){_in_the_end(rows)}{left}"
+        f"(at most {first.moment_after_at_most_Nm:.3g}){_in_the_end(rows)}{of_model(rows[-1])}{left}"
     )
 
 
@@ -257,12 +266,35 @@ def _in_the_end(rows: Sequence[PlannedRecording]) -> str:
     return f"; after all {len(rows)} to {last.force_after_N:.3g} N and {last.moment_after_Nm:.3g} N m"
 
 
-def limits_of(*, calibrated: bool, posterior: Posterior) -> tuple[str, ...]:
+def of_model(row: PlannedRecording) -> str:
+    """Say what errors of the robot model make of the error after a recording.
+
+    Args:
+        row: The recording.
+
+    Returns:
+        The end of a sentence; empty where it is little.
+    """
+    parts = [
+        f"{by_model:.2g} {unit}"
+        for by_model, error, allowed, unit in (
+            (row.force_by_model_N, row.force_after_N, row.force_allowed_N, "N"),
+            (row.moment_by_model_Nm, row.moment_after_Nm, row.moment_allowed_Nm, "N m"),
+        )
+        if by_model > _MOST * error and np.isfinite(allowed)
+    ]
+    if not parts:
+        return ""
+    return f"; tolerances of the robot model make {' and '.join(parts)} of it"
+
+
+def limits_of(*, calibrated: bool, posterior: Posterior, tolerance: ModelTolerance) -> tuple[str, ...]:
     """List the assumptions, and what was not checked.
 
     Args:
         calibrated: Whether a calibration is known.
         posterior: What is known.
+        tolerance: How far the robot model may be off.
 
     Returns:
         Sentences.
@@ -273,16 +305,35 @@ def limits_of(*, calibrated: bool, posterior: Posterior) -> tuple[str, ...]:
     )
     model = (
         "what a recording is expected to teach leaves room for quadratic terms, and none for what differentiation "
-        "flattens"
+        "flattens",
+        *_robot_model(tolerance, unknown=calibrated and posterior.model is None),
     )
     if calibrated:
-        return unchecked, model
+        return unchecked, *model
     drift = ASSUMED_NOISE * max(row.ratio for row in posterior.noise) ** 0.5
     assumed = (
         f"nothing was recorded: the prior matrix is taken to be off by some 6 % of each row, noise of a mean over a "
         f"second to be {ASSUMED_NOISE:g} of full scale and slow noise {drift:.2g}"
     )
-    return assumed, unchecked, model
+    return assumed, unchecked, *model
+
+
+def _robot_model(tolerance: ModelTolerance, *, unknown: bool) -> Iterator[str]:
+    """What is assumed of the robot model, and whether that is unknown of the calibration."""
+    if tolerance == EXACT:
+        yield "the robot model is taken as exact, as [robot] tolerance states"
+        return
+    yield (
+        f"the robot model is taken to be off by masses {100.0 * tolerance.mass:.2g} %, centres of mass "
+        f"{1e3 * tolerance.centre_m:.2g} mm, joint zeros {np.degrees(tolerance.joint_zero_rad):.2g} deg, by the same "
+        f"in all recordings, and by acceleration {tolerance.acceleration:.2g} m/s2 and delay "
+        f"{1e3 * tolerance.delay_s:.2g} ms, anew in each; state others in [robot] tolerance"
+    )
+    if unknown:
+        yield (
+            "the calibration took the robot model as exact, so that predicted errors do not have what errors of the "
+            "model made of it; calibrate with [robot] tolerance"
+        )
 
 
 def _temperature(row: PlannedRecording) -> str:

@@ -12,7 +12,9 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.predicted_error import load_second_moment
-from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.experiment.calibration.model_error import ErrorTerm
+from forcetorque.experiment.calibration.posterior import ModelPart, Posterior
+from forcetorque.planning.information import rows_by_model
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -151,6 +153,10 @@ class Choices:
     """How long it rests at a posture, at least a second counts; s."""
     seconds: float
     """How long all may take, the way back to the start included; s."""
+    terms: tuple[ErrorTerm, ...] = ()
+    """Errors of the robot model that the loads depend on."""
+    model: FloatArray | None = None
+    """Derivatives of the loads by these; shape (n, 6, terms); N, N m per unit of the term; None without terms."""
 
 
 def pick(posterior: Posterior, aim: Aim, choices: Choices, *, haste: float) -> IntArray:
@@ -177,16 +183,16 @@ def pick(posterior: Posterior, aim: Aim, choices: Choices, *, haste: float) -> I
             for row in posterior.noise
         ]
     )
-    known = np.zeros((len(noise), size + 1, size + 1))
-    known[:, :size, :size] = posterior.covariance[:, :size, :size]
-    known[:, :6, :6] = posterior.mean_covariance
+    known = _before(posterior, choices.terms, size)
     known[:, size, size] = _OPEN**2 * noise
     centre = choices.columns.mean(axis=0)
     design = np.column_stack([choices.columns - centre, np.ones(n)])
+    model = np.zeros((len(noise), n, 0)) if choices.model is None else rows_by_model(posterior, choices.model)
+    model = model - model.mean(axis=1, keepdims=True)
     picked, spent, way_back = [0], 0.0, choices.travel_s(0)
     while True:
-        known = _taken(known, noise, design[picked[-1]])
-        gain = aim.gains(posterior, centre, _readings(known, noise, design))
+        known = _taken(known, noise, design[picked[-1]], model[:, picked[-1]])
+        gain = aim.gains(posterior, centre, _readings(known, noise, design, model))
         travel = choices.travel_s(picked[-1])
         reachable = spent + travel + way_back <= choices.seconds
         reachable[[0, picked[-1]]] = False
@@ -201,15 +207,34 @@ def _posture_variance(white: float, ratio: float, time_s: float, hold_s: float, 
     return float(max(white, 1e-9) ** 2 * (1.0 / max(hold_s, 1.0) + ratio * wandered))
 
 
-def _taken(known: FloatArray, noise: FloatArray, design: FloatArray) -> FloatArray:
+def _before(posterior: Posterior, terms: Sequence[ErrorTerm], size: int) -> FloatArray:
+    """Covariance of loads and variables, an offset, and errors of the model; shape (rows, p, p)."""
+    rows, unknowns = posterior.mean.shape
+    model = (ModelPart.exact(rows, unknowns) if posterior.model is None else posterior.model).with_terms(terms)
+    places = model.places(terms)
+    known = np.zeros((rows, size + 1 + len(terms), size + 1 + len(terms)))
+    known[:, :size, :size] = posterior.covariance[:, :size, :size]
+    known[:, :6, :6] = posterior.mean_covariance
+    known[:, size + 1 :, size + 1 :] = model.term_covariance[np.ix_(places, places)]
+    known[:, :size, size + 1 :] = model.response[:, :size] @ model.term_covariance[:, places]
+    known[:, size + 1 :, :size] = known[:, :size, size + 1 :].transpose(0, 2, 1)
+    return known
+
+
+def _taken(known: FloatArray, noise: FloatArray, design: FloatArray, model: FloatArray) -> FloatArray:
     """What is known once a reading more is taken; shape (rows, p, p)."""
-    along = known @ design
-    return known - along[:, :, None] * along[:, None, :] / (noise + along @ design)[:, None, None]
+    own = len(design)
+    along = known[:, :, :own] @ design + np.einsum("ijt,it->ij", known[:, :, own:], model)
+    variance = noise + along[:, :own] @ design + (along[:, own:] * model).sum(axis=1)
+    return known - along[:, :, None] * along[:, None, :] / variance[:, None, None]
 
 
-def _readings(known: FloatArray, noise: FloatArray, design: FloatArray) -> Readings:
-    covariance = np.einsum("ijk,nk->inj", known, design)
+def _readings(known: FloatArray, noise: FloatArray, design: FloatArray, model: FloatArray) -> Readings:
+    own = design.shape[1]
+    covariance = np.einsum("ijk,nk->inj", known[:, :own, :own], design) + model @ known[:, own:, :own]
     variance = np.einsum("inj,nj->in", covariance, design) + noise[:, None]
+    with_model = design @ known[:, :own, own:] + model @ known[:, own:, own:]
+    variance += (with_model * model).sum(axis=2)
     return Readings(with_unknowns=covariance, variance=variance, noise=noise[:, None])
 
 

@@ -12,7 +12,8 @@ from forcetorque.base.errors import FitError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.load_cases.load_case import LoadCase, pushes_around_sensor
 from forcetorque.evaluation.load_cases.predicted_error import ErrorMagnitude, predict_from_posterior, predict_prior
-from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
+from forcetorque.experiment.calibration.model_error import ErrorTerm, TermKind
+from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from tests.scenes.experiments import PARQUET
@@ -97,15 +98,37 @@ def test_every_source_adds_its_own_mean_square() -> None:
 def test_errors_of_the_robot_model_are_taken_off_the_others() -> None:
     """Of a posterior of which a third is theirs, a third of all but the noise."""
     posterior, case = _posterior(), _case(offset="fitted", changes={"temperature": 8.0})
-    of_model = posterior.model_copy(update={"model_covariance": posterior.covariance / 3.0})
+    errors = tuple(ErrorTerm(name=str(k), kind=TermKind.MASS, deviation=1.0) for k in range(9))
+    part = ModelPart(
+        terms=errors, term_covariance=np.eye(9) / 3.0, response=np.asarray(np.linalg.cholesky(posterior.covariance))
+    )
+    of_model = posterior.model_copy(update={"model": part})
     exact, wrong = (predict_from_posterior(one, case).force for one in (posterior, of_model))
     assert exact.sources["model"] == 0.0
-    np.testing.assert_array_equal(wrong.draws, exact.draws)
+    assert (wrong.draws**2).mean() == pytest.approx((exact.draws**2).mean(), rel=STATISTICAL)
     squares = _mean_squares(posterior, case, fitted=True, change=8.0)[:3].sum() - exact.sources["noise"] ** 2
     assert wrong.sources["model"] ** 2 == pytest.approx(squares / 3.0, rel=1e-9)
     for source in ("matrix", "offset", "variables"):
         ratio = (wrong.sources[source] / exact.sources[source]) ** 2  # type: ignore[index]
         assert ratio == pytest.approx(2.0 / 3.0, rel=STATISTICAL)
+
+
+def test_an_error_of_the_robot_model_is_in_all_rows_at_once() -> None:
+    """Alone, it makes errors as of one normal number: a median of .67 and an end of 2.24 of their root mean square."""
+    posterior, case = _posterior(), _case(offset="tared")
+    response = np.zeros((*posterior.mean.shape, 1))
+    response[range(6), range(6), 0] = 1.0
+    part = ModelPart(
+        terms=(ErrorTerm(name="mass", kind=TermKind.MASS, deviation=0.03),),
+        term_covariance=np.array([[0.03**2]]),
+        response=response,
+    )
+    silent = tuple(RowNoise(white=0.0, time_constant_s=0.0, ratio=0.0) for _ in range(6))
+    update = {"model": part, "covariance": part.covariance, "noise": silent, "to_wrench": np.eye(6)}
+    force = predict_from_posterior(posterior.model_copy(update=update), case).force
+    size = 0.03 * np.sqrt((case.wrench[:, :3] ** 2).sum(axis=1).mean())
+    assert force.typical == pytest.approx(0.674 * size, rel=STATISTICAL)
+    assert force.at_most == pytest.approx(2.241 * size, rel=STATISTICAL)
 
 
 def test_ends_of_an_interval_are_exceeded_as_often_as_they_say() -> None:

@@ -18,7 +18,7 @@ from forcetorque.experiment.calibration import assumptions as expected
 from forcetorque.experiment.calibration.assumptions import LOADS, Assumptions, Rows, Scale, rows_of
 from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError, MountTolerance
 from forcetorque.experiment.calibration.moments import WindowMeans, in_order, model_terms
-from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
+from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
 
@@ -183,7 +183,7 @@ class SolvedRows:
         rows, unit, sessions = self.rows, self.rows.unit, self.design.sessions
         known = [self._row(k) for k in range(len(unit))]
         mean = np.stack([row[0] for row in known]) * unit[:, None]
-        covariance, of_model = (np.stack([row[n] for row in known]) * unit[:, None, None] ** 2 for n in (1, 2))
+        covariance = np.stack([row[1] for row in known]) * unit[:, None, None] ** 2
         learnt = covariance[:, :LOADS, :LOADS].copy()
         noise = self._noise()
         matrix, to_wrench = self._matrix(mean[:, :LOADS], noise)
@@ -208,7 +208,7 @@ class SolvedRows:
             accuracy=self.assumptions.reference_accuracy(self.matrix),
             repeatability=self.assumptions.repeatability,
             load_centre=self.design.load_centre,
-            model_covariance=of_model if self.terms else None,
+            model=self._model([row[2] * size for row, size in zip(known, unit, strict=True)]) if self.terms else None,
         )
         return matrix, posterior
 
@@ -258,7 +258,8 @@ class SolvedRows:
         session stays in it, and widens its covariance.
 
         Returns:
-            Mean, shape (p,), covariance, and the part of it by errors of the model; shape (p, p).
+            Mean, shape (p,), covariance, shape (p, p), and the change of the mean per tolerance of every error of the
+            model, were that known; shape (p, terms).
         """
         unknown, basis, design = self.unknowns[k], self.basis[k], self.design
         sessions, free = len(design.sessions), design.free.shape[1]
@@ -280,9 +281,18 @@ class SolvedRows:
         covariance[used:, used:] += unknown.variance * data.free_covariance
         covariance[used : used + sessions, used : used + sessions] += np.outer(kept_in_offset, kept_in_offset)
         with_model = from_unknowns @ unknown.covariance[:, self.layout.model]
-        by_model = with_model @ np.linalg.pinv(unknown.covariance[self.layout.model, self.layout.model]) @ with_model.T
+        by_model = with_model @ np.linalg.pinv(unknown.covariance[self.layout.model, self.layout.model])
         mean = constant + from_unknowns @ unknown.coefficients
-        return mean, 0.5 * (covariance + covariance.T), 0.5 * (by_model + by_model.T)
+        return mean, 0.5 * (covariance + covariance.T), by_model
+
+    def _model(self, by_model: Sequence[FloatArray]) -> ModelPart:
+        """What rows owe to errors of the robot model, of which they share what is known."""
+        deviations, own = np.array([term.deviation for term in self.terms]), self.layout.model
+        return ModelPart(
+            terms=tuple(self.terms),
+            term_covariance=self.unknowns[0].covariance[own, own] * np.outer(deviations, deviations),
+            response=np.stack(by_model) / deviations,
+        )
 
     def _matrix(self, change: FloatArray, noise: Sequence[RowNoise]) -> tuple[FloatArray, FloatArray]:
         """The matrix, and what turns errors of rows into errors of wrenches."""

@@ -18,7 +18,7 @@ from forcetorque.experiment.calibration.assumptions import LOADS
 from forcetorque.experiment.calibration.excitation import excitation_of
 from forcetorque.experiment.calibration.joint_posterior import JointOffset, JointPosterior, JointSensor, JointTerm
 from forcetorque.experiment.calibration.moments import Moments, pooled
-from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
+from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.calibration.provenance import FittedInterval, Provenance, Selection
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.sensor_samples import logged_content
@@ -80,6 +80,9 @@ def sensor_posterior(
     covariance = np.stack([joint[np.ix_(row, row)] for row in rows])
     learnt = covariance[:, :LOADS, :LOADS].copy()
     before = fit.prior_covariance(sensor) * np.outer(size, size)
+    of_terms = fit.covariance[places.errors, places.errors]
+    by_model = jacobian @ (units[:, None] * fit.covariance[own, places.errors]) @ np.linalg.pinv(of_terms)
+    model = ModelPart(terms=places.terms, term_covariance=of_terms, response=np.stack([by_model[row] for row in rows]))
     return Posterior(
         space="wrench",
         variables=(),
@@ -94,6 +97,7 @@ def sensor_posterior(
         accuracy=np.zeros(LOADS),
         repeatability=repeatability,
         load_centre=mean_loads.mean(axis=0),
+        model=model if places.terms else None,
     )
 
 

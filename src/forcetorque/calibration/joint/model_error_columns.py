@@ -127,17 +127,34 @@ def body_columns(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray
         By the name of the term; shape (n, 6); N, N m per unit.
     """
     columns: dict[str, FloatArray] = {}
-    mass, moment = 0.0, np.zeros((len(equation.demand), 3))
     for k, state in equation.states.items():
         inertia, pose, name = tree.bodies[k].inertia, equation.poses[k], _name(tree, k)
-        columns[_mass(tree, k)] = -transform_wrench(pose, net_wrench(inertia, state))
         omega, alpha, proper = state.angular_velocity, state.angular_acceleration, state.proper_acceleration
         body_R_link = tree.frames[name][1][:3, :3]
-        for axis, unit in zip("xyz", inertia.mass * body_R_link.T, strict=True):
+        wrenches = [net_wrench(inertia, state)]
+        for unit in inertia.mass * body_R_link.T:
             force = cross(alpha, unit) + cross(omega, cross(omega, unit))
-            columns[f"{axis}{CENTRE}{name}"] = -transform_wrench(
-                pose, np.concatenate([force, cross(unit, proper)], axis=1)
-            )
+            wrenches.append(np.concatenate([force, cross(unit, proper)], axis=1))
+        names = [_mass(tree, k), *(f"{axis}{CENTRE}{name}" for axis in "xyz")]
+        at_root = -transform_wrench(pose[:, None], np.stack(wrenches, axis=1))
+        columns |= {own: equation.rows * at_root[:, place] for place, own in enumerate(names)}
+    return columns | acceleration_columns(tree, equation)
+
+
+def acceleration_columns(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray]:
+    """Say what a unit of every error of the acceleration of the root adds to the left side.
+
+    Args:
+        tree: The robot.
+        equation: Equation of a part; n samples.
+
+    Returns:
+        By the name of the term; shape (n, 6); N, N m per m/s2.
+    """
+    columns: dict[str, FloatArray] = {}
+    mass, moment = 0.0, np.zeros((len(equation.demand), 3))
+    for k in equation.states:
+        inertia, pose = tree.bodies[k].inertia, equation.poses[k]
         mass += inertia.mass
         moment = moment + pose[:, :3, :3] @ inertia.first_moment + inertia.mass * pose[:, :3, 3]
     for axis, unit in zip("xyz", np.eye(3), strict=True):

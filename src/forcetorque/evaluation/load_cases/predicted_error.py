@@ -151,10 +151,20 @@ def _posterior(calibration: Calibration) -> Posterior:
 
 def _draws(posterior: Posterior) -> FloatArray:
     """Deviations of all unknowns from their mean, the same ones on every call; shape (m, rows, p)."""
-    values, vectors = np.linalg.eigh(posterior.covariance)
-    roots = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
-    normal = np.random.default_rng(_SEED).normal(size=(_DRAWS, *posterior.mean.shape))
-    return np.einsum("ijk,mik->mij", roots, normal)
+    model, rng = posterior.model, np.random.default_rng(_SEED)
+    own = posterior.covariance if model is None else posterior.covariance - model.covariance
+    draws = np.einsum("ijk,mik->mij", _roots(own), rng.normal(size=(_DRAWS, *posterior.mean.shape)))
+    if model is None:
+        return draws
+    # errors of the robot model move all rows at once: a wrong mass is wrong in every component of the wrench
+    common = rng.normal(size=(_DRAWS, len(model.terms))) @ _roots(model.term_covariance).T
+    return draws + np.einsum("ijt,mt->mij", model.response, common, optimize=True)
+
+
+def _roots(covariance: FloatArray) -> FloatArray:
+    """R with R R^T the covariance; shape (..., p, p)."""
+    values, vectors = np.linalg.eigh(covariance)
+    return np.asarray(vectors * np.sqrt(np.maximum(values, 0.0))[..., None, :])
 
 
 def _offset_place(posterior: Posterior) -> int:

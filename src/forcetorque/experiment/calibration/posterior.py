@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -13,6 +13,7 @@ from forcetorque.base.arrays import ArrayField, FloatArray, require_shape
 from forcetorque.base.errors import ShapeError, known_names
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.experiment.calibration.assumptions import LOADS
+from forcetorque.experiment.calibration.model_error import ErrorTerm
 
 
 class RowNoise(StoredTable):
@@ -24,6 +25,65 @@ class RowNoise(StoredTable):
     """How long the slow offset takes to forget itself; 0 where there is none."""
     ratio: float = Field(ge=0.0)
     """Variance of the slow offset over that of the white part."""
+
+
+class ModelPart(StoredTable):
+    """Errors of the robot model that were estimated beside the unknowns of a sensor, and what these owe to them."""
+
+    terms: tuple[ErrorTerm, ...]
+    """The errors, t of them, with their deviations before any data."""
+    term_covariance: Annotated[FloatArray, ArrayField((None, None))]
+    """Their covariance; shape (t, t); products of their units."""
+    response: Annotated[FloatArray, ArrayField((None, None, None))]
+    """By how much the mean of the unknowns of every row would change per unit of each error, were it known; shape
+    (rows, p, t)."""
+
+    @classmethod
+    def exact(cls, rows: int, unknowns: int) -> ModelPart:
+        """Describe a robot model without errors.
+
+        Args:
+            rows: Rows of the sensor.
+            unknowns: Unknowns of each.
+
+        Returns:
+            A part without terms.
+        """
+        return cls(terms=(), term_covariance=np.zeros((0, 0)), response=np.zeros((rows, unknowns, 0)))
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Covariance of the unknowns by these errors alone; shape (rows, p, p)."""
+        return self.response @ self.term_covariance @ self.response.transpose(0, 2, 1)
+
+    def places(self, terms: Sequence[ErrorTerm]) -> list[int]:
+        """Find errors by name and nominal value.
+
+        Args:
+            terms: Some of the errors.
+
+        Returns:
+            Their places.
+        """
+        known = {(term.name, term.nominal): place for place, term in enumerate(self.terms)}
+        return [known[term.name, term.nominal] for term in terms]
+
+    def with_terms(self, terms: Sequence[ErrorTerm]) -> ModelPart:
+        """Add errors that the unknowns do not depend on yet.
+
+        Args:
+            terms: Errors; those that are there already stay as they are.
+
+        Returns:
+            All of them, the new ones last, with what was assumed of these before any data.
+        """
+        known = {(term.name, term.nominal) for term in self.terms}
+        new = tuple(term for term in terms if (term.name, term.nominal) not in known)
+        old, rows = len(self.terms), self.response.shape[:2]
+        covariance = np.diag(np.r_[np.zeros(old), [term.deviation**2 for term in new]])
+        covariance[:old, :old] = self.term_covariance
+        response = np.concatenate([self.response, np.zeros((*rows, len(new)))], axis=2)
+        return ModelPart(terms=(*self.terms, *new), term_covariance=covariance, response=response)
 
 
 class Posterior(StoredTable):
@@ -55,9 +115,17 @@ class Posterior(StoredTable):
     """Share of its response by which the sensor differs from one motion to the next."""
     load_centre: Annotated[FloatArray, ArrayField((6,))]
     """Mean fitted wrench; N, N m."""
-    model_covariance: Annotated[FloatArray, ArrayField((None, None, None))] | None = None
-    """Part of the covariance that would go if the robot model were known exactly; shape (rows, p, p); None where it was
-    taken as exact."""
+    model: ModelPart | None = None
+    """Errors of the robot model; None where it was taken as exact."""
+
+    @property
+    def model_covariance(self) -> FloatArray | None:
+        """Part of the covariance that would go if the robot model were known exactly; None where it was taken as exact.
+
+        Returns:
+            Covariance; shape (rows, p, p).
+        """
+        return None if self.model is None else self.model.covariance
 
     def error_covariance(self, wrench: Any, *, variables: Any = None, session: str | None = None) -> FloatArray:
         """Predict the covariance of the error of readings under given loads.
