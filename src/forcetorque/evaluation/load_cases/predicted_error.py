@@ -153,18 +153,17 @@ def _draws(posterior: Posterior) -> FloatArray:
     """Deviations of all unknowns from their mean, the same ones on every call; shape (m, rows, p)."""
     model, rng = posterior.model, np.random.default_rng(_SEED)
     own = posterior.covariance if model is None else posterior.covariance - model.covariance
-    draws = np.einsum("ijk,mik->mij", _roots(own), rng.normal(size=(_DRAWS, *posterior.mean.shape)))
+    values, vectors = np.linalg.eigh(own)
+    roots = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
+    draws = np.einsum("ijk,mik->mij", roots, rng.normal(size=(_DRAWS, *posterior.mean.shape)))
     if model is None:
         return draws
     # errors of the robot model move all rows at once: a wrong mass is wrong in every component of the wrench
-    common = rng.normal(size=(_DRAWS, len(model.terms))) @ _roots(model.term_covariance).T
-    return draws + np.einsum("ijt,mt->mij", model.response, common, optimize=True)
-
-
-def _roots(covariance: FloatArray) -> FloatArray:
-    """R with R R^T the covariance; shape (..., p, p)."""
-    values, vectors = np.linalg.eigh(covariance)
-    return np.asarray(vectors * np.sqrt(np.maximum(values, 0.0))[..., None, :])
+    response = model.response.reshape(-1, len(model.terms))
+    values, vectors = np.linalg.eigh(response @ model.term_covariance @ response.T)
+    # the symmetric root, which does not depend on the order of the terms
+    root = vectors * np.sqrt(np.maximum(values, 0.0)) @ vectors.T
+    return draws + (rng.normal(size=(_DRAWS, len(response))) @ root).reshape(draws.shape)
 
 
 def _offset_place(posterior: Posterior) -> int:
