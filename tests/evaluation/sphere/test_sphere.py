@@ -115,8 +115,8 @@ def test_masses_that_have_no_upper_end_are_empty_columns(experiment: Experiment)
     (row,) = _answered(experiment, ["judge"]).rows
     assert row.without_model.mass_high_kg == (None, None, None)
     flat = row.flat()
-    assert [flat[f"without_reference_mass_high_{axis}_kg"] for axis in "xyz"] == [None] * 3
-    assert "without_reference_mass_high_kg" not in flat
+    assert [flat[f"without_model_mass_high_{axis}_kg"] for axis in "xyz"] == [None] * 3
+    assert "without_model_mass_high_kg" not in flat
 
 
 def test_an_error_names_the_sensor_once(arm: Path, fitted: Calibration) -> None:

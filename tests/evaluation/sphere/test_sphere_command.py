@@ -92,10 +92,10 @@ def test_a_line_per_sensor_and_candidate_as_csv(arm: Path, run: Run) -> None:
     ]
     shown = result["rows"][0]["with_model"]
     for end, mass, radius in zip("xyz", shown["mass_kg"], shown["principal_radius_N"], strict=True):
-        assert float(rows[0][f"with_reference_mass_{end}_kg"]) == mass
-        assert float(rows[0][f"with_reference_principal_radius_{'xyz'.index(end) + 1}_N"]) == radius
-    assert rows[0]["without_reference_mass_high_x_kg"] == ""
-    assert rows[0]["without_reference_why"] == "; ".join(result["rows"][0]["without_model"]["why"])
+        assert float(rows[0][f"with_model_mass_{end}_kg"]) == mass
+        assert float(rows[0][f"with_model_principal_radius_{'xyz'.index(end) + 1}_N"]) == radius
+    assert rows[0]["without_model_mass_high_x_kg"] == ""
+    assert rows[0]["without_model_why"] == "; ".join(result["rows"][0]["without_model"]["why"])
     assert rows[0]["intervals"] == "judge"
 
 
