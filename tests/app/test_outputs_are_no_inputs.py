@@ -43,7 +43,7 @@ NEW_FOLDERS = {
     ("study fits", "--output"),
 }
 """Outputs that must not be there yet, or be empty folders."""
-FOLDERS = {("calibrate", "--moments"), ("run", "--output")}
+FOLDERS = {("calibrate", "--moments"), ("fleet add", "--into"), ("run", "--output")}
 """Outputs that are added to what a folder holds."""
 
 WORDS = {
@@ -57,6 +57,7 @@ WORDS = {
     "dataset compensate": f"{PARQUET}",
     "estimate": f"{PARQUET} -o new.csv",
     "export": "fitted.json --to csv",
+    "fleet add": f"{PARQUET}",
     "bench gains": f"{PARQUET}",
     "init": f"{PARQUET}",
     "robot motion": f"{PARQUET}",

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from importlib.metadata import version
 from pathlib import Path
-from typing import Annotated, Final, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -20,8 +20,6 @@ from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import Result, created_now
 from forcetorque.results.table import Row, Shown, Table, table_of
-
-_RETRY: Final = "--retry-failed"
 
 
 class FailedJob(Row):
@@ -86,7 +84,9 @@ class FleetRun(Result):
             why=tuple(why),
             step="Correct what failed, and try it again:" if self.failures else "Show the sensors, the worst first:",
             command=(
-                typed("fleet", "run", self.plan, _RETRY) if self.failures else typed("fleet", "table", self.dataset)
+                typed("fleet", "run", self.plan, "--retry-failed")
+                if self.failures
+                else typed("fleet", "table", self.dataset)
             ),
             concern=Concern.BAD if self.failures else Concern.NONE,
         )

@@ -21,8 +21,8 @@ def _row(candidate: str, phase: str, error: float, *touching: str, evidence: boo
     none = (None, None, None)
     values: dict[str, Any] = {
         "phase": phase,
-        "touching": touching or ("l_sole", "r_sole"),
-        "candidate": candidate,
+        "contact_links": touching or ("l_sole", "r_sole"),
+        "calibration": candidate,
         "offset": "one-link-fixed-frame",
         "offset_interval": "left",
         "samples": 100,
