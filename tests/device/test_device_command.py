@@ -64,7 +64,7 @@ def test_it_draws(run: Run, tmp_path: Path) -> None:
     assert asked.code == 0
     assert "12 steps, axes swapped" in asked.out
     names = {picture.name for picture in (tmp_path / "figures").iterdir()}
-    assert names == {"motion.png", "space.png", "remedies.png", "envelope.png", "errors.png"}
+    assert names == {"motion.png", "space.png", "options.png", "envelope.png", "errors.png"}
     assert all(picture.read_bytes().startswith(b"\x89PNG") for picture in (tmp_path / "figures").iterdir())
     assert run("bench", "device", "--figures", tmp_path / "figures").error().endswith("it is there already")
 

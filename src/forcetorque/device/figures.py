@@ -219,7 +219,7 @@ def write_device_figures(design: DeviceDesign, output: Path) -> DeviceDesign:
     Args:
         design: The device.
         output: Folder to make, for `motion.png` (figures 6.5 and 6.9 of the thesis), `space.png` (6.6 and 6.7),
-            `remedies.png` (predicted errors by direction), `envelope.png` (6.13) and `errors.png` (Table 6.3).
+            `options.png` (predicted errors by direction), `envelope.png` (6.13) and `errors.png` (Table 6.3).
 
     Returns:
         The result with the names of the files.

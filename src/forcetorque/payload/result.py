@@ -30,6 +30,9 @@ from forcetorque.results.number_text import finite_or_none, plus_minus, with_err
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, WrenchValues, table_of
 
+_ROUNDING = 1e-12
+"""Share of the inertia that a mass in the centre of mass has about the sensor, below which an inertia is rounding."""
+
 
 class LoadRow(Row):
     """A load; half-widths are of 95 % intervals."""
@@ -69,7 +72,8 @@ class LoadRow(Row):
         Returns:
             Its row.
         """
-        point = not load.inertia.any()
+        of_point = load.mass * float(load.centre_of_mass @ load.centre_of_mass)
+        point = not (np.abs(load.inertia) > _ROUNDING * abs(of_point)).any()
         return cls(
             load=load.name,
             estimated=load.estimated,

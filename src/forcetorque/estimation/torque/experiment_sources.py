@@ -177,7 +177,9 @@ class TorqueSources:
         noise, lasting = {}, {}
         for sensor in experiment.sensors:
             noise[sensor.name], lasting[sensor.name] = _errors(
-                f"sensor {sensor.name!r}", "reading", sensor.measurement_noise, sensor.measurement_offset_sd
+                f"sensor {sensor.name!r}: expected measurement_noise and measurement_offset_sd",
+                sensor.measurement_noise,
+                sensor.measurement_offset_sd,
             )
         measured = {
             sensor.name: wrench_at(
@@ -217,7 +219,9 @@ class TorqueSources:
         recording, known, noise, lasting = self.experiment.recording, {}, {}, {}
         for entry in self._streamed(motion.interval):
             name = entry.contact.name
-            noise[name], lasting[name] = _errors(f"contact {name!r}", "wrench", entry.noise, entry.deviation)
+            noise[name], lasting[name] = _errors(
+                f"contact {name!r}: expected wrench_noise and wrench_deviation", entry.noise, entry.deviation
+            )
             stream = recording.stream(entry.stream or "")
             require_overlap(clock_stream(self.experiment), stream)
             known[name] = interpolate(stream, stream.signal("wrench").values, motion.stamp_ns)
@@ -301,14 +305,12 @@ def _unknown(contact: Contact) -> Contact:
     return Contact(link=contact.link, name=contact.name, link_H_contact=contact.link_H_contact)
 
 
-def _errors(
-    where: str, key: str, noise: FloatArray | None, deviation: FloatArray | None
-) -> tuple[FloatArray, FloatArray]:
+def _errors(expected: str, noise: FloatArray | None, deviation: FloatArray | None) -> tuple[FloatArray, FloatArray]:
     """Covariance of the noise of a wrench, and what each of its lasting errors adds."""
     if noise is None or deviation is None:
         raise ExperimentError(
-            f"{where}: expected {key}_noise and {key}_deviation, six standard deviations each in N and N m, to weigh "
-            "its torques against others; `forcetorque evaluate` shows errors of a sensor"
+            f"{expected}, six standard deviations each in N and N m, to weigh its torques against others; "
+            "`forcetorque evaluate` shows errors of a sensor"
         )
     return np.diag(noise**2), np.diag(deviation)
 
