@@ -116,7 +116,7 @@ def _touched(arm: Path, links: str, recording: Recording | None = None) -> Path:
     if recording is not None:
         write_recording(arm / "recording", recording)
     path = arm / PARQUET
-    text = path.read_text(encoding="utf-8").replace(SUPPORT, "").replace('support = "base"', f"touched = {links}")
+    text = path.read_text(encoding="utf-8").replace(SUPPORT, "").replace('support = "base"', f"contact_links = {links}")
     assert "[[support]]" not in text
     path.write_text(text, encoding="utf-8")
     return path

@@ -200,7 +200,7 @@ def _sphere(rng: np.random.Generator) -> Figure:
     directions = rng.normal(size=(500, 3))
     reference = 46.0 * directions / np.linalg.norm(directions, axis=1, keepdims=True)
     force = reference @ (np.eye(3) + 0.2 * rng.normal(size=(3, 3))) + rng.normal(size=3) + rng.normal(size=(500, 3))
-    return sphere_figure([sphere_of(force, reference), sphere_of(force[:40], None, calibration="new.json", mass=4.7)])
+    return sphere_figure([sphere_of(force, reference), sphere_of(force[:40], None, candidate="new.json", mass=4.7)])
 
 
 def _residual(rng: np.random.Generator) -> Figure:

@@ -86,7 +86,7 @@ def test_a_row_per_analysis_and_three_views() -> None:
     """Titles name sensor, serial number and candidate; axes name component and unit."""
     force, reference = _clouds(600, 0.9)
     with recorded_figures() as figures:
-        sphere_figure([sphere_of(force, reference, calibration=name) for name in ("prior", "new_$1.json")])
+        sphere_figure([sphere_of(force, reference, candidate=name) for name in ("prior", "new_$1.json")])
     (figure,) = figures
     assert len(panels(figure)) == 6
     assert [panel.get_xlabel() for panel in panels(figure)[:3]] == ["fx, N", "fy, N", "fx, N"]

@@ -54,8 +54,8 @@ def test_nobody_is_best_among_equals(arm: Path) -> None:
         (prior,) = judgements.keys() - {"a", "b"}
         assert judgements == {prior: "better", "b": "no difference"}
         assert (best.by_magnitude, best.conclusion, best.best) == ("a", "no difference", None)
-        assert f"offset {best.offset}: none is best; " in best.message
-        assert "with b (no difference: the same in every sample)" in best.message
+        assert f"offset {best.offset}: none is best; " in best.sentence
+        assert "with b (no difference: the same in every sample)" in best.sentence
     for best in validate(run, {}).best:
         assert (best.best, best.conclusion, best.comparisons) == (None, None, ())
 

@@ -129,7 +129,7 @@ def test_what_is_left_out_is_warned_of_and_every_row_counts_its_own_samples(arm:
     assert "free sub-model arm_ft; force: mean norm ± half its 95 % interval; per axis" in shown
     table = shown[: shown.index("joint torques")].partition("mean contact wrench")[0].splitlines()
     rows = [line.split() for line in table if line.startswith((" prior", " fitted.json"))]
-    (headings,) = (line.split() for line in table if line.startswith(" candidate"))
+    (headings,) = (line.split() for line in table if line.startswith(" calibration"))
     assert [int(row[headings.index("samples")]) for row in rows] == list(counts.values())
 
 
