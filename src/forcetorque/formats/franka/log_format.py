@@ -21,11 +21,11 @@ from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, BoolArray, FloatArray
 from forcetorque.base.errors import FormatError
-from forcetorque.base.toml_file import NotNegative, Positive, Text, checked_tables
-from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.base.toml_file import Text, checked_tables
 from forcetorque.base.wrench import FORCE, MOMENT, MeasureDirection, transform_wrench
+from forcetorque.formats.arm_log import ArmLogTable
 from forcetorque.formats.franka.logged_states import LoggedStates, is_logged_states, read_states
-from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable
+from forcetorque.formats.log_format import LogContext, LogDescription, LogReading
 from forcetorque.formats.logged_wrist import (
     FLANGE,
     LoggedWrist,
@@ -51,7 +51,7 @@ _ROUNDING = 1e-3
 """By how much a rotation matrix may be off, as six digits make it."""
 
 
-class FrankaLog(LogTable):
+class FrankaLog(ArmLogTable):
     """Robot states of libfranka."""
 
     format: Literal["franka"]
@@ -64,20 +64,6 @@ class FrankaLog(LogTable):
     """Pose of the end effector in the flange, column by column, m, of a log without it."""
     EE_T_K: Annotated[FloatArray, ArrayField((16,))] | None = None
     """Pose of the stiffness frame in the end effector, likewise."""
-    payload_kg: NotNegative | None = None
-    """Mass of `setLoad`, of a log without `m_load`; 0 where none was set."""
-    payload_cog_m: Annotated[FloatArray, ArrayField((3,))] | None = None
-    """Centre of mass of that load in the flange; m."""
-    gravity_direction: Annotated[FloatArray, ArrayField((3,))] | None = None
-    """Direction in which things fall along the axes of the base; [0, 0, -1] if left out."""
-    gravity: Positive = STANDARD_GRAVITY
-    """Magnitude of gravity; m/s2."""
-
-    @property
-    def world_gravity(self) -> FloatArray:
-        """Gravity along the axes of the base; shape (3,); m/s2."""
-        down = np.array([0.0, 0.0, -1.0]) if self.gravity_direction is None else self.gravity_direction
-        return self.gravity * down / np.linalg.norm(down)
 
 
 _POSE = "16 numbers column by column, m; log the field to have it in the log"

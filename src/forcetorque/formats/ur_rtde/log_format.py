@@ -22,10 +22,10 @@ import numpy as np
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import cross
-from forcetorque.base.toml_file import NotNegative, Positive, checked_tables
-from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.base.toml_file import checked_tables
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable
+from forcetorque.formats.arm_log import ArmLogTable
+from forcetorque.formats.log_format import LogContext, LogDescription, LogReading
 from forcetorque.formats.logged_wrist import (
     FLANGE,
     LoggedWrist,
@@ -69,7 +69,7 @@ class MomentPoint(StrEnum):
     """Tool centre point: CB3, and an external sensor."""
 
 
-class UrRtdeLog(LogTable):
+class UrRtdeLog(ArmLogTable):
     """A recording of the real-time data exchange of Universal Robots."""
 
     format: Literal["ur_rtde"]
@@ -83,20 +83,6 @@ class UrRtdeLog(LogTable):
     sensor; needed unless the TCP is the flange."""
     tcp_offset: Annotated[FloatArray, ArrayField((6,))] | None = None
     """Pose of the TCP in the flange, m and rotation vector in rad, of a log without `tcp_offset`."""
-    payload_kg: NotNegative | None = None
-    """Mass that the controller subtracts, of a log without `payload`; 0 where none was set."""
-    payload_cog_m: Annotated[FloatArray, ArrayField((3,))] | None = None
-    """Centre of mass of that payload in the flange; m."""
-    gravity_direction: Annotated[FloatArray, ArrayField((3,))] | None = None
-    """Direction in which things fall along the axes of the base; [0, 0, -1] if left out."""
-    gravity: Positive = STANDARD_GRAVITY
-    """Magnitude of gravity; m/s2."""
-
-    @property
-    def world_gravity(self) -> FloatArray:
-        """Gravity along the axes of the base; shape (3,); m/s2."""
-        down = np.array([0.0, 0.0, -1.0]) if self.gravity_direction is None else self.gravity_direction
-        return self.gravity * down / np.linalg.norm(down)
 
 
 _QUESTIONS = {
