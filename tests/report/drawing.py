@@ -241,7 +241,7 @@ def _joint(rng: np.random.Generator) -> Figure:
     return joint_figure(
         [
             PartResidual(
-                sub_model=part,
+                part=part,
                 label=label,
                 recording="sway",
                 session="day 1",
@@ -646,7 +646,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "excitation": _excitation,
     "held out": _held_out,
     "joint": _joint,
-    "information_gain": _learnt,
+    "learnt": _learnt,
     "reference error": _reference_error,
     "skin event": _skin_event,
     "skin_wrench": _skin_wrench,
