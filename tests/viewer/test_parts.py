@@ -64,7 +64,7 @@ def test_a_part_shows_its_residual_window_by_window(
     ]
     assert [series.name for series in part.wrenches] == ["prior", "calibrations"]
     before, after = (read_array(block, series.values) for series in part.wrenches)
-    assert part.name == f"left over: {residuals[0].sub_model}"
+    assert part.name == f"left over: {residuals[0].part}"
     assert part.link == residuals[0].root_link
     windows = 0
     for residual in residuals:
