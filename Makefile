@@ -42,6 +42,7 @@ bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.bags --json build/benchmarks/bags.json
 	$(BIN)/python -m benchmarks.calibration --json build/benchmarks/calibration.json
 	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.model_errors --json build/benchmarks/model_errors.json
+	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.planned_errors --json build/benchmarks/planned_errors.json
 	$(BIN)/python -m benchmarks.dynamics --json build/benchmarks/dynamics.json
 	$(BIN)/python -m benchmarks.simulation --json build/benchmarks/simulation.json
 	$(BIN)/python -m benchmarks.joint --json build/benchmarks/joint.json

@@ -10,10 +10,14 @@ import platform
 import statistics
 import subprocess
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 
 def arguments(description: str) -> argparse.Namespace:
@@ -104,3 +108,15 @@ def write_result(
     path.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
     for name, value in ratios.items():
         print(f"{name}: {value:.2f}")
+
+
+def write_cases(path: Path | None, cases: Sequence[DataclassInstance]) -> None:
+    """Write every case of a benchmark whose cases are read one by one.
+
+    Args:
+        path: File to write; None for none.
+        cases: The cases, a JSON object each.
+    """
+    if path is not None:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps([asdict(case) for case in cases], indent=1) + "\n", encoding="utf-8")

@@ -16,19 +16,19 @@ are in the sensor's frame as the URDF has it; offsets play no part in them.
 from __future__ import annotations
 
 import argparse
-import json
 import shutil
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
 
+from benchmarks.harness import write_cases
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.base.pose import make_pose, rotation_about_z, rotation_with_z_along
@@ -353,9 +353,7 @@ def main() -> None:
         )
         cases = [case for some in pool.map(work, tasks) for case in some]
     print("\n".join(table(cases)))
-    if options.json is not None:
-        options.json.parent.mkdir(parents=True, exist_ok=True)
-        options.json.write_text(json.dumps([asdict(case) for case in cases], indent=1) + "\n", encoding="utf-8")
+    write_cases(options.json, cases)
 
 
 if __name__ == "__main__":

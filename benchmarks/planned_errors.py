@@ -10,16 +10,16 @@ the first planned recording, the first two, and the first with one that was plan
 from __future__ import annotations
 
 import argparse
-import json
 import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final, Literal
 
 import numpy as np
 
+from benchmarks.harness import write_cases
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import predict
@@ -291,9 +291,7 @@ def main() -> None:
                     sensors="" if options.guards else LINEAR,
                 )
     print("\n".join(table(trials)))
-    if options.json is not None:
-        options.json.parent.mkdir(parents=True, exist_ok=True)
-        options.json.write_text(json.dumps([asdict(one) for one in trials], indent=1) + "\n", encoding="utf-8")
+    write_cases(options.json, trials)
 
 
 if __name__ == "__main__":
