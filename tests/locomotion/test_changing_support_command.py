@@ -155,7 +155,7 @@ def test_sphere_takes_one_side_of_the_sensor(inside: Path, run: Run) -> None:
     assert result.result()["rows"][0]["intervals"] == ["hanging"]
     refused = run("study", "sphere", "switching_day1.toml", "--sensor", "l_leg_ft", "--interval", "double_support")
     assert refused.code == 2
-    assert "by [[contact]] or touched r_sole does in every one" in refused.err
+    assert "by [[contact]] or contact_links r_sole does in every one" in refused.err
 
 
 def test_gains_and_view_take_it(inside: Path, tmp_path: Path, run: Run) -> None:

@@ -53,6 +53,20 @@ def test_the_declared_payload_is_part_of_the_load(tmp_path: Path, run: Run) -> N
     assert "the declared payload of 0.5 kg, 2 kg is part of the load" in result["arms"][0]["assumed"]
 
 
+@pytest.mark.parametrize(
+    ("key", "message"),
+    [
+        ("path=other.txt", "expected keys that the log lacks, got path"),
+        ("payload_kg=2", "payload_kg: expected none, the log has the field payload"),
+        ("gravity_direction=[0, 0, 0]", "gravity_direction: expected a direction, finite and not zero"),
+    ],
+)
+def test_a_key_states_only_what_the_log_lacks(tmp_path: Path, run: Run, key: str, message: str) -> None:
+    """Another log, a payload that the log has and no direction are refused, and nothing is weighed."""
+    log = _written(tmp_path, _few(raw=True))
+    assert message in run("payload", log, "--recording", key).error()
+
+
 def test_motions_are_left_out(tmp_path: Path, run: Run) -> None:
     """What an acceleration adds while the arm moves does not change the load; a log of motion alone is refused."""
     columns = _few(samples=60, poses=8)

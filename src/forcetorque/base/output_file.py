@@ -253,6 +253,9 @@ _TEXTS = (
     b"taxel,counts_below_rest,pressure_Pa,",
     b'"interval","stamp_ns","time_s"',
     b"# forcetorque ",
+    b"; forcetorque ",
+    b"! forcetorque ",
+    b"<!-- forcetorque mjcf ",
 )
 """Heads of our tables, and of the parameters of loads."""
 _GROUPS = b"Corrections of force-torque sensors, f = S f_in + FT_OFFSET"

@@ -459,6 +459,6 @@ def _touched(run: SensorRun) -> Iterator[str]:
         if names := run.touched_beyond(interval):
             yield (
                 f"interval {interval.label!r} is left out: {', '.join(names)} touches the robot beyond the sensor, by "
-                "[[contact]] or touched, so that nobody knows what it must read; calibrate all sensors at once, "
+                "[[contact]] or contact_links, so that nobody knows what it must read; calibrate all sensors at once, "
                 "--jointly, from Python calibrate_jointly"
             )

@@ -151,8 +151,9 @@ class SensorRun:
             names = dict.fromkeys(name for interval in intervals for name in self.touched_beyond(interval))
             raise ExperimentError(
                 f"expected {which} in which nothing touches the robot beyond {self.sensor.name!r}, but by [[contact]] "
-                f"or touched {', '.join(names)} does in every one, so that nobody knows what the sensor must read; "
-                "record it with that in the air, or calibrate all at once, --jointly, from Python calibrate_jointly"
+                f"or contact_links {', '.join(names)} does in every one, so that nobody knows what the sensor must "
+                "read; record it with that in the air, or calibrate all at once, --jointly, from Python "
+                "calibrate_jointly"
             )
         return known
 

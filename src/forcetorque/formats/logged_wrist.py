@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -14,6 +13,7 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import cross
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.recording.recording import Finding
+from forcetorque.recording.stream_faults import true_runs
 
 FLANGE = "tool0"
 """Frame of the mechanical flange as the controller has it, which is that of an all-zero tool: z points out of the
@@ -160,7 +160,8 @@ def motions(stamp_ns: IntArray, base_R_flange: FloatArray, base_p_flange: FloatA
     with np.errstate(divide="ignore", invalid="ignore"):
         is_moving = (angle > _MOVING_RAD_S * step_s) | (shift > _MOVING_M_S * step_s)
     spans: list[tuple[int, int]] = []
-    for first, last in _runs(is_moving):
+    for first, end_row in true_runs(is_moving):
+        last = end_row + 1
         if last - first >= _FEWEST_STEPS:
             begin, end = int(stamp_ns[first]) - _SETTLING_NS, int(stamp_ns[last]) + _SETTLING_NS
             span = (max(begin, int(stamp_ns[0])), min(end, int(stamp_ns[-1]) + 1))
@@ -168,9 +169,3 @@ def motions(stamp_ns: IntArray, base_R_flange: FloatArray, base_p_flange: FloatA
                 span = (spans.pop()[0], span[1])
             spans.append(span)
     return tuple(spans)
-
-
-def _runs(values: BoolArray) -> Sequence[tuple[int, int]]:
-    """First index, and first index after it, of each run of true values."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], values, [False]]).astype(np.int8)))
-    return [(int(first), int(last)) for first, last in edges.reshape(-1, 2)]

@@ -60,13 +60,16 @@ SensorPoseOption = Annotated[
 ]
 
 
-def refuse_load_file(output: Path | None, to: LoadFormat | None, output_format: Format, *, force: bool) -> None:
+def refuse_load_file(
+    output: Path | None, to: LoadFormat | None, output_format: Format, override: str | None, *, force: bool
+) -> None:
     """Say what is wrong with the file before anything is estimated.
 
     Args:
         output: File to write; None for none.
         to: Its form.
         output_format: Form of the result.
+        override: As of the option.
         force: As of `declare_outputs`.
 
     Raises:
@@ -76,9 +79,11 @@ def refuse_load_file(output: Path | None, to: LoadFormat | None, output_format: 
         raise ForceTorqueError(
             f"expected both --to, out of {', '.join(LoadFormat)}, and --output, the file, or neither of them"
         )
-    if output is not None:
+    if output is not None and to is not None:
+        from forcetorque.payload.robot_files.export import override_file
+
         refuse_two_on_standard_output(output, output_format)
-        declare_outputs(output, force=force)
+        declare_outputs(output, None if override is None else override_file(output, to), force=force)
 
 
 def write_load(
@@ -158,7 +163,7 @@ def payload(
 
     log = start_logging()
     _declare_experiment_file(experiments, save_experiment, output, output_format, force=force)
-    refuse_load_file(output, to, output_format, force=force)
+    refuse_load_file(output, to, output_format, override, force=force)
     refuse_a_file_twice(experiments)
     specified = _specified(recording or ())
     logs = [path for path in experiments if not is_experiment_file(path)]
@@ -259,7 +264,7 @@ def tare(
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
 
     log = start_logging()
-    refuse_load_file(output, to, output_format, force=force)
+    refuse_load_file(output, to, output_format, override, force=force)
     calibrations = read_calibrations(calibration)
     content = read_experiment(experiment, log)
     chosen = sensors_named(content, sensor)

@@ -67,13 +67,17 @@ def experiment_of_log(path: Path, specified: Mapping[str, object], folder: Path)
         FormatError: If it is damaged, or contradicts itself.
         ExperimentError: If its format does not fix frame and sign of a wrench, or a key is undetermined.
     """
+    if fixed := [key for key in ("format", "path") if key in specified]:
+        raise ExperimentError(
+            f"{path}: --recording: expected keys that the log lacks, got {fixed[0]}, which is the log's"
+        )
     description, wrist = _description(path, specified)
     content = "\n".join(_lines(path, description, wrist, folder)) + "\n"
     experiment = load_tables(tomllib.loads(content), InMemory(), folder=folder)
     arm = ArmLog(
         controller=wrist.controller,
         specified=tuple(f"{key}={toml_value(value)}" for key, value in specified.items()),
-        assumed=tuple(_assumed(wrist, experiment)),
+        assumed=tuple(_assumed(path, wrist, experiment)),
         contradictions=wrist.contradictions,
     )
     return LogAlone(experiment=experiment, content=content, arm=arm)
@@ -121,20 +125,21 @@ def _lines(path: Path, description: LogDescription, wrist: LoggedWrist, folder: 
     ]
 
 
-def _assumed(wrist: LoggedWrist, experiment: Experiment) -> Sequence[str]:
+def _assumed(path: Path, wrist: LoggedWrist, experiment: Experiment) -> Sequence[str]:
     gravity = experiment.recording.stream(wrist.stream).signal("gravity").values
     size = float((gravity[0] ** 2).sum() ** 0.5)
-    masses = list(dict.fromkeys(declared.mass for declared in wrist.declared))
+    masses = list(dict.fromkeys(declared.mass for declared in wrist.declared if declared.mass > 0.0))
     known = ", ".join(amount(mass, "kg") for mass in masses)
     words = [*wrist.assumed, f"gravity {size:.6g} m/s2"]
-    if any(masses):
+    if masses:
         words.append(f"the declared payload of {known} is part of the load")
     start, end = wrist.declared[0].start_ns, wrist.declared[-1].end_ns
     moving = sum(last - first for first, last in wrist.moving)
     if moving > _MOST_MOVING * (end - start):
         raise ExperimentError(
-            f"expected an arm at rest in several postures, got one that moves in {100 * moving / (end - start):.0f} % "
-            "of the log; hold it still in at least four postures, half a second each"
+            f"{path}: expected an arm at rest in several postures, got one that moves in "
+            f"{100 * moving / (end - start):.0f} % of the log; hold it still in at least four postures, half a second "
+            "each"
         )
     if moving:
         words.append(f"{1e-9 * moving:.1f} of {1e-9 * (end - start):.1f} s in motion are left out")

@@ -83,18 +83,18 @@ def _require_robot_or_load(loads: Loads | None, file: ExperimentFile) -> None:
         )
     if file.robot is not None and not file.support and not any(one.contact_links for one in file.interval):
         raise PydanticCustomError(
-            "no_support", "expected [[support]]: the frame that the robot stands on, or touched in [[interval]]"
+            "no_support", "expected [[support]]: the frame that the robot stands on, or contact_links in [[interval]]"
         )
     alone = loads is not None and file.robot is None
     if alone and (file.support or len(file.sensor) > 1):
         raise PydanticCustomError("load_alone", "with [load] there is one [[sensor]] and no [[support]]")
     if alone and any(one.contact_links for one in file.interval):
-        raise PydanticCustomError("load_touched", "with [load] nothing else is touched: leave out touched")
+        raise PydanticCustomError("load_touched", "with [load] nothing else touches: leave out contact_links")
     if loads is not None and any(one.contact_links and one.use is not Use.IGNORE for one in file.interval):
         raise PydanticCustomError(
             "load_touched",
-            "with [[load]] on a link every interval names its support: leave out touched, or state the load in the "
-            "URDF",
+            "with [[load]] on a link every interval names its support: leave out contact_links, or state the load "
+            "in the URDF",
         )
     if loads is None and any(one.load for one in file.interval):
         raise PydanticCustomError("load_of_none", "load of [[interval]] names a [[load]], of which there is none")

@@ -4,18 +4,20 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from defusedxml import ElementTree
 from scipy.spatial.transform import Rotation
 
 from forcetorque.app.python.experiment import load_experiment
-from forcetorque.base.errors import ExperimentError
+from forcetorque.base.errors import ExperimentError, OutputError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.load_warnings import overruled
-from forcetorque.payload.robot_files.export import robot_load, write_load_file
+from forcetorque.payload.robot_files.export import export_load, robot_load, write_load_file
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import read_mc_rtc
 from forcetorque.payload.robot_files.robot_load import RobotLoad
@@ -209,6 +211,48 @@ def test_the_reason_to_write_a_doubtful_load_is_a_comment(tmp_path: Path) -> Non
     assert read_ft_tools(tmp_path / "load.yaml", sensor="wrist", frame="tool").mass == MASS
     with pytest.raises(ExperimentError, match="expected a file, beside which the reason is written"):
         write_load_file("-", load, LoadFormat.HRPSYS)
+
+
+def test_any_reason_stays_a_remark(tmp_path: Path) -> None:
+    """Also one with hyphens, line breaks and control characters, which a file may not hold as they are."""
+    load = RobotLoad(
+        sensor="wrist",
+        frame="tool",
+        direction=MeasureDirection.CHILD_TO_PARENT,
+        mass=MASS,
+        centre_of_mass=CENTRE,
+        bias=BIAS,
+        override="see ---> a\nmass: 99 \x1b \udcff",
+    )
+    write_load_file(tmp_path / "load.urdf", load, LoadFormat.URDF, body_H_sensor=np.eye(4))
+    assert ElementTree.parse(tmp_path / "load.urdf").getroot().tag == "robot"
+    write_load_file(tmp_path / "load.yaml", load, LoadFormat.FT_TOOLS)
+    assert read_ft_tools(tmp_path / "load.yaml", sensor="wrist", frame="tool").mass == MASS
+    assert "see ---> a mass: 99" in (tmp_path / "load.yaml").read_text(encoding="utf-8")
+
+
+def test_the_reason_beside_a_file_replaces_none_of_the_user_and_goes_with_the_doubt(tmp_path: Path) -> None:
+    """A foreign file of its name is refused; a load without doubt takes away the reason of an earlier one."""
+    load = RobotLoad(
+        sensor="wrist",
+        frame="tool",
+        direction=MeasureDirection.CHILD_TO_PARENT,
+        mass=MASS,
+        centre_of_mass=CENTRE,
+        bias=BIAS,
+        override="why",
+    )
+    beside = tmp_path / "load.conf.override.txt"
+    beside.write_text("mine", encoding="utf-8")
+    with pytest.raises(OutputError, match=r"load\.conf\.override\.txt"):
+        export_load(load, tmp_path / "load.conf", LoadFormat.HRPSYS)
+    assert beside.read_text(encoding="utf-8") == "mine"
+    export_load(replace(load, override=None), tmp_path / "load.conf", LoadFormat.HRPSYS)
+    assert beside.read_text(encoding="utf-8") == "mine"
+    beside.unlink()
+    for doubtful in (load, load, replace(load, override=None)):
+        export_load(doubtful, tmp_path / "load.conf", LoadFormat.HRPSYS, force=True)
+        assert beside.exists() == (doubtful.override is not None)
 
 
 def test_a_tare_under_a_load_that_moves_takes_a_reason(tmp_path: Path, run: Run) -> None:

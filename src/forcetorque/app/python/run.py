@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 
 class Verdicts(tuple[LoadCaseVerdict, ...]):
-    """Whether calibrations may be used, one per calibration and load case: `verdicts[0].sentence`."""
+    """Whether calibrations may be used, one per calibration and load case: `verdicts[0].message`."""
 
     __slots__ = ()
 
@@ -161,7 +161,7 @@ class Run(SensorRun):
             moments: What was kept of other recordings, for the generative model.
 
         Returns:
-            The calibration; its `doubts` say why what was fitted may be wrong.
+            The calibration; its `warnings` say why what was fitted may be wrong.
         """
         from forcetorque.calibration.calibrate import calibrate_for_file
 

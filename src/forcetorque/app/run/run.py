@@ -376,6 +376,9 @@ def _calibrate_jointly(
     return fitted
 
 
+_NOT_CHECKED = "double support not checked"
+
+
 def _held_against_double_support(
     way: _Way, experiments: Sequence[Experiment], fitted: SensorCalibrations
 ) -> SensorCalibrations:
@@ -386,7 +389,7 @@ def _held_against_double_support(
         try:
             text = double_support(experiment, own)
         except ForceTorqueError as error:
-            way.double_support.append(f"double support not checked: {error}")
+            way.double_support.append(f"{_NOT_CHECKED}: {error}")
             continue
         if text is not None:
             way.double_support.append(text)
@@ -401,7 +404,8 @@ def _with_double_support(way: _Way) -> tuple[Answer, ...]:
     if not missing or not way.answers:
         return way.answers
     first, *others = way.answers
-    concern = Concern.UNCERTAIN if first.concern is Concern.NONE else first.concern
+    contradicted = any(not text.startswith(_NOT_CHECKED) for text in missing)
+    concern = Concern.UNCERTAIN if contradicted and first.concern is Concern.NONE else first.concern
     return (replace(first, why=(*first.why[:1], *missing, *first.why[1:]), concern=concern), *others)
 
 

@@ -81,6 +81,10 @@ _LACKS_WRENCH = (
 )
 
 
+_FIELDS = {"F_T_EE": "F_T_EE", "EE_T_K": "EE_T_K", "payload_kg": "m_load", "payload_cog_m": "F_x_Cload"}
+"""Field of a state by the key that states the same."""
+
+
 class FrankaFormat:
     """States of libfranka as lines of JSON or as a table, whose field names fix units, frames and signs."""
 
@@ -123,6 +127,7 @@ def _has_wrench(states: LoggedStates) -> bool:
 
 def _undetermined(table: FrankaLog, states: LoggedStates) -> list[str]:
     """Keys that are needed and neither in the log nor in the table."""
+    table.require_lacking(states.values, _FIELDS)
     if not _has_wrench(states):
         return []
     lacking = [key for key in ("F_T_EE", "EE_T_K") if key not in states.values and getattr(table, key) is None]
@@ -222,9 +227,10 @@ def _require_agreement(path: Path, turned: FloatArray, along_k: FloatArray) -> N
         parts = (turned[:, FORCE] - along_k[:, FORCE], along_k[:, FORCE])
         difference, size = (float((part**2).sum()) for part in parts)
     if difference > _DISAGREES**2 * size:
+        share = f"by {100 * np.sqrt(difference / size):.0f} %" if size else "where the second is zero throughout"
         raise FormatError(
             f"{path}: expected O_F_ext_hat_K to be K_F_ext_hat_K turned by O_T_EE and EE_T_K, got forces that differ "
-            f"by {100 * np.sqrt(difference / size):.0f} %: one of them has other axes, or the poses are transposed"
+            f"{share}: one of them has other axes, or the poses are transposed"
         )
 
 
@@ -264,6 +270,10 @@ def _reading(table: FrankaLog, states: LoggedStates, undetermined: Mapping[str, 
         streams["joints"] = signals
     if signals := _joint_signals(table, states, {"tau_ext_hat_filtered": ("torque", "N m")}):
         streams["external_torques"] = signals
+    if not streams:
+        raise FormatError(
+            f"{table.path}: expected a wrench, or q, dq or tau_J, in each state, got {', '.join(states.values)}"
+        )
     return LogReading(
         streams=tuple(
             Stream(name=name, clock=CLOCK, stamp_ns=states.stamp_ns, signals=signals)

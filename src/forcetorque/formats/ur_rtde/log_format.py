@@ -97,6 +97,10 @@ _QUESTIONS = {
 }
 
 
+_FIELDS = {"tcp_offset": "tcp_offset", "payload_kg": "payload", "payload_cog_m": "payload_cog"}
+"""Field of the log by the key that states the same."""
+
+
 class UrRtdeFormat:
     """Recordings of RTDE, text or binary, whose field names fix units, frames and signs."""
 
@@ -145,6 +149,7 @@ def _described_table(path: Path, fields: RecordedFields, specified: Mapping[str,
 
 def _undetermined(table: UrRtdeLog, fields: RecordedFields) -> list[str]:
     """Keys that are needed and neither in the log nor in the table."""
+    table.require_lacking(fields.values, _FIELDS)
     lacking = []
     if table.reading not in fields.values:
         raise FormatError(

@@ -205,7 +205,8 @@ class NetContact:
                 raise ExperimentError(
                     f"interval {problem.interval.label!r}: {problem.interval.support.frame} and {contact.name} both "
                     f"touch, but move by {travel * 1e3:.0f} mm against each other, so that not both stand still; "
-                    "name both in touched, with an IMU in the recording, or end the interval where the robot moves"
+                    "name both in contact_links, with an IMU in the recording, or end the interval where the robot "
+                    "moves"
                 )
 
 
@@ -366,8 +367,8 @@ def contact_warnings(phases: Sequence[NetContact], readers: Sequence[Reader], we
             if most < FREE_SHARE * weight:
                 raise ExperimentError(
                     f"interval {label!r}: {name!r} is in the air: expected a link that touches to bear at least "
-                    f"{FREE_SHARE:.0%} of {weight:.1f} N, got {most:.2f} N; leave it out of touched, [[contact]] or "
-                    "support, or state the intervals of the contact"
+                    f"{FREE_SHARE:.0%} of {weight:.1f} N, got {most:.2f} N; leave it out of contact_links, [[contact]] "
+                    "or support, or state the intervals of the contact"
                 )
         left = [phase.unexplained(one) for one in measured]
         for name in left[0] if left else ():
@@ -377,7 +378,7 @@ def contact_warnings(phases: Sequence[NetContact], readers: Sequence[Reader], we
                 f"act on the robot beyond {name!r}"
             )
             if least > BEARING_SHARE * weight:
-                raise ExperimentError(f"{words}; name both feet in touched, or the other in [[contact]]")
+                raise ExperimentError(f"{words}; name both feet in contact_links, or the other in [[contact]]")
             if least > DOUBT_SHARE * weight:
                 warnings.append(f"{words}: a sensor errs by as much, or another link touches")
     return warnings

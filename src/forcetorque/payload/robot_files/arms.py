@@ -24,13 +24,12 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import rpy_from_rotation
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.payload.identification.parameter_vector import six_of
 from forcetorque.payload.robot_files.flange_load import FlangeLoad
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.yaml_parameters import number
 from forcetorque.results.number_text import amount
 
-_SIX = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
-"""Places of xx, yy, zz, xy, xz, yz."""
 _MOST_UR = 133.0
 """Largest component of an inertia that set_target_payload takes; kg m2."""
 _ALUMINIUM = 2700.0
@@ -46,17 +45,13 @@ def _commas(values: Iterable[float], separator: str = ", ") -> str:
     return separator.join(_number(value) for value in values)
 
 
-def _six(inertia: FloatArray) -> list[float]:
-    return [float(inertia[place]) for place in _SIX]
-
-
 def _ur(load: FlangeLoad) -> str:
     if np.abs(load.inertia).max() > _MOST_UR:
         raise FormatError(
             f"ur: expected an inertia of at most {_MOST_UR:g} kg m2, which the controller takes, got "
             f"{np.abs(load.inertia).max():.4g} kg m2; check units of the moments"
         )
-    centre, inertia = _commas(load.centre_of_mass), _commas(_six(load.inertia))
+    centre, inertia = _commas(load.centre_of_mass), _commas(six_of(load.inertia))
     return f"set_target_payload({_number(load.mass)}, [{centre}], [{inertia}])\n"
 
 
@@ -107,7 +102,7 @@ def _rigid(load: FlangeLoad) -> FloatArray:
 
 def _urdf(load: FlangeLoad) -> str:
     names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
-    inertia = " ".join(f'{name}="{_number(value)}"' for name, value in zip(names, _six(_rigid(load)), strict=True))
+    inertia = " ".join(f'{name}="{_number(value)}"' for name, value in zip(names, six_of(_rigid(load)), strict=True))
     return (
         '<robot name="payload">\n  <link name="payload">\n    <inertial>\n'
         f'      <origin xyz="{_commas(load.centre_of_mass, " ")}" rpy="0 0 0"/>\n'
@@ -118,7 +113,7 @@ def _urdf(load: FlangeLoad) -> str:
 
 
 def _mjcf(load: FlangeLoad) -> str:
-    position, inertia = _commas(load.centre_of_mass, " "), _commas(_six(_rigid(load)), " ")
+    position, inertia = _commas(load.centre_of_mass, " "), _commas(six_of(_rigid(load)), " ")
     return (
         '<mujocoinclude>\n  <body name="payload">\n'
         f'    <inertial pos="{position}" mass="{_number(load.mass)}" fullinertia="{inertia}"/>\n'

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
@@ -74,21 +75,57 @@ def write_load_file(
     }
     text = arm_text(flange_load(load, form, body_H_sensor), form) if form in ARMS else texts[form]()
     remarks = _REMARKS.get(form, _HASH)
+    note = None if load.override is None else _one_line(load.override)
     if remarks is None:
-        if load.override is not None:
-            write_bytes_atomically(_override_file(path), f"{path}: {load.override}\n".encode())
+        if note is not None or str(path) != str(STANDARD_OUTPUT):
+            _write_beside(path, form, note)
     else:
         begin, end = remarks
-        lines = [f"forcetorque {form}", *([] if load.override is None else [load.override.replace("--", "- -")])]
+        if end and note is not None:
+            note = re.sub("-(?=-)", "- ", note)  # two hyphens end a remark of XML
+        lines = [f"forcetorque {form}", *([] if note is None else [note])]
         text = "".join(f"{begin}{line}{end}\n" for line in lines) + text
     write_bytes_atomically(Path(path), text.encode())
 
 
-def _override_file(path: Path | str) -> Path:
-    """The file beside one without remarks, which says why a doubtful load was written."""
+def _one_line(text: str) -> str:
+    """A text as a remark can hold it: no line break, no control character, no half of a character."""
+    return "".join(letter if letter.isprintable() else " " for letter in text)
+
+
+_OVERRIDE = "# forcetorque override\n"
+"""Head of a file that says why a doubtful load was written."""
+
+
+def override_file(path: Path | str, form: LoadFormat) -> Path | None:
+    """Name the file that says why a doubtful load was written.
+
+    Args:
+        path: File of the load.
+        form: Its form.
+
+    Returns:
+        The file beside it; None where the file of the load has remarks.
+
+    Raises:
+        ExperimentError: If the load goes to standard output.
+    """
+    if _REMARKS.get(form, _HASH) is not None:
+        return None
     if str(path) == str(STANDARD_OUTPUT):
         raise ExperimentError("--output: expected a file, beside which the reason is written, got standard output")
     return Path(f"{path}.override.txt")
+
+
+def _write_beside(path: Path | str, form: LoadFormat, note: str | None) -> None:
+    """Write the reason beside a file without remarks; where there is none, remove that of an earlier load."""
+    beside = override_file(path, form)
+    if beside is None:
+        return
+    if note is not None:
+        write_bytes_atomically(beside, f"{_OVERRIDE}{path}: {note}\n".encode())
+    elif beside.is_file() and beside.read_bytes().startswith(_OVERRIDE.encode()):
+        beside.unlink()
 
 
 def robot_load(
@@ -225,6 +262,8 @@ def export_load(
         What the program does with it, and what its file cannot hold with the error that this causes.
     """
     refuse_output(output, force=force)
+    if load.override is not None and (beside := override_file(output, form)) is not None:
+        refuse_output(beside, force=force)
     write_load_file(output, load, form, world_frame=world_frame, body_H_sensor=body_H_sensor)
     if form not in ARMS:
         return form.convention

@@ -35,7 +35,7 @@ class FlangeLoad(ArrayRecord):
         """Principal moments, shape (3,), kg m2, and `flange_R_principal`, shape (3, 3), the nearest to no rotation."""
         moments, axes = np.linalg.eigh(self.inertia)
         axes[:, 0] *= np.linalg.det(axes)  # a rotation, of determinant 1
-        nearest = max((np.eye(3), *quarter_turns()[1:]), key=lambda turn: float(np.trace(axes @ turn)))
+        nearest = max(quarter_turns(), key=lambda turn: float(np.trace(axes @ turn)))
         return np.abs(nearest).T @ moments, axes @ nearest
 
 
