@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ExperimentError, FitError, FormatError, MissingFileError
+from forcetorque.base.errors import ExperimentError, FitError, FormatError, MissingFileError, OutputError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -164,6 +165,50 @@ def test_a_recording_that_changed_is_refused(days: Path, tmp_path: Path) -> None
     after = Dataset(folder).present()
     assert len(after) == 1
     assert after != before
+
+
+def test_a_corrected_serial_number_or_robot_takes_the_place(days: Path, tmp_path: Path) -> None:
+    """Otherwise one recording would count for two sensors, or a robot that was forgotten could not be named."""
+    file, folder = days / FILES[0], tmp_path / "dataset"
+    add_recording(_source(file), folder, OPTIONS)
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace("SIM001", "SIM002"), encoding="utf-8")
+    (days / "matrix_SIM001.txt").rename(days / "matrix_SIM002.txt")
+    with pytest.raises(ExperimentError, match="changed after it was added"):
+        add_recording(_source(file), folder, OPTIONS)
+    add_recording(_source(file), folder, OPTIONS, replace=True)
+    assert [one.serial for one in Dataset(folder).present()] == ["SIM002"]
+    named = replace(OPTIONS, robot="arm 7")
+    with pytest.raises(ExperimentError, match="put it right by --replace"):
+        add_recording(_source(file), folder, named)
+    add_recording(_source(file), folder, named, replace=True)
+    assert [(one.robot, one.serial) for one in Dataset(folder).present()] == [("arm 7", "SIM002")]
+
+
+def test_a_file_beside_a_recording_does_not_have_it_read_again(
+    days: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Only folders that are logs are looked at; one that is changed is."""
+    file, folder = days / FILES[0], tmp_path / "dataset"
+    add_recording(_source(file), folder, OPTIONS)
+    (days / "notes.txt").write_text("windy", encoding="utf-8")
+    loaded: list[Path] = []
+    load = RecordingSource.load
+    monkeypatch.setattr(RecordingSource, "load", lambda self: loaded.append(self.experiment) or load(self))
+    (row,) = add_recording(_source(file), folder, OPTIONS)
+    assert (row.state, loaded) == ("present", [])
+    log = load_experiment(file).recording
+    assert log is not None
+    (days / file.stem / "notes.txt").write_text("in the log", encoding="utf-8")
+    assert [one.state for one in add_recording(_source(file), folder, OPTIONS)] == ["present"]
+    assert loaded == [file]
+
+
+def test_a_file_is_no_dataset(days: Path, tmp_path: Path) -> None:
+    """It is refused before anything is read."""
+    (tmp_path / "notes.txt").write_text("mine", encoding="utf-8")
+    with pytest.raises(OutputError, match="expected a folder for the dataset, got a file"):
+        add_recordings([days / FILES[0]], tmp_path / "notes.txt", OPTIONS)
 
 
 def test_other_options_take_the_place(days: Path, tmp_path: Path) -> None:

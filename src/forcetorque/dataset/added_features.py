@@ -75,9 +75,11 @@ def refuse_known_features(dataset: LeRobotDataset, names: Sequence[str]) -> None
         names: Names of features to add.
 
     Raises:
-        OutputError: If it has one of them.
+        OutputError: If it has one of them, or one is no name of a feature.
     """
     for name in names:
+        if not name.strip() or "/" in name:
+            raise OutputError(f"--name: expected a name of a feature, without /, got {name!r}")
         if name in dataset.features:
             raise OutputError(
                 f"{dataset.root / INFO}: expected no feature {name!r}, it is there already; choose --name"

@@ -2,6 +2,8 @@
 """`forcetorque dataset check` and `compensate`."""
 
 from collections.abc import Sequence
+from importlib.metadata import version
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,7 +17,13 @@ if TYPE_CHECKING:
     from forcetorque.experiment.calibration.artefact import Calibration
 
 _SENSES = ("sensor_to_world", "world_to_sensor")
+_BIASES, _FRAMES = ("dataset", "episode"), ("sensor", "world")
 _FORMS = ("quat_xyzw", "quat_wxyz", "matrix_rows", "matrix_columns")
+
+
+def _require_positive(flag: str, value: float | None) -> None:
+    if value is not None and not 0.0 < value < float("inf"):
+        raise ForceTorqueError(f"{flag}: expected a finite number above 0, got {value:g}")
 
 
 @command(
@@ -58,6 +66,7 @@ def check_dataset(
     Raises:
         FormatError: If the dataset is damaged, or has no force.
     """
+    _require_positive("--mass", mass_kg)
     from forcetorque.dataset.check import checked
 
     return checked(
@@ -122,7 +131,7 @@ def compensate_dataset(
         Option("Tool, as a result of `forcetorque payload FILE --format json`. Default: identified from the dataset."),
     ] = None,
     bias: Annotated[
-        str, Option("Whether one bias is taken off all episodes, or one of each.", choices=("dataset", "episode"))
+        str, Option("Whether one bias is taken off all episodes, or one of each.", choices=_BIASES)
     ] = "dataset",
     free_s: Annotated[
         float | None,
@@ -133,9 +142,7 @@ def compensate_dataset(
         Option("Calibration that turns the feature into wrenches.", "--calibration", "-c"),
     ] = None,
     serial: Annotated[str | None, Option("Serial number of the sensor, for --calibration.")] = None,
-    frame: Annotated[
-        str, Option("Axes of the result: of the sensor, or of the world.", choices=("sensor", "world"))
-    ] = "sensor",
+    frame: Annotated[str, Option("Axes of the result: of the sensor, or of the world.", choices=_FRAMES)] = "sensor",
     pose: Annotated[
         Sequence[float] | None,
         Option(
@@ -166,6 +173,7 @@ def compensate_dataset(
         UnitError: If units are neither given nor in the names.
         FitError: If the episodes do not determine weight and bias.
         OutputError: If the output is in the dataset, or the feature is there already.
+        ForceTorqueError: If an option has no such value, or contradicts another.
     """
     from forcetorque.base.pose import make_pose, rotation_from_rpy
     from forcetorque.base.wrench import MeasureDirection
@@ -175,7 +183,24 @@ def compensate_dataset(
     from forcetorque.experiment.calibration.artefact import read_calibration
     from forcetorque.formats.lerobot.dataset import read_dataset
 
-    options: dict[str, Any] = {key: value for key, value in locals().items() if isinstance(value, str | float | bool)}
+    options: dict[str, Any] = {key: value for key, value in locals().items() if isinstance(value, str | float | int)}
+    options["version"] = version("forcetorque")
+    for flag, value, choices in (
+        ("--sense", sense, _SENSES),
+        ("--direction", direction, _DIRECTIONS),
+        ("--form", form, _FORMS),
+        ("--bias", bias, _BIASES),
+        ("--frame", frame, _FRAMES),
+    ):
+        if value is not None and value not in choices:
+            raise ForceTorqueError(f"{flag}: expected one of {', '.join(choices)}, got {value!r}")
+    _require_positive("--free", free_s)
+    if pose is not None and (len(pose) != 6 or not all(map(isfinite, pose))):
+        raise ForceTorqueError(f"--pose: expected six finite numbers x,y,z,roll,pitch,yaw, got {list(pose)}")
+    if pose is not None and frame != "sensor":
+        raise ForceTorqueError(
+            f"--pose beside --frame {frame}: expected one of them, both name the frame of the result"
+        )
     dataset = read_dataset(Path(folder))
     if sense is None or direction is None:
         raise FormatError(
@@ -183,7 +208,8 @@ def compensate_dataset(
             "the world's, and --direction, child_to_parent if a hanging tool reads down: the format has neither"
         )
     read = read_calibration(calibration) if isinstance(calibration, Path | str) else calibration
-    options |= {"load": None if load is None else Path(load).read_text(encoding="utf-8"), "pose": pose}
+    known = None if load is None else read_known_load(Path(load))
+    options |= {"load": repr(known), "pose": pose}
     options["calibration"] = None if read is None else repr(read)
     measurement = Measurement(
         field=wrench_field(dataset, feature) if read is None else any_field(dataset, feature),
@@ -197,7 +223,7 @@ def compensate_dataset(
     request = Request(
         measurement=measurement,
         direction=MeasureDirection(direction),
-        known=None if load is None else read_known_load(Path(load)),
+        known=known,
         mount=mount,
         by_episode=bias == "episode",
         free_s=free_s,

@@ -17,7 +17,7 @@ from forcetorque.base.errors import FormatError, OutputError, UnitError
 from forcetorque.base.input_file import accept_input
 from forcetorque.base.output_file import real_path, refuse_existing
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.base.units import si_factor
+from forcetorque.base.units import NORMAL_95, si_factor
 from forcetorque.base.wrench import WRENCH_COMPONENTS, MeasureDirection, wrench_matrix
 from forcetorque.dataset.added_features import Added, AddedFeature, add_features, refuse_known_features
 from forcetorque.dataset.compensation_result import CompensatedDataset
@@ -214,7 +214,7 @@ def _identified(dataset: LeRobotDataset, request: Request, progress: Progress) -
     for episode, values in episode_frames(dataset, measurement.labels):
         wrench, turned, gravity = _split(measurement, values, f"{episode.file}: episode {episode.index}")
         usable = np.isfinite(wrench).all(axis=1) & np.isfinite(gravity).all(axis=1) & ~_stuck(measurement, values, rate)
-        left_out += int(np.count_nonzero(~usable))
+        left_out += int(np.count_nonzero(~usable[:most]))
         if episode.frames:
             variance = white_variance(even_stamps(len(wrench), rate_hz=rate, start_s=0.0), wrench)
             noises.append(np.where(variance > 0.0, np.sqrt(variance), np.nan))
@@ -307,7 +307,7 @@ def _result(
     solution = tool.solution
     load = LoadRow.of(solution.loads[0])
     if tool.known is not None:
-        halves = 1.96 * np.sqrt(np.diag(tool.known.covariance))
+        halves = NORMAL_95 * np.sqrt(np.diag(tool.known.covariance))
         load = load.model_copy(update={"mass_half_width_95_kg": float(halves[0])})
     warnings = [f"{row.name}: {row.description.replace(*_OF_A_FILE)}" for row in solution.hypotheses]
     tests = [test for test in solution.bias_tests if test.p_value is not None and test.p_value < 1e-3]

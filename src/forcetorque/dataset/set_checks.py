@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.units import SI_FACTORS, STANDARD_GRAVITY, si_factor
+from forcetorque.base.units import MAD_TO_DEVIATION, SI_FACTORS, STANDARD_GRAVITY, si_factor
 from forcetorque.dataset.episode_checks import EpisodeField, EqualRun
 from forcetorque.dataset.force_fields import ForceField
 from forcetorque.dataset.result import DatasetFinding, Kind
@@ -298,7 +298,7 @@ def changes(values: FloatArray, errors: FloatArray, *, share: float) -> list[int
     n = len(values)
     usual = abs(float(np.median(values)))
     steps = np.abs(np.diff(values))
-    scatter = 1.4826 * float(np.median(steps)) / np.sqrt(2.0) if n > 2 * _FEWEST else 0.0
+    scatter = MAD_TO_DEVIATION * float(np.median(steps)) / np.sqrt(2.0) if n > 2 * _FEWEST else 0.0
     found: list[tuple[float, int]] = []
     for k in range(1, n):
         before, after = slice(max(0, k - _SIDE), k), slice(k, k + _SIDE)
@@ -323,7 +323,7 @@ def _biased(field: ForceField, episodes: Sequence[EpisodeField]) -> Iterator[Dat
     error = np.array([fit.bias_error for _, fit in fits])
     size = float(np.median([one.force_size for one, _ in fits]))
     middle = np.median(bias, axis=0)
-    scatter = 1.4826 * np.median(np.abs(bias - middle), axis=0)
+    scatter = MAD_TO_DEVIATION * np.median(np.abs(bias - middle), axis=0)
     unit = field.units[0] or ""
     for k in range(3):
         away = np.abs(bias[:, k] - middle[k])

@@ -15,7 +15,7 @@ from forcetorque.base.output_file import real_path
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import sha256_of
-from forcetorque.fleet.dataset import Dataset, RecordFile
+from forcetorque.fleet.dataset import Dataset, RecordFile, require_folder
 from forcetorque.fleet.sensor_record import AddOptions, path_digest, recording_digest, sensor_records
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.results.answer import Answer, typed
@@ -102,6 +102,7 @@ def add_recordings(
     """
     if not experiments:
         raise ExperimentError("expected at least one experiment file to add, got none")
+    require_folder(dataset)
     left = TimeLeft(progress, "adding", len(experiments))
     rows: list[AddedSensor] = []
     for number, file in enumerate(experiments):
@@ -129,14 +130,12 @@ def add_recording(
         return unchanged
     experiment = source.load()
     digest, wanted = recording_digest(experiment)[:20], options.digest(code_version)
-    there: dict[str, list[RecordFile]] = {}
+    own = dataset.of_path(path_digest(source.path))
+    there = {sensor.serial: dataset.present(sensor.serial) for sensor in experiment.sensors}
     for sensor in experiment.sensors:
-        there[sensor.serial] = dataset.present(sensor.serial)
-        _refuse_other_robot(experiment, sensor.name, sensor.serial, there[sensor.serial], options)
-    changed = {
-        serial: [one for one in files if one.path_hash == path_digest(source.path) and one.recording != digest]
-        for serial, files in there.items()
-    }
+        others = [one for one in there[sensor.serial] if not (replace and one in own)]
+        _refuse_other_robot(experiment, sensor.name, sensor.serial, others, options)
+    changed = [one for one in own if one.recording != digest]
     if not replace:
         _refuse_changed(experiment, dataset, changed)
     present = {
@@ -147,12 +146,11 @@ def add_recording(
         for record in sensor_records(experiment, options, code_version):
             if not present[record.identity.serial]:
                 dataset.write(record, options)
-    for serial, files in there.items():
-        # results of other options or versions, which the new ones replace
-        for earlier in (one for one in files if one.recording == digest and one.options != wanted):
-            (folder / earlier.path).unlink(missing_ok=True)
-        for earlier in changed[serial]:
-            (folder / earlier.path).unlink(missing_ok=True)
+    # what the recording gave before, and results of other options or versions, which the new ones replace
+    earlier = {*changed, *(one for files in there.values() for one in files if one.recording == digest), *own}
+    for one in earlier:
+        if (one.recording, one.options) != (digest, wanted):
+            (folder / one.path).unlink(missing_ok=True)
     return [
         AddedSensor(
             file=str(source.path),
@@ -174,9 +172,11 @@ def _unchanged(source: RecordingSource, dataset: Dataset, wanted: str) -> list[A
     written_ns = min((dataset.folder / file.path).stat().st_mtime_ns for file in files)
     for name, digest in rows[0]["inputs_sha256"].items():
         path = folder / name
-        # a new file in a folder of a log may belong to it
-        if not path.is_file() or path.parent.stat().st_mtime_ns > written_ns or sha256_of(path) != digest:
+        if not path.is_file() or sha256_of(path) != digest:
             return None
+    # a new file in a folder that is a log may belong to it
+    if any(one.stat().st_mtime_ns > written_ns for one in source.log_folders()):
+        return None
     return [
         AddedSensor(file=str(source.path), sensor=name, serial=serial, state="present")
         for name, serial in ((row["identity"]["name"], row["identity"]["serial"]) for row in rows)
@@ -191,18 +191,17 @@ def _refuse_other_robot(
     if other is not None:
         raise ExperimentError(
             f"{experiment.file}: sensor {name!r}: expected a serial number that no other robot has, got {serial!r}, "
-            f"which the dataset has of robot {other!r}, here it is of {robot!r}; correct serial in [[sensor]], or name "
-            "the robot with --robot"
+            f"which the dataset has of robot {other!r}, here it is of {robot!r}; correct serial in [[sensor]], name "
+            "the robot with --robot, or, where this recording itself was added with another, put it right by --replace"
         )
 
 
-def _refuse_changed(experiment: Experiment, dataset: Dataset, changed: dict[str, list[RecordFile]]) -> None:
-    for files in changed.values():
-        for earlier in files:
-            before = dataset.rows([earlier], ["inputs_sha256"])[0]["inputs_sha256"]
-            now = experiment.inputs_sha256
-            names = sorted(name for name in before.keys() | now.keys() if before.get(name) != now.get(name))
-            raise ExperimentError(
-                f"{experiment.file}: changed after it was added to {dataset.folder}: {', '.join(names)}; --replace "
-                "puts what it is now in the place of what was added"
-            )
+def _refuse_changed(experiment: Experiment, dataset: Dataset, changed: Sequence[RecordFile]) -> None:
+    for earlier in changed:
+        before = dataset.rows([earlier], ["inputs_sha256"])[0]["inputs_sha256"]
+        now = experiment.inputs_sha256
+        names = sorted(name for name in before.keys() | now.keys() if before.get(name) != now.get(name))
+        raise ExperimentError(
+            f"{experiment.file}: changed after it was added to {dataset.folder}: {', '.join(names)}; --replace "
+            "puts what it is now in the place of what was added"
+        )

@@ -20,7 +20,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from forcetorque.base.arrow import require_small_parquet
-from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError, known_names
+from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError, OutputError, known_names
 from forcetorque.base.output_file import temporary_beside
 from forcetorque.base.stored_model import validated_table
 from forcetorque.experiment.calibration.moment_blocks import joined
@@ -113,6 +113,19 @@ def is_dataset(path: Path) -> bool:
         Whether it is.
     """
     return path.is_dir() and any(path.glob("robot=*/sensor=*"))
+
+
+def require_folder(path: Path) -> None:
+    """Refuse a path for a dataset at which there is a file.
+
+    Args:
+        path: Folder of a dataset, there or not.
+
+    Raises:
+        OutputError: If it is a file.
+    """
+    if path.exists() and not path.is_dir():
+        raise OutputError(f"{path}: expected a folder for the dataset, got a file; choose another name")
 
 
 @dataclass(frozen=True)

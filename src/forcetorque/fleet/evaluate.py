@@ -396,37 +396,28 @@ def _seen(content: Any, earlier: Any) -> bool | None:
     return bool(np.isin(kept_hashes(earlier.windows), kept_hashes(content.windows)).any())
 
 
-def evaluate_dataset(
-    dataset: Dataset, calibrations: Mapping[str, Calibration], sensors: Sequence[str] = ()
-) -> DatasetEvaluation:
+def evaluate_dataset(dataset: Dataset, calibrations: Mapping[str, Calibration]) -> DatasetEvaluation:
     """Evaluate calibrations on all validation intervals of a dataset.
 
     Args:
         dataset: The dataset.
         calibrations: Calibrations by name, of any of its sensors.
-        sensors: Serial numbers or names of the sensors; none for those of the calibrations.
 
     Returns:
         Errors and verdicts.
 
     Raises:
-        ExperimentError: If a calibration is of a sensor that is not named or not in the dataset, has seen the
-            samples, or the sensor has no validation interval.
+        ExperimentError: If a calibration is of a sensor that is not in the dataset, has seen the samples, or the
+            sensor has no validation interval.
     """
     by_serial: dict[str, dict[str, Calibration]] = {}
     for name, calibration in calibrations.items():
         by_serial.setdefault(calibration.sensor.serial, {})[name] = calibration
-    chosen = [dataset.identity(sensor).serial for sensor in sensors] or list(by_serial)
-    for serial, group in by_serial.items():
-        if serial not in chosen:
-            raise ExperimentError(f"{next(iter(group))}: calibrates {serial!r}, which --sensor leaves out")
     errors: list[StoredErrors] = []
     uses: list[LoadCaseVerdict] = []
     warnings: list[str] = []
     logs: list[str] = []
-    for serial in chosen:
-        if serial not in by_serial:
-            raise ExperimentError(f"{dataset.folder}: sensor {serial!r}: expected --calibration of it, got none")
+    for serial, group in by_serial.items():
         records = dataset.records(dataset.of_sensor(serial))
         evaluated = [record for record in records if record.evaluation is not None]
         logs += [record.file for record in evaluated or records]
@@ -435,7 +426,7 @@ def evaluate_dataset(
                 f'{dataset.folder}: sensor {serial!r}: expected an interval with use = "validation", got none in '
                 f"{', '.join(record.file for record in records[:3])}"
             )
-        sensor = _SensorEvaluation(records, by_serial[serial])
+        sensor = _SensorEvaluation(records, group)
         rows = list(sensor.rows())
         errors += rows
         uses += sensor.uses()

@@ -97,13 +97,17 @@ class SessionMeans(StoredTable):
     """Mean variables."""
 
 
+_ATTRIBUTES = {"text": "words", "is_specified": "is_stated"}
+"""Attribute of a load case by the key of a dataset."""
+
+
 class StoredLoadCase(StoredTable):
     """Loads to come, as the experiment has them for the sensor."""
 
     name: str
     """Name."""
-    words: str
-    """What the loads are, as text."""
+    text: str
+    """What the loads are."""
     wrench: _Table
     """The loads in the sensor's frame and direction; N, N m."""
     offset: LoadCaseOffset
@@ -114,7 +118,7 @@ class StoredLoadCase(StoredTable):
     """Allowed force error; None for a share of the loads."""
     allowed_moment_Nm: float | None
     """Allowed moment error."""
-    is_stated: bool
+    is_specified: bool
     """Whether the experiment file specifies it."""
 
     @classmethod
@@ -127,13 +131,13 @@ class StoredLoadCase(StoredTable):
         Returns:
             The same for a file.
         """
-        values = {name: getattr(case, name) for name in cls.model_fields}
+        values = {name: getattr(case, _ATTRIBUTES.get(name, name)) for name in cls.model_fields}
         return cls(**(values | {"changes": dict(case.changes)}))
 
     @property
     def load_case(self) -> LoadCase:
         """The load case."""
-        return LoadCase(**dict(self))
+        return LoadCase(**{_ATTRIBUTES.get(name, name): value for name, value in self})
 
 
 class StoredSensor(StoredTable):

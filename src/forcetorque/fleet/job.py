@@ -105,7 +105,8 @@ def run_calibrate(job: CalibrateJob) -> CalibratedSensor:
         worst = max(result.load_cases, key=lambda use: CONCERN[use.decision], default=None)
         decision = None if worst is None else worst.decision
         rows = {row.prior is None: row for row in result.errors if row.offset is not Offset.JUDGED_MEAN}
-        calibrated, prior = result.errors[-2], rows.get(True) if len(rows) > 1 else None
+        calibrated = next(row for row in reversed(result.errors) if row.offset is not Offset.JUDGED_MEAN)
+        prior = rows.get(True) if len(rows) > 1 else None
     return CalibratedSensor(
         sensor=identity.name,
         serial=identity.serial,

@@ -102,7 +102,10 @@ def planned_recordings(plan: PlanFile, file: Path) -> list[PlannedRecording]:
 def _sources(table: RecordingsTable, file: Path, where: str) -> Iterator[RecordingSource]:
     pattern = table.experiments or table.logs or ""
     folder, rest = (Path("/"), pattern.lstrip("/")) if pattern.startswith("/") else (file.parent, pattern)
-    matches = sorted(path for path in folder.glob(rest) if not path.name.startswith("."))
+    try:
+        matches = sorted(path for path in folder.glob(rest) if not path.name.startswith("."))
+    except ValueError as error:
+        raise ExperimentError(f"{where}: expected a pattern of files, got {pattern!r}: {error}") from error
     if not matches:
         raise ExperimentError(f"{where}: expected files that match {pattern!r}, there is none in {folder.resolve()}")
     for match in matches:

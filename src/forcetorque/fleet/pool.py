@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Final, Generic, Protocol, TypeVar
 
-from forcetorque.base.errors import ForceTorqueError, MissingExtraError, install_line
+from forcetorque.base.errors import ForceTorqueError, MissingExtraError, MissingFileError, OutputError, install_line
 
 _Argument = TypeVar("_Argument")
 _Value = TypeVar("_Value")
@@ -33,6 +33,8 @@ class Outcome(Generic[_Value]):
     """What the function returned; None where it failed."""
     error: str | None = None
     """What went wrong, in one line; None where nothing did."""
+    is_of_data: bool = False
+    """Whether the same data give the error again: not of a process that was killed, a disk or a missing file."""
 
 
 class Pool(Protocol):
@@ -67,9 +69,10 @@ def error_line(error: BaseException) -> str:
 
 def _outcome(index: int, future: Future[_Value]) -> Outcome[_Value]:
     error = future.exception()
-    return (
-        Outcome(index=index, value=future.result()) if error is None else Outcome(index=index, error=error_line(error))
-    )
+    if error is None:
+        return Outcome(index=index, value=future.result())
+    of_data = isinstance(error, ForceTorqueError) and not isinstance(error, MissingFileError | OutputError)
+    return Outcome(index=index, error=error_line(error), is_of_data=of_data)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,8 +10,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from forcetorque.base.output_file import real_path
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.fleet.dataset import Dataset, is_dataset
+from forcetorque.fleet.dataset import Dataset, is_dataset, require_folder
 from forcetorque.fleet.failures import Failures
 from forcetorque.fleet.job import AddJob, CalibratedSensor, CalibrateJob, run_add, run_calibrate
 from forcetorque.fleet.plan_file import PlannedRecording, planned_recordings, read_plan
@@ -125,6 +126,7 @@ def run_plan(file: Path, pool: Pool, *, retry_failed: bool = False, progress: Pr
     """
     plan, code_version = read_plan(file), version("forcetorque")
     dataset = file.parent / plan.dataset
+    require_folder(dataset)
     planned = planned_recordings(plan, file)
     failures: list[FailedJob] = []
     waiting = []
@@ -137,13 +139,16 @@ def run_plan(file: Path, pool: Pool, *, retry_failed: bool = False, progress: Pr
             failures.append(FailedJob(job="add", subject=earlier.file, error=earlier.error, earlier=True))
     added = present = 0
     left = TimeLeft(progress, f"{len(waiting)} recordings", len(waiting))
-    jobs = [AddJob(source=one.source, dataset=dataset, options=_options(one)) for one, _ in waiting]
+    jobs = [
+        AddJob(source=one.source.absolute(), dataset=real_path(dataset), options=_options(one)) for one, _ in waiting
+    ]
     for done, outcome in enumerate(pool.outcomes(run_add, jobs), start=1):
         one, kept = waiting[outcome.index]
         left.at(done)
         if outcome.value is None:
             error = outcome.error or ""
-            kept.keep(one.source, error)
+            if outcome.is_of_data:
+                kept.keep(one.source, error)
             failures.append(FailedJob(job="add", subject=str(one.source.path), error=error, earlier=False))
             continue
         kept.forget(one.source)
@@ -174,8 +179,8 @@ def _calibrated(dataset: Path, folder: Path, pool: Pool, progress: Progress) -> 
     jobs = [
         CalibrateJob(
             serial=serial,
-            dataset=dataset,
-            folder=folder,
+            dataset=real_path(dataset),
+            folder=real_path(folder),
             code_version=version("forcetorque"),
             created=created_now(),
         )

@@ -29,6 +29,28 @@ class RecordingSource:
         """What tells it from others: the log, else the experiment file."""
         return self.experiment if self.log is None else self.log
 
+    def absolute(self) -> RecordingSource:
+        """Give the same from any working folder.
+
+        Returns:
+            The source with absolute paths.
+        """
+        return replace(
+            self, experiment=real_path(self.experiment), log=None if self.log is None else real_path(self.log)
+        )
+
+    def log_folders(self) -> list[Path]:
+        """List the folders that the log consists of.
+
+        Returns:
+            The log and the folders in it; none where it is a file.
+        """
+        recording = toml_content(self.experiment)[1].get("recording", {})
+        named = [recording.get("path") if self.log is None else self.log, *recording.get("continued_in", ())]
+        folder = real_path(self.experiment).parent
+        logs = [path for name in named if name is not None and (path := folder / name).is_dir()]
+        return [one for log in logs for one in (log, *(path for path in log.rglob("*") if path.is_dir()))]
+
     def load(self) -> Experiment:
         """Read the recording.
 
@@ -48,7 +70,9 @@ class RecordingSource:
             )
         folder = real_path(self.experiment).parent
         path = Path(os.path.relpath(real_path(self.log), folder)).as_posix()
-        named = tables | {"name": f"{tables.get('name')}, {self.log.stem}", "recording": recording | {"path": path}}
+        named = tables | {"recording": recording | {"path": path}}
+        if "name" in tables:
+            named["name"] = f"{tables['name']}, {self.log.stem}"
         experiment = load_tables(named, InMemory(), folder=folder)
         template = Inputs(folder)
         template.file(Path(self.experiment.name))

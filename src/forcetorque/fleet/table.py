@@ -42,7 +42,7 @@ class FleetSensor(Row):
     last_date: Annotated[str, Shown("to")]
     """Day of the last recording, UTC."""
     samples: Annotated[int, Shown("samples")]
-    """Samples of the intervals that are fitted or evaluated."""
+    """Samples over which the error of the prior matrix is; 0 for a sensor without one."""
     prior_force_error_N: Annotated[float | None, Shown("force error", "N", digits=2)]
     """Root mean square of the norm of the force error of the prior matrix, its mean in every interval removed; None
     without a prior."""
