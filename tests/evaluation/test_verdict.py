@@ -149,15 +149,15 @@ def test_what_was_left_out_is_said() -> None:
 def test_the_interval_stands_beside_the_judgement() -> None:
     """As a share of the prior's error."""
     (line,) = verdict(_report([_comparison("force", BETTER)]))
-    assert line.text.endswith("with the prior (better: 0.50 of it, 0.40 to 0.60 over 10 stretches)")
+    assert line.text.endswith("with the prior (better: 0.50 of it, 0.40 to 0.60 over 10 segments)")
 
 
 @pytest.mark.parametrize(
     ("ends", "stretches", "words"),
     [
-        ((None, None), 1, "the errors repeat themselves, and are worth 1 stretch only"),
-        ((0.01, 20.0), 3, "3 stretches are too few, or too unlike"),
-        ((0.3, 1.7), 4, "1.00 of it, 0.30 to 1.70 over 4 stretches"),
+        ((None, None), 1, "the errors repeat themselves, and are worth 1 segment only"),
+        ((0.01, 20.0), 3, "3 segments are too few, or too unlike"),
+        ((0.3, 1.7), 4, "1.00 of it, 0.30 to 1.70 over 4 segments"),
         ((1.0, 1.0), 10, "the same in every sample"),
     ],
 )

@@ -223,7 +223,7 @@ SAME_LOAD_KG = 0.1
 _RATES = (
     "intervals of all pairs hold together with 95 %: of contests without a difference at most 5 % rank anybody, and of "
     "contests whose errors differ by a quarter or more at most 5 % call a pair equal (no difference); inconclusive: "
-    "too few, or too unlike, stretches of the motion"
+    "too few, or too unlike, segments of the motion"
 )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tare a sensor without losing the weight that it carries: the offset with which a stretch at rest reads as modelled.
+"""Tare a sensor without losing the weight that it carries: the offset with which an interval at rest reads as modelled.
 
 A sensor that is set to zero where it stands forgets its tool: in the next posture the tool weighs as much as it has
 turned. Here the reading is set to what the load weighs in the posture of the stretch.
@@ -127,6 +127,6 @@ def tare(run: SensorRun, interval: str, calibration: OneCalibration | None = Non
 def _doubts(row: TaredSensor, weight: float) -> Iterator[str]:
     if row.load_moves_N > STILL * weight:
         yield (
-            f"{row.sensor}: the load moves by {row.load_moves_N:.2g} of {weight:.3g} N in {row.interval!r}: expected a "
-            "stretch at rest; errors of the model and of the matrix are in the offset too"
+            f"{row.sensor}: the load moves by {row.load_moves_N:.2g} of {weight:.3g} N in {row.interval!r}: expected "
+            "an interval at rest; errors of the model and of the matrix are in the offset too"
         )

@@ -42,7 +42,7 @@ class Stretch(ArrayRecord):
         check_arrays(self)
         require_shape(self.time_s, name="time_s", shape=(len(self.joints),))
         if not (np.isfinite(self.time_s).all() and (np.diff(self.time_s) > 0.0).all()):
-            raise ShapeError(f"stretch {self.label!r}: time_s: expected finite instants that rise")
+            raise ShapeError(f"interval {self.label!r}: time_s: expected finite instants that rise")
 
     def __len__(self) -> int:
         return len(self.time_s)

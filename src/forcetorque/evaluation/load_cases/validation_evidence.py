@@ -330,14 +330,14 @@ class ErrorComparison(Row):
         return f"{means} ({self.conclusion}: {self._interval()})"
 
     def _interval(self) -> str:
-        stretches = f"{self.segments} stretch{'' if self.segments == 1 else 'es'}"
+        segments = f"{self.segments} segment{'' if self.segments == 1 else 's'}"
         if self.ratio_low == self.ratio_high == 1.0:
             return "the same in every sample"
         if self.ratio_low is None or self.ratio_high is None:
-            return f"the errors repeat themselves, and are worth {stretches} only"
+            return f"the errors repeat themselves, and are worth {segments} only"
         if self.conclusion == "inconclusive" and self.ratio_high > _WIDEST * self.ratio_low:
-            return f"{stretches} are too few, or too unlike"
-        return f"{self.ratio:.2f} of it, {self.ratio_low:.2f} to {self.ratio_high:.2f} over {stretches}"
+            return f"{segments} are too few, or too unlike"
+        return f"{self.ratio:.2f} of it, {self.ratio_low:.2f} to {self.ratio_high:.2f} over {segments}"
 
 
 def known_interval(ratio: ErrorRatio) -> tuple[float, float] | tuple[None, None]:
