@@ -9,7 +9,13 @@ import typer
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.results.command import Option, command
-from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption
+from forcetorque.results.terminal.options import (
+    ColumnNamesOption,
+    DetailsOption,
+    ForceOption,
+    FormatOption,
+    between_commas,
+)
 from forcetorque.results.terminal.output import Format, refuse_two_on_standard_output, show, start_logging
 
 if TYPE_CHECKING:
@@ -35,10 +41,7 @@ def init(
         str | None,
         typer.Option(help="Format of the log, such as ros or hdf5, as in [recording]. Default: by what is there."),
     ] = None,
-    column_names: Annotated[
-        str | None,
-        typer.Option(help="Names of all columns of a table without headings, between commas, as t,fx,fy,fz,tx,ty,tz."),
-    ] = None,
+    column_names: ColumnNamesOption = None,
     sensor: Annotated[
         list[str] | None,
         typer.Option("--sensor", help="Sensor to draft, by its name or stream; repeat for more. Default: all."),
@@ -93,7 +96,7 @@ def init(
         output,
         urdf=urdf,
         log_format=log_format,
-        column_names=[] if column_names is None else [name.strip() for name in column_names.split(",")],
+        column_names=between_commas(column_names),
         sensors=sensor or (),
         matrices=matrices,
         force=force,

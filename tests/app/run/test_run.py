@@ -138,11 +138,28 @@ def test_a_log_without_a_file_asks_its_questions(tmp_path: Path, run: Run, monke
     before = snapshot(tmp_path)
     assert "was begun of another log than other.csv" in run("run", "other.csv", "-o", "results", "--no-input").error()
     assert "got both" in run("run", "log.csv", file, "-o", "results", "--no-input").error()
+    assert "got --column-names" in run("run", file, "--column-names", "t,fx,fy,fz,tx,ty,tz", "--no-input").error()
     assert snapshot(tmp_path) == before
     assert run("run", "log.csv", "-o", "results", "--no-input").code == 4
     assert answer_questions(file, lambda _: "[1, 2]")
     assert open_questions(file) == ()
     assert "[1, 2]" in file.read_text(encoding="utf-8")
+
+
+def test_a_log_without_headings_is_read_by_the_names_of_its_columns(
+    tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As `init` reads it: the sensor is found, and the questions are those of a log with headings."""
+    monkeypatch.chdir(tmp_path)
+    rows = "\n".join(f"{0.01 * n:.2f},0.1,0.2,9.{n % 10},0.01,0.02,0.03" for n in range(200))
+    Path("bare.csv").write_text(f"{rows}\n", encoding="utf-8")
+    Path("log.csv").write_text(f"time,fx,fy,fz,tx,ty,tz\n{rows}\n", encoding="utf-8")
+    names = "time, fx,fy,fz,tx,ty,tz"
+    bare = run("run", "bare.csv", "-o", "bare", "--column-names", names, "--no-input", "--format", "json")
+    log = run("run", "log.csv", "-o", "log", "--no-input", "--format", "json")
+    assert bare.code == log.code == 4
+    questions = [[own.split(", ")[1].split(":")[0] for own in json.loads(one.out)["questions"]] for one in (bare, log)]
+    assert questions[0] == questions[1]
 
 
 def test_a_file_with_open_questions_lists_them(folder: Path, run: Run) -> None:

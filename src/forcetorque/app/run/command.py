@@ -3,14 +3,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from forcetorque.base.errors import ExperimentError
-from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption, SensorOption
+from forcetorque.results.terminal.options import (
+    ColumnNamesOption,
+    DetailsOption,
+    ForceOption,
+    FormatOption,
+    SensorOption,
+    between_commas,
+)
 from forcetorque.results.terminal.output import Format, refuse_standard_output, show, start_logging
 
 if TYPE_CHECKING:
@@ -33,6 +40,7 @@ def run(
         Path | None,
         typer.Option("--matrices", help="Folder of matrix files of the sensors, for a log without an experiment file."),
     ] = None,
+    column_names: ColumnNamesOption = None,
     override: Annotated[
         str | None,
         typer.Option(
@@ -61,9 +69,12 @@ def run(
     log = start_logging()
     refuse_standard_output("--output", output)
     if _state_experiments(files):
+        _refuse_beside(files[0], {"--urdf": urdf, "--matrices": matrices, "--column-names": column_names})
         open_files = [file for file in files if file.is_file() and open_questions(file)]
     else:
-        files = open_files = [_begun(files, output, urdf, sensor or (), matrices, force=force)]
+        files = open_files = [
+            _begun(files, output, urdf, sensor or (), matrices, between_commas(column_names), force=force)
+        ]
     for file in open_files:
         if (unanswered := _unanswered(file, no_input=no_input)) is not None:
             _end(unanswered, output_format, details=details, files=files)
@@ -94,8 +105,20 @@ def _state_experiments(files: list[Path]) -> bool:
     return all(stated)
 
 
+def _refuse_beside(file: Path, options: Mapping[str, object]) -> None:
+    if given := [name for name, value in options.items() if value is not None]:
+        raise ExperimentError(f"{file}: expected no option of a log beside an experiment file, got {', '.join(given)}")
+
+
 def _begun(
-    logs: list[Path], output: Path, urdf: Path | None, sensors: Sequence[str], matrices: Path | None, *, force: bool
+    logs: list[Path],
+    output: Path,
+    urdf: Path | None,
+    sensors: Sequence[str],
+    matrices: Path | None,
+    column_names: Sequence[str],
+    *,
+    force: bool,
 ) -> Path:
     """The experiment file of logs, in the folder of results; one that is there already is taken up again."""
     from forcetorque.inspection.draft.draft import draft_experiment
@@ -110,7 +133,9 @@ def _begun(
         start_logging().info("going on with %s", file)
         return file
     output.mkdir(parents=True, exist_ok=True)
-    draft = draft_experiment(logs, file, urdf=urdf, sensors=sensors, matrices=matrices, force=force)
+    draft = draft_experiment(
+        logs, file, urdf=urdf, sensors=sensors, matrices=matrices, column_names=column_names, force=force
+    )
     for sentence in draft.notes:
         start_logging().info("%s", sentence)
     return file

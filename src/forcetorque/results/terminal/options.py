@@ -25,6 +25,13 @@ ForceOption = Annotated[
 SensorOption = Annotated[
     list[str] | None, typer.Option("--sensor", help="Sensor of the experiment; repeat for more. Default: all.")
 ]
+ColumnNamesOption = Annotated[
+    str | None,
+    typer.Option(
+        "--column-names",
+        help="Names of all columns of a table without headings, between commas, as t,fx,fy,fz,tx,ty,tz.",
+    ),
+]
 CalibrationsOption = Annotated[
     list[Path] | None,
     typer.Option("--calibration", "-c", help="Calibration file; repeat for more. Default: the priors."),
@@ -55,3 +62,8 @@ SphereIntervalOption = Annotated[
         "intervals of each file, else all.",
     ),
 ]
+
+
+def between_commas(text: str | None) -> list[str]:
+    """Give the parts of an option's text between commas; none where the option is not given."""
+    return [] if text is None else [part.strip() for part in text.split(",")]
