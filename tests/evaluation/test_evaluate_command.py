@@ -137,6 +137,22 @@ def test_several_calibrations_are_compared(arm: Path, run: Run) -> None:
     assert f"tool_ft: {Path(tool).name} with its own offset, " in shown
 
 
+
+def test_the_folder_of_several_sensors_is_evaluated(arm: Path, run: Run) -> None:
+    """As its files one by one; of one sensor by --sensor, which files by name may not contradict."""
+    assert run("calibrate", TWO, "-o", "made", "--lambda", "5").code == 0
+    Path("made/other.json").write_text('{"schema": "forcetorque/evaluate/2"}', encoding="utf-8")
+    ours, tool = "made/arm_ft_SIM001.json", "made/tool_ft_SIM%2F002.json"
+    form = ("--format", "json")
+    by_file = run("evaluate", TWO, "-c", ours, "-c", tool, *form).result()
+    assert run("evaluate", TWO, "-c", "made", *form).result()["verdicts"] == by_file["verdicts"]
+    one = run("evaluate", TWO, "-c", "made", "--sensor", "tool_ft", *form).result()["verdicts"]
+    assert one == [row for row in by_file["verdicts"] if row["sensor"] == "tool_ft"]
+    assert "which --sensor leaves out" in run("evaluate", TWO, "-c", ours, "--sensor", "tool_ft").error()
+    Path("empty").mkdir()
+    assert "empty: expected a folder of calibrations" in run("evaluate", TWO, "-c", "empty").error()
+
+
 def test_the_table_tells_files_of_one_name_apart(arm: Path, run: Run) -> None:
     """Folders are left out of the table, also those with spaces, but not where two files share a name."""
     folder = Path("a b")

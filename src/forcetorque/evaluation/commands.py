@@ -38,10 +38,14 @@ if TYPE_CHECKING:
 
 @command()
 def evaluate(
-    run: Annotated["Runs", Option("Sensor in one recording or in several; their validation intervals are evaluated.")],
+    run: Annotated[
+        "Runs", Option("Sensor in one recording or in several; their validation intervals are evaluated.", "--sensor")
+    ],
     calibrations: Annotated[
         "Calibrations | None",
-        Option("Calibration of the sensor, or several to compare. Default: its prior.", required=True),
+        Option(
+            "Calibration of the sensor, several to compare, or a folder of them. Default: its prior.", required=True
+        ),
     ] = None,
 ) -> "Evaluation":
     """Evaluate calibrations on the validation intervals, prior against new.

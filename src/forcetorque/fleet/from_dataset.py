@@ -110,7 +110,7 @@ def _calibrate(dataset: Dataset, given: Mapping[str, Any]) -> None:
 def _evaluate(dataset: Dataset, given: Mapping[str, Any]) -> None:
     """The command `evaluate` with a dataset in place of experiment files."""
     start_logging()
-    result = evaluate_dataset(dataset, read_calibrations(given["calibration"]))
+    result = evaluate_dataset(dataset, read_calibrations(given["calibration"], given["sensor"]))
     show(result, given["output_format"], details=given["details"], experiments=[dataset.folder])
 
 

@@ -265,7 +265,7 @@ def tare(
 
     log = start_logging()
     refuse_load_file(output, to, output_format, override, force=force)
-    calibrations = read_calibrations(calibration)
+    calibrations = read_calibrations(calibration, sensor)
     content = read_experiment(experiment, log)
     chosen = sensors_named(content, sensor)
     refuse_left_out(content, chosen, calibrations)

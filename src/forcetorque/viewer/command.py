@@ -88,7 +88,7 @@ def view(
         film = Film(start=0, end=0, fps=fps, speed=speed, width=size[0], height=size[1])
         require_playwright()
         program = find_browser(browser)
-    calibrations = read_calibrations(files)
+    calibrations = read_calibrations(files, sensor)
     built = scene_of(
         path, read_experiment(path, log, Purpose.DISPLAY), calibrations, sensors=sensor, mesh_folders=mesh_dir
     )

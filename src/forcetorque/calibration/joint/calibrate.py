@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Self
 from urllib.parse import quote
 
-from forcetorque.base.errors import EstimationError, FitError, MissingFileError
+from forcetorque.base.errors import EstimationError, FitError
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, data_doubts, fit_doubts
 from forcetorque.calibration.joint.artefact import sensor_artefact
 from forcetorque.calibration.joint.fit import ChangeSpread
@@ -19,7 +19,7 @@ from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
 from forcetorque.calibration.moments import channel_full_scale
 from forcetorque.calibration.summary import information_gains
 from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.calibration.artefact import Calibration, calibrations_in, read_calibration
 from forcetorque.experiment.calibration.model_error import ModelTolerance, MountTolerance
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignRecording
@@ -197,11 +197,8 @@ def read_candidates(paths: Iterable[Path]) -> dict[str, Mapping[str, Calibration
     for path in paths:
         if not path.is_dir():
             single[str(path)] = read_calibration(path)
-            continue
-        files = sorted(file for file in path.glob("*.json") if file.name != JOINT_FILE)
-        if not files:
-            raise MissingFileError(f"{path}: expected a folder of calibrations, .json; it holds none")
-        candidates[str(path)] = {str(file): read_calibration(file) for file in files}
+        else:
+            candidates[str(path)] = calibrations_in(path)
     if single:
         return {next(iter(single)) if len(single) == 1 else FILES: single, **candidates}
     return candidates

@@ -17,7 +17,7 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, BoolArray, FloatArray
-from forcetorque.base.errors import FormatError, RecordingError, SerialNumberError, ShapeError
+from forcetorque.base.errors import FormatError, MissingFileError, RecordingError, SerialNumberError, ShapeError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.stored_model import StoredTable, read_json, validated_table
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
@@ -349,3 +349,27 @@ def read_calibration(path: Path | str) -> Calibration:
     if schema != SCHEMA:
         raise FormatError(f"{file}: expected the schema {SCHEMA!r}, got {schema!r}; fit again with this version")
     return validated_table(file, Calibration, content)
+
+
+def calibrations_in(folder: Path) -> dict[str, Calibration]:
+    """Read the calibrations of a folder, such as `calibrate` and `run` write for several sensors.
+
+    Args:
+        folder: The folder; JSON files of other results in it are passed over.
+
+    Returns:
+        Calibrations by name of their file, sorted by it.
+
+    Raises:
+        MissingFileError: If it holds none.
+        FormatError: If one is of another schema version, or a JSON file is damaged.
+    """
+    files = [file for file in sorted(folder.glob("*.json")) if _is_calibration(file)]
+    if not files:
+        raise MissingFileError(f"{folder}: expected a folder of calibrations, .json; it holds none")
+    return {str(file): read_calibration(file) for file in files}
+
+
+def _is_calibration(file: Path) -> bool:
+    content = read_json(file, expected="a JSON file")
+    return isinstance(content, dict) and str(content.get("schema")).startswith(SCHEMA.rpartition("/")[0])

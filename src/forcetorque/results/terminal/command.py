@@ -219,7 +219,7 @@ class _Analysis:
             sensors_named,
         )
 
-        calibrations = read_calibrations(given.get("calibration"))
+        calibrations = read_calibrations(given.get("calibration"), given.get("sensor"))
         if _RUNS in self.named_by_kind:
             contents = read_experiments(given["experiments"], log)
         else:

@@ -34,7 +34,9 @@ ColumnNamesOption = Annotated[
 ]
 CalibrationsOption = Annotated[
     list[Path] | None,
-    typer.Option("--calibration", "-c", help="Calibration file; repeat for more. Default: the priors."),
+    typer.Option(
+        "--calibration", "-c", help="Calibration file, or folder of them; repeat for more. Default: the priors."
+    ),
 ]
 OffsetOption = Annotated[
     str,
@@ -52,7 +54,9 @@ PopulationOption = Annotated[
 ]
 ComparedCalibrationsOption = Annotated[
     list[Path] | None,
-    typer.Option("--calibration", "-c", help="Calibration file to compare with the prior; repeat for more."),
+    typer.Option(
+        "--calibration", "-c", help="Calibration file to compare with the prior, or folder of them; repeat for more."
+    ),
 ]
 SphereIntervalOption = Annotated[
     list[str] | None,

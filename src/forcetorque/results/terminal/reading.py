@@ -10,7 +10,7 @@ from pathlib import Path
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment.additions import ADDED
-from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.calibration.artefact import Calibration, calibrations_in, read_calibration
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments, read_moments
 from forcetorque.experiment.campaign import Campaign, left_out_message
 from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
@@ -169,16 +169,24 @@ def stored_moments(paths: Iterable[Path]) -> dict[Path, RecordingMoments]:
     return {path: read_moments(path) for path in paths if path.suffix == ".json"}
 
 
-def read_calibrations(paths: Iterable[Path] | None) -> dict[str, Calibration]:
+def read_calibrations(paths: Iterable[Path] | None, sensors: Collection[str] | None = None) -> dict[str, Calibration]:
     """Read calibration files.
 
     Args:
-        paths: The files; None for none.
+        paths: The files, and folders of them; None for none.
+        sensors: Sensors whose calibrations are taken from folders; None or none for all.
 
     Returns:
         Calibrations by name of their file.
     """
-    return {str(path): read_calibration(path) for path in paths or ()}
+    calibrations: dict[str, Calibration] = {}
+    for path in paths or ():
+        if path.is_dir():
+            found = calibrations_in(path).items()
+            calibrations |= {name: one for name, one in found if not sensors or one.sensor.name in sensors}
+        else:
+            calibrations[str(path)] = read_calibration(path)
+    return calibrations
 
 
 def sensors_named(experiment: Experiment, names: Collection[str] | None) -> list[ExperimentSensor]:
