@@ -111,7 +111,7 @@ def test_without_the_line_nobody_knows_it(run: Run, toy: Path) -> None:
     """Negative control: it is the line that does it."""
     content = tomllib.loads(toy.read_text(encoding="utf-8"))
     assert faults(content, run("schema", "experiment").result()) != []
-    assert "Input tag 'toy' found using 'format' does not match any" in run("inspect", toy).error()
+    assert "recording.format: expected one of 'yarp', " in run("inspect", toy).error()
     error = run("inspect", "toy").error()
     assert "expected ports with data.log, or recording.json, or " in error
     assert f"{FILE}; found none" not in error

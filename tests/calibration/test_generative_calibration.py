@@ -113,7 +113,7 @@ def test_moments_are_refused_that_are_not_of_the_sensor(recorded: Path, tmp_path
     with pytest.raises(FormatError, match="expected JSON"):
         read_moments(file)
     file.write_text(json.dumps({"schema": "forcetorque/moments/2"}), encoding="utf-8")
-    with pytest.raises(FormatError, match="sensor: Field required"):
+    with pytest.raises(FormatError, match="sensor: expected this key, there is none"):
         read_moments(file)
 
 

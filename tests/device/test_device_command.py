@@ -133,9 +133,9 @@ def test_with_a_prior_one_load_is_taken(run: Run, tmp_path: Path) -> None:
     [
         ("range_deg = [-95.0, 95.0]\nspeed", "range_deg = [-80.0, 80.0]\nspeed", "step 1: joint 'pitch': expected"),
         ("locks_deg = [0.0, 90.0]", "locks_deg = [0.0, 45.0]", "step 11: expected the hinge at one of hinge.locks_deg"),
-        ("most_kg = 35.0", "most_kg = 0.0", "weights.most_kg: Input should be greater than 0"),
+        ("most_kg = 35.0", "most_kg = 0.0", "weights.most_kg: expected more than 0"),
         ("[weights]\nstep_kg = 5.0", "[weights]\nstep_kg = 1.0", "0 kg < carrier < weights.step_kg"),
-        (STACK, "", "sensor: Field required"),
+        (STACK, "", "sensor: expected at least one table [[sensor]], there is none"),
         ("radius_m", "width_m", "weights: unknown key 'width_m'"),
     ],
 )

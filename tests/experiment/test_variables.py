@@ -335,7 +335,7 @@ REFUSED: dict[str, tuple[tuple[str, ...], type[ForceTorqueError], str]] = {
     "no name": (
         (TEMPERATURE.replace('name = "temperature"', 'quantity = "raw"'),),
         FormatError,
-        "name: Field required",
+        "name: expected this key, there is none",
     ),
 }
 

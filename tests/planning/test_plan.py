@@ -135,7 +135,7 @@ def test_before_any_recording_the_plan_is_that_from_the_prior(arm: Path) -> None
     new, old = plan(_unrecorded(arm), recordings=1, seconds=30.0), plan(_run(arm), recordings=1, seconds=30.0)
     assert new.recordings == old.recordings
     assert new.postures == old.postures
-    with pytest.raises(ForceTorqueError, match=r"new\.toml: recording: Field required"):
+    with pytest.raises(ForceTorqueError, match=r"new\.toml: recording: expected a table \[recording\]"):
         load_experiment(arm / "new.toml")
 
 

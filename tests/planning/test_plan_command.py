@@ -66,7 +66,7 @@ def test_a_file_without_a_recording_is_planned_and_nothing_else(run: Run, arm: P
     assert planned.code == 0
     assert "nothing was recorded" in planned.out
     assert run("calibrate", "new.toml", "-o", "x.json").error() == (
-        "error: new.toml: recording: Field required (and 2 more)"
+        "error: new.toml: recording: expected a table [recording], there is none (and 2 more)"
     )
 
 
@@ -93,9 +93,9 @@ def test_a_folder_that_holds_something_is_refused_before_any_work(run: Run, arm:
 def test_bad_limits_are_one_line(run: Run, arm: Path) -> None:
     """A table, key or value that cannot be is named with its file."""
     for wrong, message in (
-        ("[plan]\nclearance_deg = -1.0\n", "bad.toml: plan.clearance_deg: Input should be greater than or equal to 0"),
+        ("[plan]\nclearance_deg = -1.0\n", "bad.toml: plan.clearance_deg: expected at least 0"),
         ("[plan]\nclearence_deg = 1.0\n", "unknown key 'clearence_deg'; did you mean \"clearance_deg\"?"),
-        ("[plan]\nspeed = 0.0\n", "bad.toml: plan.speed: Input should be greater than 0"),
+        ("[plan]\nspeed = 0.0\n", "bad.toml: plan.speed: expected more than 0"),
     ):
         (arm / "bad.toml").write_text((arm / PARQUET).read_text(encoding="utf-8") + wrong, encoding="utf-8")
         assert message in run("plan", "bad.toml").error()

@@ -52,7 +52,7 @@ WRONG: list[tuple[str, str, type[ForceTorqueError], str]] = [
     ('counts = "counts"', 'counts = "skin"', RecordingError, r"patch\[0\]: the recording has no stream 'skin'"),
     ('counts = "counts"', 'counts = "chamber"', RecordingError, "stream 'chamber' has no taxel_counts"),
     ('pressure = "chamber"', 'pressure = "counts"', RecordingError, "stream 'counts' has no pressure"),
-    ('counts = "counts"\n', "", FormatError, r"patch\[0\]\.counts: Field required"),
+    ('counts = "counts"\n', "", FormatError, r"patch\[0\]\.counts: expected this key, there is none"),
     ('serial = "P7"', 'serial = ""', FormatError, r"patch\[0\]\.serial"),
     ("start_s = 0.0", "start_s = 99.0", ExperimentError, "expected a span inside the log"),
     (

@@ -14,6 +14,7 @@ from forcetorque.base.arrays import ArrayModel
 from forcetorque.base.errors import FormatError, MissingFileError, ShapeError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.run_files import declare_input
+from forcetorque.base.validation_text import first_error
 
 
 class StoredTable(ArrayModel):
@@ -105,8 +106,6 @@ def validated_table(file: Path, kind: type[_Kind], content: Any) -> _Kind:
     try:
         return kind.model_validate(content)
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(place) for place in first["loc"])
-        raise FormatError(f"{file}: {where}: {first['msg']}; the file was changed by hand or cut") from error
+        raise FormatError(f"{file}: {first_error(error)}; the file was changed by hand or cut") from error
     except ShapeError as error:
         raise FormatError(f"{file}: {error}") from error

@@ -8,13 +8,14 @@ import re
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic_core import ErrorDetails, PydanticCustomError
 
 from forcetorque.base.errors import FormatError, MissingFileError, known_names
 from forcetorque.base.input_file import require_file
+from forcetorque.base.validation_text import expected_text
 
 
 class Table(BaseModel):
@@ -205,7 +206,7 @@ def checked_tables(content: dict[str, Any], form: type[_Content], file: Path) ->
     try:
         return form.model_validate(content)
     except ValidationError as error:
-        raise FormatError(_validation_message(file, content, error)) from error
+        raise FormatError(_validation_message(file, content, form, error)) from error
 
 
 def _require_no_unanswered_key(file: Path, text: str) -> None:
@@ -220,7 +221,7 @@ def _require_no_unanswered_key(file: Path, text: str) -> None:
     raise FormatError(f"{file}:{first.line}: {first.key} is still to be filled in{rest}{words}")
 
 
-def _validation_message(file: Path, content: dict[str, Any], error: ValidationError) -> str:
+def _validation_message(file: Path, content: dict[str, Any], form: type[BaseModel], error: ValidationError) -> str:
     errors = _short_lists_once(error.errors())
     # a list that is too short because its only element is wrong is no second error
     places = [e["loc"] for e in errors]
@@ -228,13 +229,26 @@ def _validation_message(file: Path, content: dict[str, Any], error: ValidationEr
         e for e in errors if e["type"] != "too_short" or not any(p[: len(e["loc"])] == e["loc"] != p for p in places)
     ]
     where = _key_path(content, first["loc"], missing=first["type"] == "missing") or "top level"
-    message = first["msg"]
+    message, got = expected_text(first), first["input"]
+    if first["type"] == "union_tag_invalid":
+        where, got = f"{where}.{first['ctx']['discriminator'].strip(chr(39))}", first["ctx"]["tag"]
     if first["type"] == "tuple_type":
-        message = f"expected a list{f', written [[{where}]]' if isinstance(first['input'], dict) else ''}"
-    shown = first["type"] in ("missing", "unknown_key") or isinstance(first["input"], dict)
-    got = "" if shown else f", got {first['input']!r}"
+        message = f"expected a list{f', written [[{where}]]' if isinstance(got, dict) else ''}"
+    if first["type"] == "missing" and len(first["loc"]) == 1:
+        message = message.replace("this key", _written(form, where))
+    shown = first["type"] in ("missing", "unknown_key") or isinstance(got, dict)
+    got_text = "" if shown else f", got {got!r}"
     rest = f" (and {len(more)} more)" if more else ""
-    return f"{file}: {where}: {message[:400]}{got[:200]}{rest}"
+    return f"{file}: {where}: {message[:400]}{got_text[:200]}{rest}"
+
+
+def _written(form: type[BaseModel], key: str) -> str:
+    """How a key of the whole file is written: as a table, as one of several tables, or as a key."""
+    annotation = {field.alias or name: field.annotation for name, field in form.model_fields.items()}[key]
+    of = get_args(annotation)[0] if get_origin(annotation) is tuple else annotation
+    if not (isinstance(of, type) and issubclass(of, BaseModel)):
+        return "this key"
+    return f"a table [{key}]" if of is annotation else f"at least one table [[{key}]]"
 
 
 def _short_lists_once(errors: list[ErrorDetails]) -> list[ErrorDetails]:

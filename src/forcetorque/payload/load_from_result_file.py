@@ -14,6 +14,7 @@ from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError, known_names
 from forcetorque.base.pose import skew
 from forcetorque.base.stored_model import read_json
+from forcetorque.base.validation_text import first_error
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.raw_counts import full_scale_of
@@ -82,9 +83,7 @@ def read_load_from_file(file: Path, name: str, link: str) -> LoadFromFile:
     try:
         weighed = _Weighed.model_validate(content)
     except ValidationError as error:
-        first = error.errors()[0]
-        key = ".".join(map(str, first["loc"]))
-        raise FormatError(f"{file}: {key}: {first['msg']}") from error
+        raise FormatError(f"{file}: {first_error(error)}") from error
     names = [row.load for row in weighed.loads]
     if name not in names and len(names) != 1:
         raise ExperimentError(f"{file}: no load {name!r}; {known_names(name, names)}")

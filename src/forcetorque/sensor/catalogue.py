@@ -13,6 +13,7 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from forcetorque.base.errors import FormatError, SensorError, known_names
+from forcetorque.base.validation_text import first_error
 
 _Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False, strict=True)]
 _Text = Annotated[str, Field(min_length=1)]
@@ -117,8 +118,10 @@ def read_catalogue(text: str) -> tuple[CatalogueSensor, ...]:
     try:
         tables = tomllib.loads(text).get("sensor", [])
         sensors = tuple(CatalogueSensor.model_validate(table) for table in tables)
-    except (tomllib.TOMLDecodeError, ValidationError) as error:
+    except tomllib.TOMLDecodeError as error:
         raise FormatError(f"catalogue of sensors: {error}") from error
+    except ValidationError as error:
+        raise FormatError(f"catalogue of sensors: {first_error(error)}") from error
     names = [sensor.name.lower() for sensor in sensors]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:

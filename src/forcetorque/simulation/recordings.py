@@ -18,6 +18,7 @@ from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import FormatError, ShapeError
 from forcetorque.base.output_file import new_folder, write_bytes_atomically
 from forcetorque.base.run_files import declare_input
+from forcetorque.base.validation_text import first_error
 from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, write_matrix_file
 from forcetorque.formats.yarp.log_format import PortKind
 from forcetorque.formats.yarp.writing import StreamPort, write_ports
@@ -194,9 +195,7 @@ def true_matrix(experiment: Path, *, sensor: str, serial: str) -> FloatArray | N
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError, ShapeError) as error:
         raise FormatError(f"{file}: expected the truth of a simulation, got {error}; remove the file") from error
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(place) for place in first["loc"])
-        raise FormatError(f"{file}: {where}: {first['msg']}; the file was changed by hand, remove it") from error
+        raise FormatError(f"{file}: {first_error(error)}; the file was changed by hand, remove it") from error
     known = truth.sensors.get(sensor)
     return known.matrix if known is not None and known.serial == serial else None
 

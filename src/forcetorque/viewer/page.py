@@ -25,6 +25,7 @@ from pydantic import ValidationError
 
 from forcetorque.base.errors import ForceTorqueError, MissingFileError
 from forcetorque.base.output_file import write_bytes_atomically
+from forcetorque.base.validation_text import first_error
 from forcetorque.viewer.annotations import Annotations, save_annotations, saved_files
 from forcetorque.viewer.scene import scene_json
 from forcetorque.viewer.scene_builder import BuiltScene
@@ -245,9 +246,7 @@ class _Handler(BaseHTTPRequestHandler):
         try:
             annotations = Annotations.model_validate_json(body)
         except ValidationError as error:
-            first = error.errors()[0]
-            place = ".".join(map(str, first["loc"]))
-            self._refuse(HTTPStatus.BAD_REQUEST, f"{place or 'annotations'}: {first['msg']}")
+            self._refuse(HTTPStatus.BAD_REQUEST, first_error(error, whole="annotations"))
             return
         try:
             names = list(save(annotations))

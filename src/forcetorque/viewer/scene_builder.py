@@ -14,6 +14,7 @@ from pydantic import BaseModel, Field, ValidationError
 
 from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError
 from forcetorque.base.run_files import declare_input
+from forcetorque.base.validation_text import first_error
 from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.applicability import by_sensor
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -378,6 +379,4 @@ def _read(path: Path) -> _Numbers:
     try:
         return _Numbers.model_validate_json(path.read_bytes())
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(key) for key in first["loc"]) or "content"
-        raise FormatError(f"{path}: expected the numbers of a report: {where}: {first['msg']}") from error
+        raise FormatError(f"{path}: expected the numbers of a report: {first_error(error)}") from error

@@ -168,7 +168,7 @@ def _stream_with(tables: dict[str, Any], **changes: Any) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("change", "error", "message"),
     [
-        (lambda t: _without(t, "sensor", "serial"), FormatError, r"sensor\[0\].serial: Field required"),
+        (lambda t: _without(t, "sensor", "serial"), FormatError, r"sensor\[0\].serial: expected this key"),
         (lambda t: t | {"suport": []}, FormatError, "unknown key 'suport'; did you mean"),
         (lambda t: t | {"sensor": []}, FormatError, "sensor: "),
         (lambda t: _stream_with(t, variable="counts"), ExperimentError, r"stream\[0\].variable: expected an array"),

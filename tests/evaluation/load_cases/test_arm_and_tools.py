@@ -291,7 +291,7 @@ SECOND = '[[load]]\nname = "other"\nlink = "ee_link"\nmass_kg = 1.0\n'
     [
         ('link = "ee_link"', 'link = "ee_lnk"', "no link 'ee_lnk'; did you mean"),
         ('link = "ee_link"', 'link = "forearm_link"', "whose load no sensor feels"),
-        ('link = "ee_link"\n', "", r"load\[0\].link: Field required"),
+        ('link = "ee_link"\n', "", r"load\[0\].link: expected this key, there is none"),
         ('link = "ee_link"\n', 'link = "ee_link"\nframe = "wrist_ft"\n', "frame"),
         ('label = "fit"', 'label = "fit"\nload = "tool"', "no load|load 'tool'|'tool'"),
         ("[[interval]]", f"{SECOND}\n[[interval]]", "load"),

@@ -200,8 +200,8 @@ def test_acceptance_holds_the_verdict_to_use(arm: Path) -> None:
         ('name = "a"\nforce_N = 5.0\nmass_kg = 1.0', "expected one of .*, got force_N, mass_kg"),
         ('name = "a"\nforce_N = 5.0\nradius_m = 0.1\ncentre_of_mass_m = [0, 0, 0.1]', "does not belong to force_N"),
         ('name = "a"\nmass_kg = 1.0', "mass_kg needs centre_of_mass_m"),
-        ('name = "a"\nfull_scale_share = 1.5', "less than or equal to 1"),
-        ('name = "a"\nforce_N = 5.0\nradius_m = 0.1\noffset = "none"', "offset: Input should be 'fitted' or 'tared'"),
+        ('name = "a"\nfull_scale_share = 1.5', "at most 1"),
+        ('name = "a"\nforce_N = 5.0\nradius_m = 0.1\noffset = "none"', "offset: expected 'fitted' or 'tared'"),
         ('name = "a"\nforce_N = 5.0\nframe = "hand"\ndirection = [0, 0, 0]', "may not be zero"),
     ],
 )

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.toml_file import unanswered_keys
+from forcetorque.base.validation_text import expected_text
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.formats.registry import format_named
 from forcetorque.inspection.draft.log import draft_log, recording_lines
@@ -48,7 +49,7 @@ def read_drafted(
         )
         reading = known.read(known.table.model_validate(content), context)
     except ValidationError as error:
-        return None, f"the log cannot be read yet: {error.errors()[0]['msg']}"
+        return None, f"the log cannot be read yet: {expected_text(error.errors()[0])}"
     except ForceTorqueError as error:
         return None, f"the log cannot be read yet: {error}"
     return Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings), ""
