@@ -15,7 +15,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import means_over
 from forcetorque.base.pose import rotation_about_z
 from forcetorque.calibration.calibrate import calibrate_sensor, fit_doubts
-from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
+from forcetorque.calibration.generative.fit import GenerativeFit, SolvedRows, fit_generative
 from forcetorque.calibration.model_error_derivatives import SAMPLES_PER_WINDOW, model_columns
 from forcetorque.calibration.moments import recording_moments
 from forcetorque.experiment.calibration import assumptions
@@ -241,8 +241,11 @@ def _means_with_model() -> WindowMeans:
     return replace(read_by(load, noise_counts=5.0), terms=TERMS, model=derivatives)
 
 
-def _written_out(means: WindowMeans, result: GenerativeFit) -> tuple[FloatArray, FloatArray]:
-    """Mean and covariance of coefficients E of all rows and of the two errors, by one dense system of all readings."""
+def _written_out(means: WindowMeans, result: GenerativeFit, reading: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Mean and covariance of coefficients E of all rows and of the two errors, by one dense system of all readings.
+
+    Errors of loads are read by `reading`; shape (6, 6).
+    """
     n, load, inverse = len(means), means.reference, np.linalg.inv(PRIOR)
     size = LIMIT_COUNTS * np.sqrt((PRIOR**2).mean(axis=1))
     root = np.linalg.cholesky(inverse.T @ inverse)
@@ -263,7 +266,7 @@ def _written_out(means: WindowMeans, result: GenerativeFit) -> tuple[FloatArray,
         changes.append(np.block([[np.zeros((3, 3)), np.zeros((3, 3))], [skew, np.zeros((3, 3))]]))
         deviations.append(SIZES["SHIFT"])
     assert means.model is not None
-    columns = [load @ change.T for change in changes] + [means.model[:, :, k] for k in range(2)]
+    columns = [load @ change.T for change in changes] + [means.model[:, :, k] @ reading.T for k in range(2)]
     deviations += [term.deviation for term in TERMS]
     counts = load @ inverse.T / LIMIT_COUNTS
     about = counts - counts.mean(axis=0)
@@ -306,14 +309,28 @@ def test_rows_with_a_common_model_are_one_gaussian_inference(
         taken = size if as_they_are or name != "GAIN" else 3.0 * size
         monkeypatch.setattr(assumptions, name, Scale(expected=taken, weight=np.inf))
     means = _means_with_model()
+    readings: list[FloatArray] = []
+    given = SolvedRows.reading
+
+    def kept(solved: SolvedRows) -> FloatArray:
+        readings.append(given(solved))
+        return readings[-1]
+
+    monkeypatch.setattr(SolvedRows, "reading", kept)
     result = fit_generative([means], PRIOR, assumed())
-    mean, covariance = _written_out(means, result)
+    (reading,) = readings
+    reading *= LIMIT_COUNTS * np.sqrt((PRIOR**2).mean(axis=1))[:, None]
+    mean, covariance = _written_out(means, result, reading)
     spread = np.sqrt(np.diag(covariance))
     found = np.r_[result.posterior.mean[:, :6].ravel(), [error.value for error in result.model_errors]]
     deviations = np.sqrt(np.r_[np.einsum("kii->ki", result.posterior.covariance[:, :6, :6]).ravel(), np.zeros(2)])
     deviations[36:] = [error.standard_error for error in result.model_errors]
     close = np.allclose(found / spread, mean / spread, atol=1e-5) and np.allclose(deviations / spread, 1.0, atol=1e-5)
     assert close is as_they_are
+    # the prior matrix reads an error of the load as it reads the load, by a first fit with the same noise
+    first, _ = _written_out(means, result, np.eye(6))
+    assert np.allclose((reading - np.eye(6)).ravel() / spread[:36], first[:36] / spread[:36], atol=0.05) is as_they_are
+    assert np.abs((first - mean) / spread).max() > 0.5
     # what would go if both errors were known: covariance less that given the errors
     shared = covariance[:36, 36:]
     by_model = np.diag(shared @ np.linalg.solve(covariance[36:, 36:], shared.T))

@@ -212,6 +212,15 @@ class SolvedRows:
         )
         return matrix, posterior
 
+    def reading(self) -> FloatArray:
+        """Give what the rows read of a load, in their units.
+
+        Returns:
+            Coefficients; shape (rows, 6).
+        """
+        own = zip(self.basis, self.unknowns, strict=True)
+        return self.rows.from_load + np.stack([basis[:LOADS] @ unknown.coefficients for basis, unknown in own])
+
     def quadratic(self) -> FloatArray:
         """Give what the quadratic terms of the loads add to the rows.
 
@@ -416,34 +425,45 @@ def fit_generative(
     shares = wrench @ rows.load_to_full_scale.T if quadratic else np.zeros((len(wrench), LOADS))
     # without a prior matrix nothing separates an error of the model from one of the sensor
     terms, derivatives = ((), np.zeros((len(raw), LOADS, 0))) if prior is None else model_terms(ordered)
-    model = np.einsum("kc,nct->nkt", rows.from_load, derivatives * [term.deviation for term in terms])
-    design = design_of(ordered, response, shares, model, drift=drift, centre=centre)
-    _require_means(design, drift=drift)
+    derivatives = derivatives * [term.deviation for term in terms]
     layout = Layout(variables=len(variables), channels=raw.shape[1], terms=len(terms))
     basis = [
         _basis(rows, matrix, k, layout, variables=_variable_sizes(variables, values, rows, k))
         for k in range(len(rows.unit))
     ]
-    unknowns, deviance = infer(
-        whiten(design, shapes),
-        basis,
-        layout.sizes(rows.group, terms, with_prior=prior is not None, mount=assumptions.mount),
-        sensor=np.arange(LOADS),
-        accuracy=rows.accuracy if noise_floor else np.zeros_like(rows.accuracy),
-        freedom=max(len(raw) - design.free.shape[1], 1),
-    )
-    solved = SolvedRows(
-        rows=rows,
-        design=design,
-        basis=basis,
-        unknowns=unknowns,
-        layout=layout,
-        terms=terms,
-        expected_rows=expected_rows,
-        matrix=matrix,
-        with_prior=prior is not None,
-        assumptions=assumptions,
-    )
+
+    def solve(reading: FloatArray, shapes: Sequence[SlowNoise]) -> tuple[SolvedRows, float]:
+        """Solve the rows, which read errors of the loads by `reading`; shape (rows, 6)."""
+        model = np.einsum("kc,nct->nkt", reading, derivatives)
+        design = design_of(ordered, response, shares, model, drift=drift, centre=centre)
+        _require_means(design, drift=drift)
+        unknowns, deviance = infer(
+            whiten(design, shapes),
+            basis,
+            layout.sizes(rows.group, terms, with_prior=prior is not None, mount=assumptions.mount),
+            sensor=np.arange(LOADS),
+            accuracy=rows.accuracy if noise_floor else np.zeros_like(rows.accuracy),
+            freedom=max(len(raw) - design.free.shape[1], 1),
+        )
+        solved = SolvedRows(
+            rows=rows,
+            design=design,
+            basis=basis,
+            unknowns=unknowns,
+            layout=layout,
+            terms=terms,
+            expected_rows=expected_rows,
+            matrix=matrix,
+            with_prior=prior is not None,
+            assumptions=assumptions,
+        )
+        return solved, deviance
+
+    solved, deviance = solve(rows.from_load, shapes)
+    if terms:
+        # the prior matrix reads errors of the loads as it reads the loads: by its own error, which the first fit gives
+        noise = list(dict.fromkeys(unknown.data.noise for unknown in solved.unknowns))
+        solved, deviance = solve(solved.reading(), noise)
     return _fit(solved, raw, wrench, values - centre, variables=variables, centre=centre, deviance=deviance)
 
 
