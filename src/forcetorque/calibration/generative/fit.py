@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -13,11 +13,13 @@ from forcetorque.base.arrays import FloatArray, IntArray, read_only
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise
 from forcetorque.calibration.generative.agreement import require_rank, require_response, require_sensor
-from forcetorque.calibration.generative.model import Design, Sizes, Unknowns, design_of, infer, whiten
+from forcetorque.calibration.generative.design import Design, cells_of, design_of
+from forcetorque.calibration.generative.model import Sizes, Unknowns, infer
+from forcetorque.calibration.generative.whitening import FreeUnknowns, free_unknowns, whiten
 from forcetorque.experiment.calibration import assumptions as expected
 from forcetorque.experiment.calibration.assumptions import LOADS, Assumptions, Rows, Scale, rows_of
 from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError, MountTolerance
-from forcetorque.experiment.calibration.moments import WindowMeans, in_order, model_terms
+from forcetorque.experiment.calibration.moments import TermColumns, WindowMeans, in_order, model_terms
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
@@ -150,9 +152,12 @@ class SolvedRows:
     design: Design
     """On what."""
     basis: Sequence[FloatArray]
-    """What the columns of the design are worth in the unknowns of every row; shape (a, q) each."""
+    """What the columns of the design are worth in the unknowns of every row before those of terms; shape (a, b)
+    each."""
     unknowns: Sequence[Unknowns]
     """Unknowns of every row."""
+    free: Sequence[FreeUnknowns]
+    """Offsets and drifts of every row, given its unknowns."""
     layout: Layout
     """Where these stand."""
     terms: Sequence[ErrorTerm]
@@ -181,7 +186,9 @@ class SolvedRows:
                 prior.
         """
         rows, unit, sessions = self.rows, self.rows.unit, self.design.sessions
-        known = [self._row(k) for k in range(len(unit))]
+        own = self.layout.model
+        of_model: FloatArray = np.linalg.pinv(self.unknowns[0].covariance[own, own])  # rows share them
+        known = [self._row(k, of_model) for k in range(len(unit))]
         mean = np.stack([row[0] for row in known]) * unit[:, None]
         covariance = np.stack([row[1] for row in known]) * unit[:, None, None] ** 2
         learnt = covariance[:, :LOADS, :LOADS].copy()
@@ -218,8 +225,11 @@ class SolvedRows:
         Returns:
             Coefficients; shape (rows, 6).
         """
-        own = zip(self.basis, self.unknowns, strict=True)
-        return self.rows.from_load + np.stack([basis[:LOADS] @ unknown.coefficients for basis, unknown in own])
+        change = [
+            basis[:LOADS] @ unknown.coefficients[: basis.shape[1]]
+            for basis, unknown in zip(self.basis, self.unknowns, strict=True)
+        ]
+        return self.rows.from_load + np.stack(change)
 
     def quadratic(self) -> FloatArray:
         """Give what the quadratic terms of the loads add to the rows.
@@ -254,43 +264,48 @@ class SolvedRows:
         return tuple(
             RowNoise(
                 white=float(np.sqrt(unknown.variance) * unit),
-                time_constant_s=unknown.data.noise.time_constant_s,
-                ratio=unknown.data.noise.ratio,
+                time_constant_s=unknown.noise.time_constant_s,
+                ratio=unknown.noise.ratio,
             )
             for unknown, unit in zip(self.unknowns, self.rows.unit, strict=True)
         )
 
-    def _row(self, k: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def _row(self, k: int, information: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Mean and covariance of [six coefficients, variables, offsets, drifts] of a row, in its unit.
 
         The offset is that which suits the robot model as it is: what the model is found to be off by in the mean of a
         session stays in it, and widens its covariance.
 
+        Args:
+            k: The row.
+            information: Inverse covariance of the errors of the model; shape (terms, terms).
+
         Returns:
             Mean, shape (p,), covariance, shape (p, p), and the change of the mean per tolerance of every error of the
             model, were that known; shape (p, terms).
         """
-        unknown, basis, design = self.unknowns[k], self.basis[k], self.design
-        sessions, free = len(design.sessions), design.free.shape[1]
+        unknown, basis, design, free = self.unknowns[k], self.basis[k], self.design, self.free[k]
+        (a, b), sessions = basis.shape, len(design.sessions)
         used = LOADS + self.expected_rows.shape[1]
-        data = unknown.data
-        worth = data.free_columns @ basis  # of the free unknowns, by what the others explain
-        from_unknowns = np.zeros((used + free, len(unknown.coefficients)))
-        from_unknowns[:used] = basis[:used]
-        from_unknowns[used:] = -worth
-        from_unknowns[used : used + sessions] -= design.column_means[:, :used] @ basis[:used]
-        of_model = design.model_means[:, k] @ basis[len(basis) - len(self.terms) :]  # (sessions, q)
-        kept_in_offset = of_model @ unknown.coefficients
-        from_unknowns[used : used + sessions] -= of_model
-        constant = np.zeros(used + free)
+        from_unknowns = np.zeros((used + design.free.shape[1], len(unknown.coefficients)))
+        from_unknowns[:used, :b] = basis[:used]
+        # the free unknowns are less by what the others explain
+        from_unknowns[used:, :b] = -free.columns[:, :a] @ basis
+        from_unknowns[used:, b:] = -free.columns[:, a:]
+        offsets = slice(used, used + sessions)
+        from_unknowns[offsets, :b] -= design.column_means[:, :used] @ basis[:used]
+        of_model = design.model_means[:, k]  # (sessions, terms)
+        kept_in_offset = of_model @ unknown.coefficients[b:]
+        from_unknowns[offsets, b:] -= of_model
+        constant = np.zeros(len(from_unknowns))
         constant[LOADS:used] = self.expected_rows[k]
-        constant[used:] = data.free_response
-        constant[used : used + sessions] += design.response_means[:, k] + kept_in_offset
-        covariance = from_unknowns @ unknown.covariance @ from_unknowns.T
-        covariance[used:, used:] += unknown.variance * data.free_covariance
-        covariance[used : used + sessions, used : used + sessions] += np.outer(kept_in_offset, kept_in_offset)
-        with_model = from_unknowns @ unknown.covariance[:, self.layout.model]
-        by_model = with_model @ np.linalg.pinv(unknown.covariance[self.layout.model, self.layout.model])
+        constant[used:] = free.response
+        constant[offsets] += design.response_means[:, k] + kept_in_offset
+        by_unknowns = from_unknowns @ unknown.covariance
+        covariance = by_unknowns @ from_unknowns.T
+        covariance[used:, used:] += unknown.variance * free.covariance
+        covariance[offsets, offsets] += np.outer(kept_in_offset, kept_in_offset)
+        by_model = by_unknowns[:, self.layout.model] @ information
         mean = constant + from_unknowns @ unknown.coefficients
         return mean, 0.5 * (covariance + covariance.T), by_model
 
@@ -320,7 +335,7 @@ class SolvedRows:
         """Covariance of the six coefficients of every row before any data."""
         prior = []
         for k, unknown in enumerate(self.unknowns):
-            root = self.basis[k][:LOADS] * unknown.deviations
+            root = self.basis[k][:LOADS] * unknown.deviations[: self.basis[k].shape[1]]
             prior.append(unit[k] ** 2 * root @ root.T)
         return np.stack(prior)
 
@@ -424,8 +439,9 @@ def fit_generative(
     response = raw @ rows.from_raw.T - wrench @ rows.from_load.T - (values - centre) @ expected_rows.T
     shares = wrench @ rows.load_to_full_scale.T if quadratic else np.zeros((len(wrench), LOADS))
     # without a prior matrix nothing separates an error of the model from one of the sensor
-    terms, derivatives = ((), np.zeros((len(raw), LOADS, 0))) if prior is None else model_terms(ordered)
-    derivatives = derivatives * [term.deviation for term in terms]
+    with_terms = ordered if prior is not None else [replace(s, terms=(), model=None) for s in ordered]
+    derivatives = model_terms(with_terms, cells_of(ordered))
+    terms = derivatives.terms
     layout = Layout(variables=len(variables), channels=raw.shape[1], terms=len(terms))
     basis = [
         _basis(rows, matrix, k, layout, variables=_variable_sizes(variables, values, rows, k))
@@ -434,13 +450,13 @@ def fit_generative(
 
     def solve(reading: FloatArray, shapes: Sequence[SlowNoise]) -> tuple[SolvedRows, float]:
         """Solve the rows, which read errors of the loads by `reading`; shape (rows, 6)."""
-        model = np.einsum("kc,nct->nkt", reading, derivatives)
-        design = design_of(ordered, response, shares, model, drift=drift, centre=centre)
+        design = design_of(ordered, response, shares, _in_rows(derivatives, reading), drift=drift, centre=centre)
         _require_means(design, drift=drift)
         unknowns, deviance = infer(
             whiten(design, shapes),
             basis,
             layout.sizes(rows.group, terms, with_prior=prior is not None, mount=assumptions.mount),
+            design,
             sensor=np.arange(LOADS),
             accuracy=rows.accuracy if noise_floor else np.zeros_like(rows.accuracy),
             freedom=max(len(raw) - design.free.shape[1], 1),
@@ -450,6 +466,7 @@ def fit_generative(
             design=design,
             basis=basis,
             unknowns=unknowns,
+            free=free_unknowns(design, [unknown.noise for unknown in unknowns]),
             layout=layout,
             terms=terms,
             expected_rows=expected_rows,
@@ -462,8 +479,7 @@ def fit_generative(
     solved, deviance = solve(rows.from_load, shapes)
     if terms:
         # the prior matrix reads errors of the loads as it reads the loads: by its own error, which the first fit gives
-        noise = list(dict.fromkeys(unknown.data.noise for unknown in solved.unknowns))
-        solved, deviance = solve(solved.reading(), noise)
+        solved, deviance = solve(solved.reading(), list(dict.fromkeys(own.noise for own in solved.unknowns)))
     return _fit(solved, raw, wrench, values - centre, variables=variables, centre=centre, deviance=deviance)
 
 
@@ -538,10 +554,23 @@ def _variable_sizes(variables: Sequence[LinearVariable], values: FloatArray, row
     return sizes
 
 
+def _in_rows(model: TermColumns, reading: FloatArray) -> TermColumns:
+    """What terms of the robot model add to rows that read loads by `reading`, shape (rows, 6), per deviation of each."""
+    deviations = np.array([term.deviation for term in model.terms])
+    columns = model.columns * deviations[model.shared]
+    # where a group has fewer terms the column is 0
+    size = np.where(model.local >= 0, deviations[model.local], 0.0) if len(deviations) else np.zeros(model.local.shape)
+    return replace(
+        model,
+        columns=np.einsum("kc,nct->nkt", reading, columns),
+        local_columns=np.einsum("kc,nct->nkt", reading, model.local_columns * size[model.group][:, None, :]),
+    )
+
+
 def _basis(rows: Rows, matrix: FloatArray, row: int, layout: Layout, *, variables: FloatArray) -> FloatArray:
-    """What the columns of the design are worth in the unknowns of a row; shape (a, q)."""
+    """What the columns of the design are worth in the unknowns of a row before those of terms; shape (a, b)."""
     v, pairs = layout.variables, len(PAIRS[0])
-    basis = np.zeros((2 * LOADS + v + pairs + layout.terms, layout.unknowns))
+    basis = np.zeros((2 * LOADS + v + pairs, layout.unknowns - layout.terms))
     basis[:LOADS, layout.coefficients] = rows.sensor_root[row]
     column = LOADS
     basis[column : column + v, layout.of_variables] = np.diag(variables)
@@ -555,7 +584,6 @@ def _basis(rows: Rows, matrix: FloatArray, row: int, layout: Layout, *, variable
     basis[:LOADS, layout.gains] = (rows.from_raw[row][:, None] * np.linalg.pinv(matrix)).T
     moved = np.einsum("c,kcd->dk", rows.from_load[row], _FRAME_CHANGES)
     basis[:LOADS, layout.rotation], basis[:LOADS, layout.shift] = moved[:, :3], moved[:, 3:]
-    basis[column + LOADS :, layout.model] = np.eye(layout.terms)
     return basis
 
 

@@ -10,7 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, check_arrays, read_only, require_shape
+from forcetorque.base.arrays import (
+    ArrayRecord,
+    BoolArray,
+    FloatArray,
+    IntArray,
+    array,
+    check_arrays,
+    read_only,
+    require_shape,
+)
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.base.noise.means import means_over
 from forcetorque.experiment.calibration.model_error import ErrorTerm
@@ -193,17 +202,18 @@ def _reduce(parts: tuple[FloatArray, ...]) -> tuple[FloatArray, FloatArray, Floa
 
 
 def symmetric_pseudo_inverse(second: FloatArray) -> FloatArray:
-    """Invert a second moment whose columns have different units.
+    """Invert second moments whose columns have different units.
 
     Args:
-        second: Second moment; shape (k, k).
+        second: Second moments; shape (..., k, k).
 
     Returns:
-        Its inverse; zero along columns that do not move, or that repeat others; shape (k, k).
+        Their inverses; zero along columns that do not move, or that repeat others; shape (..., k, k).
     """
-    diagonal = np.sqrt(np.maximum(np.diag(second), 0.0))  # a column that stands still may be rounded below zero
+    # a column that stands still may be rounded below zero
+    diagonal = np.sqrt(np.maximum(np.diagonal(second, axis1=-2, axis2=-1), 0.0))
     scale = np.where(diagonal > 0.0, diagonal, 1.0)
-    unit = np.outer(scale, scale)
+    unit = scale[..., :, None] * scale[..., None, :]
     return np.asarray(np.linalg.pinv(second / unit, rcond=_SINGULAR, hermitian=True) / unit, dtype=np.float64)
 
 
@@ -376,22 +386,66 @@ def in_order(stretches: Sequence[WindowMeans]) -> list[WindowMeans]:
     return sorted(stretches, key=lambda s: (recordings.index(s.recording), s.time_s[0]))
 
 
-def model_terms(stretches: Sequence[WindowMeans]) -> tuple[tuple[ErrorTerm, ...], FloatArray]:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TermColumns:
+    """Derivatives of n means by t terms of the robot model: those of several groups of stretches, and those of one.
+
+    Every recording has terms of its own, such as its delay, so that dense derivatives grow with the square of the
+    number of recordings.
+    """
+
+    terms: tuple[ErrorTerm, ...]
+    """The terms, one of a name and nominal value once."""
+    shared: IntArray
+    """Places of the terms that several groups have, or all where there is one group; shape (s,)."""
+    columns: FloatArray
+    """Derivatives by these, 0 where an interval does not depend on one; shape (n, 6, s); N, N m per unit of each."""
+    group: IntArray
+    """Number of the group of every mean; shape (n,)."""
+    local: IntArray
+    """Places of the terms that one group alone has, -1 after the last; shape (groups, w)."""
+    local_columns: FloatArray
+    """Derivatives of every mean by those of its group, 0 after the last; shape (n, 6, w); N, N m per unit of each."""
+
+
+def model_terms(stretches: Sequence[WindowMeans], groups: Sequence[int]) -> TermColumns:
     """Put the terms of the robot model of several intervals together.
 
     Args:
         stretches: Means of one sensor.
+        groups: Number of the group of each.
 
     Returns:
-        The terms, one of a name and nominal value once; and the derivatives by them of all means, zero where an
-        interval does not depend on a term; shape (n, 6, terms); N, N m per unit of the term.
+        The terms and the derivatives by them.
     """
     known = {(term.name, term.nominal): term for stretch in stretches for term in stretch.terms}
-    places = {key: place for place, key in enumerate(known)}
-    parts = []
+    owners: dict[tuple[str, float], set[int]] = {key: set() for key in known}
+    for stretch, group in zip(stretches, groups, strict=True):
+        for term in stretch.terms:
+            owners[term.name, term.nominal].add(group)
+    several = max(groups) > 0
+    own: list[list[int]] = [[] for _ in range(max(groups) + 1)]
+    shared, column = [], {}
+    for place, (key, having) in enumerate(owners.items()):
+        places = own[min(having)] if several and len(having) == 1 else shared
+        column[key] = len(places)
+        places.append(place)
+    width = max(map(len, own))
+    columns, local_columns = [], []
     for stretch in stretches:
-        part = np.zeros((len(stretch), 6, len(known)))
-        if stretch.model is not None:
-            part[:, :, [places[term.name, term.nominal] for term in stretch.terms]] = stretch.model
-        parts.append(part)
-    return tuple(known.values()), np.concatenate(parts)
+        part, local = np.zeros((len(stretch), 6, len(shared))), np.zeros((len(stretch), 6, width))
+        for k, term in enumerate(stretch.terms):
+            key = term.name, term.nominal
+            target = local if several and len(owners[key]) == 1 else part
+            if stretch.model is not None:
+                target[:, :, column[key]] = stretch.model[:, :, k]
+        columns.append(part)
+        local_columns.append(local)
+    return TermColumns(
+        terms=tuple(known.values()),
+        shared=np.array(shared, dtype=np.int64),
+        columns=np.concatenate(columns),
+        group=np.repeat(groups, [len(stretch) for stretch in stretches]),
+        local=np.array([places + [-1] * (width - len(places)) for places in own], dtype=np.int64),
+        local_columns=np.concatenate(local_columns),
+    )

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Many recordings in one fit: what each has for itself is eliminated, and the result is that of all at once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.noise.slow_noise import CANDIDATES
+from forcetorque.calibration.generative import design
+from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
+from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.model_error import ErrorTerm, TermKind
+from forcetorque.experiment.calibration.moments import WindowMeans, model_terms
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
+
+PRIOR = 0.01 * np.diag([1.0, 1.0, 1.0, 0.05, 0.05, 0.05])
+SAME = 1e-7
+"""Standard errors by which results may differ: rounding of twenty rounds of products of a hundred unknowns."""
+SHAPES = (CANDIDATES[0], CANDIDATES[4], CANDIDATES[11])
+TEMPERATURE = LinearVariable(name="temperature", unit="degC", reference_value=25.0)
+
+
+def _recordings(count: int, sessions: int) -> list[WindowMeans]:
+    """Recordings of 12 s each, with a mass that all have in common and a delay of their own, the last with another."""
+    rng = np.random.default_rng(4)
+    truth = (np.eye(6) + 0.03 * rng.normal(size=(6, 6))) @ PRIOR
+    means = []
+    for number in range(count):
+        time = np.arange(12.0)
+        wrench = rng.normal(size=(12, 6)) * [20.0, 20.0, 20.0, 2.0, 2.0, 2.0]
+        derivatives = np.stack([wrench + 5.0, rng.normal(size=(12, 6)), rng.normal(size=(12, 6))], axis=2)
+        loads = wrench + derivatives @ [0.02, 0.05 * rng.normal(), 0.0]
+        noise = rng.normal(size=(12, 6)) + np.cumsum(rng.normal(size=(12, 6)), axis=0)
+        terms = [("mass of hand", TermKind.MASS, 0.03), (f"delay of {number}", TermKind.DELAY, 0.05)]
+        terms += [(f"x of acceleration of {number}", TermKind.ACCELERATION, 0.05)] if number == count - 1 else []
+        means.append(
+            WindowMeans(
+                label="all",
+                session=f"power-up {number % sessions}",
+                recording=f"r{number}",
+                time_s=time,
+                count=np.full(12, 100.0),
+                raw=(loads + number % sessions) @ np.linalg.inv(truth).T + noise,
+                reference=wrench,
+                flattening=0.01 * rng.normal(size=(12, 6)),
+                variables=25.0 + rng.normal(size=(12, 1)),
+                terms=tuple(ErrorTerm(name=name, kind=kind, deviation=size) for name, kind, size in terms),
+                model=derivatives[:, :, : len(terms)],
+            )
+        )
+    return means
+
+
+def _fitted(means: list[WindowMeans], prior: FloatArray | None, *, drift: bool) -> GenerativeFit:
+    assumptions = Assumptions.of_counts(6, 32767.0, accuracy=np.zeros(6))
+    return fit_generative(means, prior, assumptions, variables=[TEMPERATURE], drift=drift, shapes=SHAPES)
+
+
+@pytest.mark.parametrize(
+    ("sessions", "drift", "prior"),
+    [(5, False, PRIOR), (2, True, PRIOR), (1, False, PRIOR), (5, True, None)],
+    ids=["a session each", "recordings share sessions that drift", "one session", "no prior"],
+)
+def test_cells_change_no_number(
+    sessions: int, drift: bool, prior: FloatArray | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Means, covariances and evidence are those of all recordings in one cell."""
+    means = _recordings(5, sessions)
+    together = _fitted(means, prior, drift=drift)
+    monkeypatch.setattr(design, "MOST_TOGETHER", 1)
+    apart = _fitted(means, prior, drift=drift)
+    spread = np.sqrt(np.einsum("kpp->kp", together.posterior.covariance))
+    assert apart.posterior.noise[0].time_constant_s == together.posterior.noise[0].time_constant_s
+    np.testing.assert_allclose((apart.posterior.mean - together.posterior.mean) / spread, 0.0, atol=SAME)
+    of_spread = spread[:, :, None] * spread[:, None, :]
+    np.testing.assert_allclose(
+        apart.posterior.covariance / of_spread, together.posterior.covariance / of_spread, atol=SAME
+    )
+    np.testing.assert_allclose(apart.deviance, together.deviance, atol=1e-6)
+    if prior is not None:
+        assert len(together.model_errors) == 7
+        for one, other in zip(apart.model_errors, together.model_errors, strict=True):
+            assert one.name == other.name
+            np.testing.assert_allclose(one.value, other.value, atol=SAME * other.standard_error)
+            np.testing.assert_allclose(one.standard_error, other.standard_error, rtol=SAME)
+
+
+def test_terms_of_one_recording_are_kept_beside_it() -> None:
+    """The derivatives of five recordings have two columns of their own, not eleven."""
+    means = _recordings(5, 5)
+    columns = model_terms(means, range(5))
+    assert columns.columns.shape[2] == 1
+    assert columns.local_columns.shape[2] == 2
+    assert [columns.terms[place].name for place in columns.local[4]] == ["delay of 4", "x of acceleration of 4"]
+    assert columns.local[0, 1] == -1
+    assert model_terms(means, [0] * 5).columns.shape[2] == 7
+    none = model_terms([replace(one, terms=(), model=None) for one in means], range(5))
+    assert none.columns.shape[2] == none.local_columns.shape[2] == 0
