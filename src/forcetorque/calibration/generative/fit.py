@@ -187,7 +187,8 @@ class SolvedRows:
         """
         rows, unit, sessions = self.rows, self.rows.unit, self.design.sessions
         own = self.layout.model
-        of_model = np.linalg.pinv(self.unknowns[0].covariance[own, own])  # rows share them
+        shared = self.unknowns[0].covariance[own, own]  # by all rows
+        of_model = np.asarray(np.linalg.pinv(shared), dtype=np.float64)
         known = [self._row(k, of_model) for k in range(len(unit))]
         mean = np.stack([row[0] for row in known]) * unit[:, None]
         covariance = np.stack([row[1] for row in known]) * unit[:, None, None] ** 2
