@@ -187,7 +187,8 @@ class SolvedRows:
         """
         rows, unit, sessions = self.rows, self.rows.unit, self.design.sessions
         own = self.layout.model
-        of_model: FloatArray = np.linalg.pinv(self.unknowns[0].covariance[own, own])  # rows share them
+        shared = self.unknowns[0].covariance[own, own]  # by all rows
+        of_model = np.asarray(np.linalg.pinv(shared), dtype=np.float64)
         known = [self._row(k, of_model) for k in range(len(unit))]
         mean = np.stack([row[0] for row in known]) * unit[:, None]
         covariance = np.stack([row[1] for row in known]) * unit[:, None, None] ** 2
@@ -555,7 +556,7 @@ def _variable_sizes(variables: Sequence[LinearVariable], values: FloatArray, row
 
 
 def _in_rows(model: TermColumns, reading: FloatArray) -> TermColumns:
-    """What terms of the robot model add to rows that read loads by `reading`, shape (rows, 6), per deviation of each."""
+    """What terms add to rows that read loads by `reading`, shape (rows, 6), per deviation of each term."""
     deviations = np.array([term.deviation for term in model.terms])
     columns = model.columns * deviations[model.shared]
     # where a group has fewer terms the column is 0

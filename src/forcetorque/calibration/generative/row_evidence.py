@@ -61,8 +61,7 @@ class RowPrior:
         Returns:
             The prior distribution, with no more unknowns than columns.
         """
-        left, sizes, _ = np.linalg.svd(basis, full_matrices=False)
-        own = left * sizes
+        own = np.linalg.qr(basis.T, mode="r").T
         a, b = own.shape
         root = np.zeros((a + len(terms), b + len(terms)))
         root[:a, :b], root[a:, b:] = own, np.diag(terms)

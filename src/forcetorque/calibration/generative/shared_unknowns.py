@@ -91,9 +91,9 @@ class SharedSolution:
     variances: FloatArray
     """Their variances; shape (u,)."""
     left: list[float]
-    """Sum of squares that is left of the response of every row."""
+    """Sum of squares that is left of the response of every row; none where rows share no unknown."""
     determined: list[float]
-    """Number of unknowns that the data of every row determine."""
+    """Number of unknowns that the data of every row determine; none where rows share no unknown."""
     log_determinant: float
     """Of the products of unknowns over those before any data, without that of the free columns."""
     explained: float
@@ -208,12 +208,13 @@ def solve_together(
     sums = [
         _of_row(row, at, at_free, values, local_values, covariance, across, local_covariance)
         for row, at, at_free in zip(rows, own_places, free_places, strict=True)
+        if size
     ]
     return SharedSolution(
         coefficients=coefficients,
         variances=spread,
         left=[of_row for of_row, _ in sums],
-        determined=[of_row / variance - free for (_, of_row), variance in zip(sums, variances, strict=True)],
+        determined=[of_row / variance - free for (_, of_row), variance in zip(sums, variances, strict=False)],
         log_determinant=log_determinant,
         explained=float(along @ along + half_response @ half_response),
         everywhere=everywhere,

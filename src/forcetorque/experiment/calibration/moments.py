@@ -425,7 +425,8 @@ def model_terms(stretches: Sequence[WindowMeans], groups: Sequence[int]) -> Term
             owners[term.name, term.nominal].add(group)
     several = max(groups) > 0
     own: list[list[int]] = [[] for _ in range(max(groups) + 1)]
-    shared, column = [], {}
+    shared: list[int] = []
+    column: dict[tuple[str, float], int] = {}
     for place, (key, having) in enumerate(owners.items()):
         places = own[min(having)] if several and len(having) == 1 else shared
         column[key] = len(places)
