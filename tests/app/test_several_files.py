@@ -147,6 +147,7 @@ def test_estimates_are_written_per_file(judged: Path, run: Run) -> None:
     assert {row["experiment"] for row in rows} == {"arm day_1", "arm day_2"}
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_a_report_reads_every_file_with_its_session(judged: Path, run: Run) -> None:
     """Errors with the calibration's own offset are those of `evaluate` on each recording."""

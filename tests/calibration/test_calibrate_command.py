@@ -353,6 +353,7 @@ def test_a_prior_of_another_sensor_is_refused(arm: Path, run: Run) -> None:
     )
 
 
+@pytest.mark.long
 def test_what_was_learnt_is_drawn_where_it_is_asked(arm: Path, run: Run) -> None:
     """A PNG beside the calibration, named in the result; without the option there is none."""
     before = snapshot(arm)

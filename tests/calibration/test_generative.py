@@ -29,6 +29,7 @@ from tests.calibration.synthetic import (
     hanging,
     read_by,
 )
+from tests.cases import some_cases
 
 ROUNDING = 1e-8
 """Relative: double precision times the condition of the whitened columns, some 1e6."""
@@ -79,6 +80,7 @@ def test_a_limb_that_stands_still_leaves_the_prior_and_finds_the_offset() -> Non
     np.testing.assert_allclose(fit.posterior.mean_covariance, before, rtol=1e-6, atol=1e-9 * before.max())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("with_prior", [True, False])
 def test_errors_are_as_large_as_they_are_said_to_be(with_prior: bool) -> None:
     """Error over standard error of 432 coefficients of 12 sensors has a root mean square of 1, and none is above 4.5.
@@ -119,6 +121,7 @@ def _two_sessions() -> tuple[list[WindowMeans], GenerativeFit]:
     return data, fit_generative(data, PRIOR, assumptions())
 
 
+@pytest.mark.long
 @settings(max_examples=5)
 @given(st.lists(st.floats(-1e4, 1e4), min_size=6, max_size=6))
 def test_what_a_power_up_adds_moves_the_offset_of_its_session_alone(added: list[float]) -> None:
@@ -139,6 +142,7 @@ def test_a_step_within_a_session_is_no_offset() -> None:
     assert np.abs(apart - fit_generative([data], PRIOR, assumptions()).model.matrix).max() > 1e-3 * np.abs(PRIOR).max()
 
 
+@pytest.mark.long
 def test_an_offset_may_drift() -> None:
     """A drift is found within its error; a ramp in time changes nothing else."""
     drift = np.array([0.05, -0.02, 0.1, 0.002, 0.001, -0.003])
@@ -164,6 +168,7 @@ def test_a_drift_of_a_session_of_two_seconds_is_refused() -> None:
         fit_generative(data, PRIOR, assumptions(), drift=True)
 
 
+@pytest.mark.long
 def test_a_session_with_a_single_sample_gets_an_offset() -> None:
     """It tells nothing of the matrix, and its offset is known as well as one reading is."""
     data, single = read_by(anyhow(), session="long"), read_by(anyhow(n=1, seed=9), offset=-OFFSET, session="one")
@@ -177,6 +182,7 @@ def test_a_session_with_a_single_sample_gets_an_offset() -> None:
     assert np.isfinite(only.posterior.covariance).all()
 
 
+@pytest.mark.long
 def test_a_variable_that_hardly_moves_does_no_harm() -> None:
     """With 0.05 degC the matrix is as good as without, and with 10 degC the coefficient is found too."""
     fits = {degrees: _warmed(degrees) for degrees in (0.0, 0.05, 10.0)}
@@ -298,6 +304,7 @@ def _one_session() -> tuple[WindowMeans, GenerativeFit]:
     return data, fit_generative([data], PRIOR, assumptions())
 
 
+@pytest.mark.long
 @settings(max_examples=5)
 @given(st.floats(-3.0, 3.0))
 def test_the_unit_of_a_count_does_not_matter(decades: float) -> None:
@@ -384,8 +391,8 @@ def _wandering(rng: np.random.Generator, n: int, forgets_in_s: float) -> FloatAr
     return np.array(values)
 
 
-@pytest.mark.parametrize("with_prior", [True, False])
-@pytest.mark.parametrize("forgets_in_s", [15.0, 50.0])
+@some_cases("with_prior", [True, False])
+@some_cases("forgets_in_s", [15.0, 50.0])
 def test_an_accuracy_in_wrenches_is_no_error_of_each_channel_by_itself(forgets_in_s: float, with_prior: bool) -> None:
     """References that wander by 0.9 N and 0.2 N m: pushes err as predicted, in force and in moment, prior or not.
 

@@ -34,6 +34,7 @@ def _calibrated(runs: Sequence[SensorRun] | None, moments: Sequence[RecordingMom
     return calibrate_sensor(runs, code_version="1", created="now", moments=moments)
 
 
+@pytest.mark.long
 def test_recordings_together_teach_more_than_each(recorded: Path) -> None:
     """On days with offsets of their own, all four beat each alone; and every load direction is better known."""
     every = _calibrated(_runs(recorded))

@@ -74,6 +74,7 @@ def test_a_mount_as_stated_is_no_warning(tmp_path: Path) -> None:
     assert _calibrated(_written(tmp_path, np.zeros(3))).warnings == ()
 
 
+@pytest.mark.long
 def test_a_calibration_fits_the_mount_that_it_was_made_with(tmp_path: Path) -> None:
     """The printed key is stated for other analyses; without it, or unknown, they refuse."""
     unknown = _written(tmp_path, TURN_DEG, mount='mount = "unknown"')

@@ -109,6 +109,7 @@ def test_rows_hold_together(answer: Contest) -> None:
     assert {line["row"] for line in answer.records()} == {"contestant", "pair"}
 
 
+@pytest.mark.long
 def test_loads_that_somebody_was_fitted_on_are_refused(entries: Entries) -> None:
     """By a run, by what is stated of a file; the message names who, the load and the run."""
     rng = np.random.default_rng(1)

@@ -118,6 +118,7 @@ def test_without_the_lock_at_minus_90_the_rank_is_5_again() -> None:
         third_lock_steps(DEVICE).require_possible(DEVICE, _options(35.0)["12 steps"].trajectories[0].load)
 
 
+@pytest.mark.long
 def test_requirement_1_is_not_met_in_every_direction() -> None:
     """By extents the device excites more than the workbench; by covariance it has .4 to .6 in its worst direction."""
     span = device_span(DEVICE, swaps=0)

@@ -71,6 +71,7 @@ def _rows(evaluation: Evaluation) -> list[tuple[float, bool]]:
     return [(row.force_error_mean_N, row.hardly_moved) for row in evaluation.verdicts if row.calibration == NAME]
 
 
+@pytest.mark.long
 def test_a_sensor_that_is_turned_and_judged_at_rest_is_said_to_be_judged_by_nothing(arm: Path) -> None:
     """Turned by 90 degrees it errs by some tenths of a newton at rest; negative control: in motion by tens."""
     moving = _run(arm)

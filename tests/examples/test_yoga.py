@@ -26,6 +26,7 @@ from forcetorque.inspection.plausibility.checks import examine
 from forcetorque.recording.recording import Use
 from forcetorque.recording.smoothing import smooth
 from forcetorque.robot.mechanics.samples import SensorSamples
+from tests.cases import some_cases
 from tests.page_scripts import printed
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -55,7 +56,7 @@ def _verdicts(path: Path, data_dir: Path) -> dict[tuple[str, str], CalibrationEr
     return {(v.calibration, v.offset): v for v in _evaluation(path, data_dir).verdicts}
 
 
-@pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
+@some_cases("path", YOGA, ids=lambda path: path.name)
 def test_no_worse_than_the_prior(path: Path, data_dir: Path) -> None:
     """On judged data neither force nor moment error is above that of the prior, with either offset."""
     verdicts = _verdicts(path, data_dir)
@@ -156,6 +157,7 @@ def test_half_the_error_where_the_fitted_part_moves(data_dir: Path) -> None:
     assert verdicts["new", "fitted"].force_error_mean_N < 0.5 * verdicts["prior", "fitted"].force_error_mean_N
 
 
+@pytest.mark.long
 def test_the_prior_reproduces_the_known_error(data_dir: Path, tmp_path: Path) -> None:
     """The prior's error on unsmoothed data is what an independent static fit saw, 2.9 N forwards and 4.2 N back."""
     for path, seen in ((YOGA[0], 2.9), (YOGA[1], 4.2)):
@@ -172,6 +174,7 @@ def test_joints_that_the_sensor_does_not_need_may_be_absent(data_dir: Path) -> N
     assert set(experiment.recording.streams) == {"right_leg_ft", "left_leg", "right_leg"}
 
 
+@pytest.mark.long
 def test_the_curve_script_shows_every_lambda(data_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The example script prints a row per candidate and marks one."""
     copy = tmp_path / YOGA[0].name

@@ -52,6 +52,7 @@ def _errors(matrix: FloatArray, offset: FloatArray, judged: DataSet) -> list[flo
     return [float(np.linalg.norm(one, axis=1).mean()) for one in (force, own_force, moment)]
 
 
+@pytest.mark.long
 def test_the_moving_leg_is_read_twice_as_well_where_it_was_not_fitted(data_dir: Path, tmp_path: Path) -> None:
     """Mean of four splits, raw and smoothed: 2.32 to 1.21 N as fitted, 1.81 to 1.02 N own offset, .206 to .159 N m.
 

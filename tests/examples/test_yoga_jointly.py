@@ -32,6 +32,7 @@ def test_four_sensors_come_out_of_one_stretch(data_dir: Path, tmp_path: Path) ->
     assert result.warnings[0].startswith("stance gain not determined: ")
 
 
+@pytest.mark.long
 def test_the_misfit_of_the_model_is_not_taken_for_errors_of_the_matrices(data_dir: Path, tmp_path: Path) -> None:
     """On both feet, where nothing was fitted, the net force stays within 4 % of the weight (priors: 2.4 N).
 

@@ -81,6 +81,7 @@ def test_much_work_in_all_intervals_together_is_compiled(run: SensorRun, monkeyp
         SensorRun(run.experiment, "arm_ft").samples(Use.VALIDATION)
 
 
+@pytest.mark.long
 def test_answers_do_not_depend_on_what_was_asked_before(run: SensorRun) -> None:
     """To the last digit: evaluation and validation by a run that has answered everything else."""
     calibrations = {"new.json": _fitted(run, 5.0)}

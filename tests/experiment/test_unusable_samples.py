@@ -96,6 +96,7 @@ def test_the_counts_are_in_table_json_and_files(arm: Path, tmp_path: Path) -> No
         assert json.loads(result.json_text())["unusable_samples"][1]["frozen"] == 50
 
 
+@pytest.mark.long
 def test_what_is_frozen_is_not_judged(arm: Path) -> None:
     """Errors are those of a log that lacks the frozen second."""
     plain = load_experiment(arm / PARQUET)

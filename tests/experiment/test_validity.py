@@ -130,6 +130,7 @@ def test_every_question_gives_the_same_answer(arm: Path) -> None:
     assert not evaluate(run, {}).validity  # a prior was fitted to nothing
 
 
+@pytest.mark.long
 def test_estimates_have_a_flag_per_sample(arm: Path) -> None:
     """In the table as often as the summary says; a gap has neither; without a calibration there is no column."""
     experiment, file = load_experiment(arm / PARQUET), arm / "estimates.parquet"

@@ -64,6 +64,7 @@ def test_inspect_compares_only_where_the_reading_is_known(inside: Path, run: Run
             assert not (row["start_s"] or -1.0) > phase["start_s"] or row["start_s"] > phase["end_s"]
 
 
+@pytest.mark.long
 def test_one_sensor_is_calibrated_and_judged_over_its_known_phases(inside: Path, tmp_path: Path, run: Run) -> None:
     """Fitted on the first day it is far better than its prior on the second; others follow."""
     fitted = tmp_path / "leg.json"
@@ -90,6 +91,7 @@ def test_one_sensor_is_calibrated_and_judged_over_its_known_phases(inside: Path,
     assert run("export", fitted, "--to", "wholebodydynamics", "-o", tmp_path / "export").code == 0
 
 
+@pytest.mark.long
 def test_both_feet_down_without_touched_are_refused_by_name(inside: Path, tmp_path: Path, run: Run) -> None:
     """Where the other foot is a contact beside a support at rest, a fit that cannot be says what may have touched."""
     text = (inside / "switching_day1.toml").read_text(encoding="utf-8")
@@ -104,6 +106,7 @@ def test_both_feet_down_without_touched_are_refused_by_name(inside: Path, tmp_pa
     assert not (tmp_path / "leg.json").exists()
 
 
+@pytest.mark.long
 def test_all_sensors_are_calibrated_jointly_over_all_phases(inside: Path, tmp_path: Path, run: Run) -> None:
     """Double supports count, too, for parts that nothing touches."""
     outcome = run("calibrate", "switching_day1.toml", "--jointly", "-o", tmp_path / "joint")

@@ -522,6 +522,7 @@ def test_a_calibration_says_which_statement_the_readings_contradict(
     assert any("the sensor is turned against the axes of the motion" in words for words in doubts) == contradicted
 
 
+@pytest.mark.long
 def test_a_bias_that_steps_is_said_and_does_not_speak_against_the_calibration(tmp_path: Path) -> None:
     """`calibrate` warns of it; in the file, of which verdicts are made, it is no doubt: the load is hardly changed."""
     path = _write(tmp_path)

@@ -114,6 +114,7 @@ def test_a_far_delay_is_found_where_it_is_looked_for() -> None:
         planted(3, delay_s=1.3)
 
 
+@pytest.mark.long
 def test_no_motion_tells_no_delay() -> None:
     """Negative control: noise beside noise, refused whatever its seed."""
     for seed in range(4):

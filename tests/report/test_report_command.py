@@ -198,6 +198,7 @@ def test_results_of_other_commands_are_shown_as_they_are(result: Any) -> None:
     assert b"<b>bold" not in Path("report.html").read_bytes()
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_without_a_calibration_the_priors_are_shown(arm: Path, run: Run) -> None:
     """Of all sensors; the verdict says that there is nothing to compare them with."""
@@ -228,6 +229,7 @@ def test_what_cannot_be_judged_is_said_and_the_rest_is_shown(arm: Path, run: Run
     assert "Uncertainty" in _words("report.html")
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_nothing_is_shown_of_a_calibration_on_data_that_it_was_fitted_on(arm: Path, run: Run) -> None:
     """Fitted and judged intervals change places: another calibration is judged, the fitted one is not."""
@@ -249,6 +251,7 @@ def test_nothing_is_shown_of_a_calibration_on_data_that_it_was_fitted_on(arm: Pa
     assert all(line["tone"] == "caution" for line in flattered)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_the_order_of_intervals_in_the_file_does_not_matter(arm: Path, run: Run) -> None:
     """Two judged intervals, the later one first: figures and numbers come in the order of time."""
@@ -260,6 +263,7 @@ def test_the_order_of_intervals_in_the_file_does_not_matter(arm: Path, run: Run)
     assert sensor["comparisons"]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_load_cases_of_the_acceptance_file_are_judged(arm: Path, run: Run) -> None:
     """Each has a verdict; one that the sensor cannot read is said in a line, and the rest of the report is there."""
@@ -277,6 +281,7 @@ def test_load_cases_of_the_acceptance_file_are_judged(arm: Path, run: Run) -> No
     assert _sensor(result)["evaluation"]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_a_load_case_that_cannot_be_had_costs_no_errors(arm: Path, run: Run) -> None:
     """Also where the experiment file states it: what is measured does not hang on what the sensor is for."""

@@ -23,6 +23,7 @@ from forcetorque.skin.figures import skin_event_figure
 from forcetorque.skin.report_blocks import skin_section
 from forcetorque.skin.wrench.result import skin_event_rows
 from forcetorque.skin.wrench.wrench import skin_wrench
+from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET, edit
 from tests.scenes.skin_arm import EVENT, EVENT_S, EVENTS, PATCH, SKIN, write_skin_arm
 
@@ -86,7 +87,7 @@ def test_without_skin_there_is_no_section(intact: Path) -> None:
     assert skin_section(assessed).blocks == ()
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("old", "new", "words"),
     [('table = "shank.json"\n', "", "states no table"), ('serial = "S1"', 'serial = "S2"', "its own table")],
 )

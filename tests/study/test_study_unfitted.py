@@ -109,6 +109,7 @@ def test_a_generative_fit_that_is_best_is_written_with_its_posterior(recorded: P
     )  # fmt: skip
 
 
+@pytest.mark.long
 def test_a_judged_session_that_was_fitted_is_read_with_its_offset(days: Path) -> None:
     """By the generative fit, which has one per session; the offset of another session is worse."""
     text = (days / "day_1.toml").read_text(encoding="utf-8")
@@ -126,6 +127,7 @@ def test_a_judged_session_that_was_fitted_is_read_with_its_offset(days: Path) ->
     assert force < 0.3 * elsewhere
 
 
+@pytest.mark.long
 def test_the_truth_beside_simulated_files_gives_the_error_of_every_candidate(days: Path) -> None:
     """In the table and in the choice; without it, or that of another serial number, there are no such columns."""
     _write_truth(days)

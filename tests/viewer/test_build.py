@@ -172,6 +172,7 @@ def test_sphere_and_ellipsoid_lie_in_the_clouds(intact: Path) -> None:
         assert np.median(np.linalg.norm(unit, axis=0)) == pytest.approx(1.0, abs=0.1)
 
 
+@pytest.mark.long
 def test_ellipsoids_of_a_long_log_see_a_part_of_it(intact: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """From every third sample they are nearly the same, and the page says that they are."""
     whole = _view(intact / PARQUET)
@@ -205,6 +206,7 @@ def test_inputs_and_version_are_stated(intact: Path, built: BuiltScene) -> None:
     assert any(line.startswith("forcetorque ") for line in built.scene.provenance)
 
 
+@pytest.mark.long
 def test_two_sensors_and_a_choice_of_them(intact: Path) -> None:
     """All sensors are shown, or those asked for; the frame of each is where the robot has it."""
     both = _view(intact / TWO)

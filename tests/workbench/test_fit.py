@@ -18,6 +18,7 @@ from forcetorque.workbench.fit import fit_bench, fit_means
 from forcetorque.workbench.loads import BenchLoads, Weights
 from forcetorque.workbench.sensor_fit import held_out_errors, one_by_one, rms, whole_series
 from forcetorque.workbench.simulated_benches import simulate_bench
+from tests.cases import some_cases
 from tests.scenes.benches import PLACEMENT, thesis_loads
 
 NO_ERROR = Placement(angle_rad=0.0, position_m=0.0)
@@ -36,7 +37,7 @@ def test_the_true_matrix_is_found_without_errors() -> None:
         np.testing.assert_allclose(matrix @ specimen.response, np.eye(6), atol=2e-4)
 
 
-@pytest.mark.parametrize("with_prior", [True, False])
+@some_cases("with_prior", [True, False])
 def test_leaving_out_in_closed_form_is_fitting_again(with_prior: bool) -> None:
     """For single positions and for parts of five."""
     specimen = simulate_bench(thesis_loads(), PLACEMENT, np.random.default_rng(2), with_prior=with_prior)

@@ -45,6 +45,7 @@ def test_it_names_the_next_position(run: Run, bench: Path) -> None:
     assert len(result["blocks_checked"]) == 2
 
 
+@pytest.mark.long
 def test_several_sensors_are_compared(run: Run, bench: Path) -> None:
     """A row each; one file holds one calibration."""
     write_bench(bench, serial="SIM003", seed=3)

@@ -133,6 +133,7 @@ def test_ten_stretches_taken_for_independent_err_far_more_often() -> None:
     assert wrong / 300 > 0.1
 
 
+@pytest.mark.long
 def test_an_improvement_by_a_third_is_mostly_found() -> None:
     """Ten stretches whose log ratio scatters by .4, given or as recordings, and errors that soon forget themselves."""
     rng = np.random.default_rng(3)

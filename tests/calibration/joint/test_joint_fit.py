@@ -112,6 +112,7 @@ def test_a_model_that_is_taken_for_exact_is_believed_too_much() -> None:
     assert np.sqrt(np.mean((error / spread) ** 2)) > 2.0
 
 
+@pytest.mark.long
 def test_a_touch_is_left_out_and_does_little_harm() -> None:
     """A push of 40 N for a second on a hand, which should be free: its arm leaves, for that time, and nothing else."""
     push = np.zeros((2000, 6))
@@ -137,6 +138,7 @@ def test_a_body_that_is_heavier_than_its_file_says_is_found() -> None:
     assert min(deviation / term.deviation for term, _, deviation in terms) < 0.5
 
 
+@pytest.mark.long
 def test_a_robot_that_hardly_moves_keeps_its_priors() -> None:
     """Nothing is learnt of what no load tells, and nothing gets worse."""
     fit = _fit(swaying(41, duration_s=0.6, **WRONG))
@@ -212,6 +214,7 @@ def test_a_recording_has_a_delay_where_one_may_be() -> None:
     assert delay_terms(["a", "b"], ModelTolerance(delay_s=0.0)) == ()
 
 
+@pytest.mark.long
 def test_evidence_widens_the_predicted_error_but_not_the_estimate(monkeypatch: pytest.MonkeyPatch) -> None:
     """Changes of 2.5 times the expected size: the estimate is that of the expected size, its error that of the true."""
     motion = swaying(51, duration_s=8.0, noise=0.3, error=0.15)

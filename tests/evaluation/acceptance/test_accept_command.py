@@ -213,6 +213,7 @@ def test_files_fit_the_printed_schema(run: Run) -> None:
         assert faults({**content, **damage}, schema) != []
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_a_real_leg_sensor_passes_with_its_calibration_and_fails_with_the_factory_matrix(
     data_dir: Path, tmp_path: Path, run: Run

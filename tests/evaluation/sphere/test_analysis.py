@@ -198,6 +198,7 @@ def test_a_reference_in_a_plane_gives_no_map() -> None:
     assert not found.free.identifiable
 
 
+@pytest.mark.long
 @settings(max_examples=10)
 @given(seed=st.integers(0, 2**16))
 def test_with_the_model_the_order_and_the_zero_do_not_matter(seed: int) -> None:

@@ -119,6 +119,7 @@ def test_trials_that_cover_parts_are_known_together() -> None:
     assert pooled_error < 0.5 * mean_error
 
 
+@pytest.mark.long
 def test_the_mean_of_good_sensors_is_too_large() -> None:
     """An index is no less than zero, so noise only adds to it: the mean keeps that, the pooled fit has much less.
 
@@ -143,6 +144,7 @@ def test_the_mean_of_good_sensors_is_too_large() -> None:
     assert spread[0] == pytest.approx(spread[1], rel=0.2)
 
 
+@pytest.mark.long
 def test_intervals_hold_the_truth() -> None:
     """Of 30 intervals of lengths of short trials 28.5 are expected to, two standard deviations less do at least."""
     held = np.zeros(2)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis
+from tests.cases import some_cases
 from tests.evaluation.sphere.simulated_leg import GRAVITY, JUDGED, SCREWS, Leg, leg, screwed
 
 SEEDS = range(1, 11)
@@ -50,6 +51,7 @@ def test_before_in_situ_calibration(seeds: range) -> None:
     np.testing.assert_allclose(found[:, 0], found[:, 1], atol=0.1)
 
 
+@pytest.mark.long
 @SOME
 def test_after_in_situ_calibration(seeds: range) -> None:
     """Without temperature, as in Table 4.1, below 0.2 kg, where that has 0.12 and 0.13; with it below 0.1 kg."""
@@ -61,6 +63,7 @@ def test_after_in_situ_calibration(seeds: range) -> None:
     assert np.median(compensated[:, 0]) < 0.5 * np.median(plain[:, 0])
 
 
+@pytest.mark.long
 @SOME
 def test_the_calibrated_errors_hold_the_true_weight(seeds: range) -> None:
     """The masses of the true matrix are that of the leg, within their intervals, on every seed."""
@@ -78,7 +81,7 @@ def test_the_calibrated_errors_hold_the_true_weight(seeds: range) -> None:
     assert held >= 0.9 * 3 * len(seeds)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@some_cases("seed", [1, 2, 3])
 def test_mixed_screws(seed: int) -> None:
     """Tables 4.3 and 4.4: about 0.8 kg with loose screws along x, 1.1 kg with loose ones elsewhere, which is worse."""
     along_x, elsewhere = (
@@ -90,6 +93,7 @@ def test_mixed_screws(seed: int) -> None:
     assert along_x < elsewhere
 
 
+@pytest.mark.long
 def test_even_screws_change_nothing_here() -> None:
     """Where the simulation fails: the thesis has 0.5 to 1.1 kg with even screws, most with loose ones."""
     for name in ("2 N m", "0.5 N m"):
@@ -97,6 +101,7 @@ def test_even_screws_change_nothing_here() -> None:
         assert _indices(_screwed(1, name).analysed("grid", _screwed(1, name).workbench))[0] < 0.08
 
 
+@pytest.mark.long
 def test_temperature_hardly_moves_the_index() -> None:
     """The cold grid and the warm one, 13 degrees apart, give one index: an offset is no deformation."""
     for seed in SEEDS[:2]:

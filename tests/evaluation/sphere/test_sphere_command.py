@@ -81,6 +81,7 @@ def test_what_was_fitted_is_warned_of(arm: Path, run: Run) -> None:
     assert not any("flatters" in line for line in quiet.log)
 
 
+@pytest.mark.long
 def test_a_line_per_sensor_and_candidate_as_csv(arm: Path, run: Run) -> None:
     """Triples become columns x, y and z, or 1 to 3 where they are no axes; reasons stay words."""
     words = ("study", "sphere", TWO, "-c", "fitted.json", "--interval", "judge", "--format")
@@ -122,6 +123,7 @@ def test_sensors_are_chosen(arm: Path, run: Run) -> None:
     assert "fitted.json: calibrates 'arm_ft', which --sensor leaves out" in refused
 
 
+@pytest.mark.long
 def test_a_figure_is_written_where_it_is_asked(arm: Path, run: Run) -> None:
     """A PNG, named in the result; everything else stays as it is."""
     before = snapshot(arm)
@@ -263,6 +265,7 @@ def test_where_every_sensor_fails_there_is_no_result(arm: Path, run: Run) -> Non
     assert snapshot(arm) == before
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_the_yoga_example(run: Run, data_dir: Path, tmp_path: Path) -> None:
     """As the example says: neither one mass of the arms nor three are known, and the leg moves in a plane."""

@@ -108,6 +108,7 @@ def _mapped(rng: np.random.Generator) -> MappedFit:
     return fit
 
 
+@pytest.mark.long
 def test_equal_trials_seldom_seem_to_drift() -> None:
     """Of forty pairs that differ by noise alone, five per hundred at most seem to differ in an axis or the centre."""
     rng = np.random.default_rng(2)
@@ -135,6 +136,7 @@ def test_nothing_drifts_that_is_not_known() -> None:
     assert not last.free.identifiable
 
 
+@pytest.mark.long
 def test_equal_trials_seldom_name_anything() -> None:
     """Seven numbers are judged at once: of sixty pairs that differ by noise alone, three are expected to name any."""
     rng = np.random.default_rng(4)

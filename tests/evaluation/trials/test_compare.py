@@ -202,6 +202,7 @@ def test_trials_are_what_the_analysis_gives(arm: Path) -> None:
     assert [part.sphere.intervals for part in judged] == [("judge",)]
 
 
+@pytest.mark.long
 def test_a_calibration_goes_where_its_serial_number_is(arm: Path) -> None:
     """To every file with that sensor, to no other sensor of it; one that fits nowhere is a failure."""
     experiment = load_experiment(arm / PARQUET)
@@ -262,6 +263,7 @@ def test_names_are_checked_first(arm: Path) -> None:
     assert failure.message.startswith("--sensor: no file has a sensor 'arm_tf'; did you mean \"arm_ft\"?")
 
 
+@pytest.mark.long
 def test_the_comparison_shows_itself(arm: Path) -> None:
     """Every number whole in a narrow terminal, tables in a notebook, few words for `repr`; arrays in none."""
     result = compare([arm / PARQUET], by_interval=True)
@@ -282,6 +284,7 @@ def test_the_comparison_shows_itself(arm: Path) -> None:
     assert "analyses" not in Comparison.described()["properties"]
 
 
+@pytest.mark.long
 def test_what_failed_and_what_flatters_are_warnings_of_the_result(arm: Path) -> None:
     """A notebook gets both as the terminal does; where nothing is wrong there are none."""
     experiment = load_experiment(arm / PARQUET)

@@ -115,6 +115,7 @@ def test_estimate_takes_offsets_and_says_where_there_is_none(inside: Path, run: 
     assert all(250.0 < force < 360.0 for force in forces.values())
 
 
+@pytest.mark.long
 def test_the_script_of_the_page_runs(inside: Path) -> None:
     """It gives what `analysis.coherence` does."""
     from forcetorque.locomotion.net_force.result import Coherence

@@ -58,6 +58,7 @@ def tilted(standing: Standing) -> Standing:
     return moving(standing, balancing_movement(stand, "r_sole", rng=np.random.default_rng(4), postures=2))
 
 
+@pytest.mark.long
 def test_a_script_writes_forces_as_the_command_does(standing: Standing) -> None:
     """Touch, release and least load in newtons or shares; the other options are those of `BalanceOptions`."""
     asked = BalanceOptions(

@@ -299,6 +299,7 @@ def test_a_row_that_disagrees_is_named_and_counts_less() -> None:
     assert abs(solution.drift.plain_mass_without_kg[0] - MASS) > 2.0 * solution.loads[0].mass_half_width
 
 
+@pytest.mark.long
 def test_sound_rows_are_seldom_named() -> None:
     """In one of a hundred sound problems; one per problem would be a gate."""
     rng = np.random.default_rng(5)

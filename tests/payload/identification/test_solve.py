@@ -168,6 +168,7 @@ def test_an_unknown_tilt_leaves_the_mass_of_a_sensor_that_turns() -> None:
     assert np.abs(solution.tilt).max() < 1e-4
 
 
+@pytest.mark.long
 def test_a_matrix_that_is_known_in_part_widens_the_mass() -> None:
     """A gain of 2 % that nobody knows is 2 % of the mass; a stated mass then tells the gain."""
     rng = np.random.default_rng(7)

@@ -23,6 +23,7 @@ from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import read_mc_rtc
 from forcetorque.payload.robot_files.robot_load import RobotLoad
 from forcetorque.payload.robot_files.ros import read_ft_tools
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.scenes.wrist_postures import BIAS, CENTRE, HELD_S, MASS, SLOW, write_postures
 
 POSTURES = Rotation.random(8, random_state=4)
@@ -105,6 +106,7 @@ def test_a_robot_is_told_one_load_with_a_whole_bias(weighed: Path, run: Run, tmp
     assert not (tmp_path / "load").exists()
 
 
+@pytest.mark.long
 def test_a_robot_is_told_what_several_recordings_say_together(weighed: Path, run: Run, tmp_path: Path) -> None:
     """Not what the last of them says alone; the bias is that of the last, which is said."""
     other = write_postures(tmp_path, seed=7, postures=POSTURES, known=False)
@@ -122,7 +124,7 @@ _COLUMNS = 'columns = ["fx", "fy", "fz", "tx", "ty", "tz"]'
 _UNITS = 'units = ["N", "N", "N", "N m", "N m", "N m"]'
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("old", "new", "match"),
     [
         ("child_to_parent", "parent_to_child", "reversed direction: "),
@@ -132,7 +134,7 @@ _UNITS = 'units = ["N", "N", "N", "N m", "N m", "N m"]'
         (_UNITS, 'units = ["kgf", "kgf", "kgf", "N m", "N m", "N m"]', "check units of the wrench"),
     ],
 )
-@pytest.mark.parametrize("count", [1, 2])
+@some_cases("count", [1, 2])
 def test_no_file_is_written_of_a_load_that_the_readings_contradict(
     weighed: Path, run: Run, tmp_path: Path, count: int, old: str, new: str, match: str
 ) -> None:

@@ -15,6 +15,7 @@ from forcetorque.results.document.html import html_bytes
 from forcetorque.results.document.pdf import pdf_bytes
 from forcetorque.results.figures import DOTS_PER_INCH
 from forcetorque.results.table import Table
+from tests.cases import some_cases
 
 
 def _picture(width: int = 1200, height: int = 400) -> Picture:
@@ -50,7 +51,7 @@ REST = Section(title="the rest", blocks=(Text(text="of it"),), folded=True)
 
 
 @pytest.mark.parametrize("steps", [1, 4, 12])
-@pytest.mark.parametrize("height", [200, 1200, 4000])
+@some_cases("height", [200, 1200, 4000], quick=2)
 def test_sentence_figure_and_steps_share_one_page(steps: int, height: int) -> None:
     """However tall the picture, it gives way; however much room is left, the rest begins on the next page."""
     first, *others = _pages(_page("leg", steps=steps, height=height, spare=0), REST)

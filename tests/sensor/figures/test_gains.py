@@ -81,6 +81,7 @@ def test_without_matplotlib_the_error_says_what_to_install(gains: SensorGains, m
         gain_figure([gains])
 
 
+@pytest.mark.long
 def test_drawing_leaves_the_program_as_it_is(experiment: Path) -> None:
     """Matplotlib comes with the first figure and not before; pyplot, its windows and settings stay out of it."""
     code = f"""

@@ -80,6 +80,7 @@ def _errors(scenario: Scenario, loads: list[FloatArray]) -> FloatArray:
     return np.concatenate(parts)
 
 
+@pytest.mark.long
 def test_the_workbench_error_is_that_of_the_thesis_whatever_the_draw() -> None:
     """For 20 sensors each axis errs as set and the force norm lies in the range; as drawn some norms do not."""
     scenario = insitu()
