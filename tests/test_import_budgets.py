@@ -83,6 +83,7 @@ def test_a_help_is_there_at_once(bytecode: dict[str, str]) -> None:
     assert any(_command(bytecode, unused, "calibrate", "--help") < 0.3 for _ in range(RUNS))
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_a_load_is_weighed_without_what_it_does_not_use(
     bytecode: dict[str, str], data_dir: Path, tmp_path: Path

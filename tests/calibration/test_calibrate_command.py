@@ -110,6 +110,7 @@ def test_a_folder_gets_one_file_per_sensor(arm: Path, run: Run) -> None:
     assert [entry["calibration"]["sensor"]["serial"] for entry in result["calibrations"]] == ["SIM001", "SIM/002"]
 
 
+@pytest.mark.long
 def test_sensors_are_chosen_by_name(arm: Path, run: Run) -> None:
     """--sensor picks, in the order given and each once; a file takes one sensor."""
     one = run("calibrate", TWO, "-o", "one.json", "--sensor", "tool_ft", "--format", "json").result()

@@ -68,7 +68,7 @@ def test_no_worse_than_the_prior(path: Path, data_dir: Path) -> None:
         assert not any(row.conclusion == "worse" for row in _judgements(path, data_dir).values())
 
 
-@pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
+@some_cases("path", YOGA, ids=lambda path: path.name)
 def test_the_legs_log_raises_no_doubt(path: Path, data_dir: Path) -> None:
     """Fitted while it moves or is nearly static: the leg's sensor is one, and the masses beyond it are right."""
     experiment = _load(path, data_dir)
@@ -76,6 +76,7 @@ def test_the_legs_log_raises_no_doubt(path: Path, data_dir: Path) -> None:
     assert examine([part.data_set for part in parts], experiment.sensors[0].prior) == ()
 
 
+@pytest.mark.long
 def test_the_free_foots_log_is_in_doubt(data_dir: Path) -> None:
     """It reads a fifth less than the model: what is fitted to that makes its reading of the robot's weight worse."""
     experiment = _load(ROOT / "examples" / "10_icub_yoga_study.toml", data_dir)
@@ -85,6 +86,7 @@ def test_the_free_foots_log_is_in_doubt(data_dir: Path) -> None:
     assert "the gain changed by -2" in doubt.message
 
 
+@pytest.mark.long
 def test_a_quiet_half_still_teaches(data_dir: Path) -> None:
     """Nearly static data: .86 to .80 N with the fitted offset, .76 to .48 N with the mean of what is judged."""
     verdicts = _verdicts(YOGA[2], data_dir)
@@ -95,6 +97,7 @@ def test_a_quiet_half_still_teaches(data_dir: Path) -> None:
     assert new.force_error_mean_N < 0.65 * prior.force_error_mean_N
 
 
+@pytest.mark.long
 def test_the_edges_of_a_judged_interval_are_smoothed_as_its_middle_is(data_dir: Path) -> None:
     """Over 43 to 58 s, whole or in pieces, as a longer interval has it; cut there, the reading was off by 1 N."""
     experiment = _load(ROOT / "examples" / "10_icub_yoga_study.toml", data_dir)
@@ -128,6 +131,7 @@ def _judgements(path: Path, data_dir: Path) -> dict[tuple[str, str], PriorCompar
     return {(row.offset, row.quantity): row for row in _evaluation(path, data_dir).comparisons}
 
 
+@pytest.mark.long
 def test_the_reverse_is_better_where_the_offset_is_that_of_the_judged_half(data_dir: Path) -> None:
     """Force 3.8 to 1.1 N, better in every stretch: .30 of it. With the fitted offset one stretch is all there is."""
     rows = _judgements(YOGA[1], data_dir)
@@ -141,6 +145,7 @@ def test_the_reverse_is_better_where_the_offset_is_that_of_the_judged_half(data_
     assert rows["judged-mean", "force"].ratio == pytest.approx(0.30, abs=0.02)
 
 
+@pytest.mark.long
 def test_forward_with_the_offset_of_the_judged_half_is_not_better(data_dir: Path) -> None:
     """Negative control: .67 to .55 N, in some stretches more and in some less."""
     row = _judgements(YOGA[0], data_dir)["judged-mean", "force"]

@@ -51,6 +51,7 @@ def _fitted(run: SensorRun, regularisation: float) -> Calibration:
     return calibrate_sensor(run, code_version="1", created="2020-01-01T00:00:00+00:00", regularisation=regularisation)
 
 
+@pytest.mark.long
 def test_all_questions_about_a_sensor_compute_samples_and_motion_once(run: SensorRun, calls: dict[str, int]) -> None:
     """One interval to fit and one to judge, however many candidates; a run of its own for each would not do so."""
     calibrations = {f"{k}.json": _fitted(run, 10.0**k) for k in range(4)}

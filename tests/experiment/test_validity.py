@@ -108,6 +108,7 @@ def test_a_load_that_was_not_fitted_is_named_with_its_predicted_error(arm: Path,
     assert "predicted" not in plain[0]
 
 
+@pytest.mark.long
 def test_every_question_gives_the_same_answer(arm: Path) -> None:
     """Evaluate, validate, accept and assess: one row each, and its sentence among the warnings once."""
     calibration = _fitted(arm)

@@ -138,6 +138,7 @@ def test_estimate_finds_the_feet_of_each_phase(inside: Path, tmp_path: Path, run
     assert feet == {("hanging", "torso"), ("l_sole", "l_sole"), ("r_sole", "r_sole"), *both}
 
 
+@pytest.mark.long
 def test_sphere_takes_one_side_of_the_sensor(inside: Path, run: Run) -> None:
     """All phases have not the same mass on it; one has, and double support is refused by name."""
     assert (

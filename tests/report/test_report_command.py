@@ -15,6 +15,7 @@ import pytest
 
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
+from tests.browser import Visit
 from tests.scenes.experiments import PARQUET, TWO, add, edit, snapshot
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -118,6 +119,7 @@ def test_evaluate_and_validate_say_what_the_report_says(result: Any, run: Run) -
     assert all(line in shown for line in lines)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_the_decision_comes_first_and_says_what_the_numbers_say(result: Any, run: Run) -> None:
     """The word on the use, the figure and the steps, then all else, folded; the JSON has the same verdict and steps."""
@@ -421,3 +423,17 @@ def test_a_real_leg(data_dir: Path, run: Run, tmp_path: Path, monkeypatch: pytes
     assert any("independent samples" in line["text"] for line in rest)
     assert Path("leg.html").stat().st_size < NORMAL_BYTES
     assert min(count for row in sensor["independence"] for count in row["independent"]) < 200
+
+
+@pytest.mark.browser
+def test_the_verdict_is_on_the_first_screen(visit: Visit, reported: Path) -> None:
+    """Title, then verdict, both without scrolling; every picture is drawn."""
+    page = visit.blank()
+    page.goto((reported / "report.html").as_uri())
+    assert page.get_by_role("heading", level=1).is_visible()
+    verdict = page.locator(".verdict").first.bounding_box()
+    assert verdict is not None
+    assert verdict["y"] + verdict["height"] < page.viewport_size["height"]  # type: ignore[index]
+    widths = page.locator("img").evaluate_all("images => images.map(image => image.complete ? image.naturalWidth : 0)")
+    assert len(widths) == 7
+    assert min(widths) >= 1000

@@ -142,6 +142,7 @@ def test_a_calibration_tells_what_a_count_is_worth(arm: Path, run: Run) -> None:
     assert prior["channels"] == fitted["channels"]
 
 
+@pytest.mark.long
 def test_a_figure_is_written_where_it_is_asked(arm: Path, run: Run) -> None:
     """A PNG with a row per sensor, named in the result; the log and everything else stay as they are."""
     before = snapshot(arm)

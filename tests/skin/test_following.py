@@ -80,6 +80,7 @@ def test_heat_from_inside_is_no_force(table: PressureTable, learned: HeatGains) 
     assert _forces(wrong, 300.0, 309.0).min() > 2.0 * TRUE_N
 
 
+@pytest.mark.long
 def test_nothing_is_felt_where_nothing_touches(table: PressureTable, learned: HeatGains) -> None:
     """No contact in five minutes of warming; the firmware's rule sees some."""
     _, told = _followed(table, learned, HELD, touched=False)

@@ -98,6 +98,7 @@ def test_a_series_of_the_plate_is_not_determined_without_a_prior(plate: Callable
     assert any("not fz" in reason for reason in reasons)
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_swapped_lines_of_the_plate_are_named(plate: Callable[..., Path]) -> None:
     """Lines 17 and 18 in fy, first of all; line 61 lacks one moment."""

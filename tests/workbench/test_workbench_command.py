@@ -57,6 +57,7 @@ def test_several_sensors_are_compared(run: Run, bench: Path) -> None:
     assert "a file holds one calibration" in refused.err
 
 
+@pytest.mark.long
 def test_a_limit_that_fails_is_exit_code_1(run: Run, bench: Path) -> None:
     """No fault is allowed, and one is detected."""
     (bench / "limits.toml").write_text(

@@ -80,6 +80,7 @@ def test_a_wrong_prior_is_left_out_or_refused(rows: list[int], factor: float) ->
             _fitted(few, _plausibility_doubts(few))
 
 
+@pytest.mark.long
 def test_a_prior_that_errs_by_five_percent_is_kept() -> None:
     """Negative control: nothing is said of it, and with 12 positions the fit is as good as least squares."""
     for seed in SEEDS:

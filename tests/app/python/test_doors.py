@@ -133,6 +133,7 @@ def test_a_sensor_is_accepted_by_limits(experiment: Experiment, arm: Path, tmp_p
     assert run.accept(read_acceptance(spec), calibration).criteria == acceptance.criteria
 
 
+@pytest.mark.long
 def test_head_room_and_spheres_are_asked_of_a_run(experiment: Experiment, arm: Path, tmp_path: Path) -> None:
     """As the commands say them."""
     run = experiment["arm_ft"]

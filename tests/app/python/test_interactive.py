@@ -221,6 +221,7 @@ def test_what_is_missing_is_no_reading(experiment: Experiment) -> None:
         np.testing.assert_array_equal(calibration.matrix, expected.matrix)
 
 
+@pytest.mark.long
 def test_a_clock_among_the_counts_is_refused(experiment: Experiment) -> None:
     """Without a prior nothing else says how many channels there are: seven columns were fitted without a word."""
     arguments = arrays_of(experiment, prior=None, full_scale=[900.0] * 3 + [30.0] * 3)

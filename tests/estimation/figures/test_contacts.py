@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError, UnitError
 from forcetorque.estimation.figures import contact_figure
 from forcetorque.results.figures import png_bytes
+from tests.cases import some_cases
 from tests.report.drawing import legend_of, panels
 
 COUNT = 600
@@ -74,6 +75,7 @@ def test_the_line_is_broken_between_sessions(drawn: list[Figure]) -> None:
     assert np.flatnonzero(np.isnan(values)).tolist() == [200, 601]
 
 
+@pytest.mark.long
 def test_every_peak_of_a_long_recording_stays(drawn: list[Figure]) -> None:
     """One sample among half a million, in a session among many short ones, in component and magnitude."""
     count = 500_000
@@ -127,7 +129,7 @@ def test_candidates_have_points_that_do_not_meet(drawn: list[Figure]) -> None:
     assert len({line.get_marker() for line in lines}) == 5
 
 
-@pytest.mark.parametrize("count", [1, 2])
+@some_cases("count", [1, 2])
 def test_a_few_samples_are_drawn(count: int) -> None:
     """The shortest recordings, and sessions of one sample, make a figure too."""
     spans = [(f"s{k}", k, k + 1) for k in range(count)]

@@ -236,6 +236,7 @@ def test_the_offset_is_that_which_is_asked_for(arm: Path) -> None:
     assert all(first != second for first, second in zip(*seen, strict=True))
 
 
+@pytest.mark.long
 def test_other_sensors_as_measured_count(arm: Path) -> None:
     """The error of the tool's prior is in the arm's contact force where the tool's own reading is used."""
     experiment = load_experiment(arm / TWO)
@@ -375,6 +376,7 @@ def test_what_cannot_be_judged_is_an_error_that_names_it(arm: Path, table: str, 
     assert len(accept(_run(experiment), _spec(matrix={"condition": 5.0})).criteria) == 1
 
 
+@pytest.mark.long
 def test_missing_intervals_and_counts_are_errors(arm: Path) -> None:
     """No validation interval, one interval to compare offsets of, a stream without counts."""
     edit(arm / PARQUET, 'use = "validation"', 'use = "ignore"')

@@ -102,6 +102,7 @@ def test_pooling_as_they_stand_is_wrong() -> None:
     assert abs(same.free.index - TRUE_INDEX) > 0.5
 
 
+@pytest.mark.long
 def test_trials_that_cover_parts_are_known_together() -> None:
     """Without the model no cap determines an ellipsoid; the three do, and the truth lies in their interval."""
     held, errors = 0, []

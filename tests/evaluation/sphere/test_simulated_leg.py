@@ -117,6 +117,7 @@ def test_temperature_hardly_moves_the_index() -> None:
         assert np.abs(centres[0] - centres[1]).max() > 1.0
 
 
+@pytest.mark.long
 def test_coverage_decides() -> None:
     """A tenth of the grid is one row: without the model the ellipsoid is then unknown, and its interval holds."""
     for seed in SEEDS[:3]:

@@ -212,6 +212,7 @@ def test_counts_are_refused_with_their_sensor(arm: Path, run: Run) -> None:
     assert "can only be counts; multiply them by the sensor's matrix" in error
 
 
+@pytest.mark.long
 def test_a_sensor_that_fails_is_named_and_does_not_take_the_others_with_it(arm: Path, run: Run) -> None:
     """One line in every form and on standard error; what is shown of the others is what they give alone."""
     alone = run("study", "sphere", TWO, "--sensor", "arm_ft", "--format", "json").result()

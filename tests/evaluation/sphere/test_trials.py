@@ -124,6 +124,7 @@ def test_equal_trials_seldom_seem_to_drift() -> None:
     assert wrong.sum() <= 24
 
 
+@pytest.mark.long
 def test_nothing_drifts_that_is_not_known() -> None:
     """Between a cap and a sphere there is a difference, but none that exceeds anything."""
     rng = np.random.default_rng(3)

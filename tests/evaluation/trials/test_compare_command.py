@@ -205,6 +205,7 @@ def test_intervals_may_be_trials(arm: Path, run: Run) -> None:
     assert "no condition" in out
 
 
+@pytest.mark.long
 def test_a_bad_file_does_not_cost_the_table(trials: Path, run: Run) -> None:
     """It is told on standard error and in the result, the others are there, and the exit code is 1."""
     edit(trials / SECOND, 'path = "recording"', 'path = "nowhere"')
@@ -251,6 +252,7 @@ def test_lines_of_numbers(compared: Run) -> None:
     assert mapped[5]["exceeds"] == "; ".join(group["drift"]["exceeds"])
 
 
+@pytest.mark.long
 def test_a_figure_is_written_where_it_is_asked(trials: Path, run: Run) -> None:
     """A PNG, named in the result; everything else stays as it is."""
     before = snapshot(trials)

@@ -78,6 +78,7 @@ def _as_one(problem: LoadProblem) -> LoadProblem:
     return replace(problem, rows=rows, sessions=("all",))
 
 
+@pytest.mark.long
 def test_one_bias_for_all_power_ups_is_noticed() -> None:
     """By its test and by the mass that it would give; where the biases are one, it is not."""
     made = PowerUps(seed=1, length=SHORT)

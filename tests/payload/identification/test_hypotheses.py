@@ -224,6 +224,7 @@ def _is_of_another_size(problem: LoadProblem) -> bool:
     return any(scales(problem, plain_fit(problem, drift=False)[0], other_sizes=True))
 
 
+@pytest.mark.long
 def test_a_stated_load_is_of_the_size_that_is_read() -> None:
     """Of 100 sensors that err by 15 % under slow noise none is said to read another size; with moments in N mm 95 are.
 

@@ -51,6 +51,7 @@ def test_payload_writes_what_a_robot_loads(weighed: Path, run: Run) -> None:
     assert "force_offset and torque_offset are the bias, and are taken off" in " ".join(outcome.err.split())
 
 
+@pytest.mark.long
 def test_the_file_may_go_to_standard_output(weighed: Path, run: Run) -> None:
     """The file in place of the table; not beside a result for programs."""
     told = run("payload", weighed, "--to", "mc-rtc", "-o", "-", "--sensor-pose", *POSE)
@@ -154,6 +155,7 @@ def test_no_file_is_written_of_a_load_that_the_readings_contradict(
     assert not (tmp_path / "load").exists()
 
 
+@pytest.mark.long
 def test_a_tare_under_a_load_that_the_readings_contradict_writes_no_file(run: Run, tmp_path: Path) -> None:
     """The new offset would hold twice the weight; the answer itself is still shown."""
     path = write_postures(tmp_path, seed=8, postures=POSTURES)
@@ -170,6 +172,7 @@ def test_a_tare_under_a_load_that_the_readings_contradict_writes_no_file(run: Ru
     assert run(*words).code == 0
 
 
+@pytest.mark.long
 def test_a_jump_takes_a_reason_and_that_nothing_hangs_there_takes_none(run: Run, tmp_path: Path) -> None:
     """A jump makes the bias wrong; a stated mass of 0 is what the user wants. The reason stands beside the file."""
     jumped = write_postures(tmp_path, seed=9, postures=POSTURES)
@@ -257,6 +260,7 @@ def test_the_reason_beside_a_file_replaces_none_of_the_user_and_goes_with_the_do
         assert beside.exists() == (doubtful.override is not None)
 
 
+@pytest.mark.long
 def test_a_tare_under_a_load_that_moves_takes_a_reason(tmp_path: Path, run: Run) -> None:
     """Its offset has errors of the load in it."""
     path = write_postures(tmp_path, seed=6, postures=POSTURES)

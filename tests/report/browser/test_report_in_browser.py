@@ -18,7 +18,7 @@ from tests.browser import Visit
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.long]
 
 NARROW = {"width": 420, "height": 800}
 """Size of a telephone."""
@@ -39,19 +39,6 @@ def _open_all(page: Page) -> None:
     page.evaluate("document.querySelectorAll('details').forEach(one => { one.open = true })")
 
 
-def test_the_verdict_is_on_the_first_screen(visit: Visit, report: Path) -> None:
-    """Title, then verdict, both without scrolling; every picture is drawn."""
-    page = _open(visit, report)
-    assert page.get_by_role("heading", level=1).is_visible()
-    verdict = page.locator(".verdict").first.bounding_box()
-    assert verdict is not None
-    assert verdict["y"] + verdict["height"] < page.viewport_size["height"]  # type: ignore[index]
-    widths = page.locator("img").evaluate_all("images => images.map(image => image.complete ? image.naturalWidth : 0)")
-    assert len(widths) == 7
-    assert min(widths) >= 1000
-
-
-@pytest.mark.long
 def test_what_is_folded_opens_by_keyboard(visit: Visit, report: Path) -> None:
     """The page to decide by shows its picture; a table of errors is seen once its heading was opened."""
     page = _open(visit, report)
@@ -63,7 +50,6 @@ def test_what_is_folded_opens_by_keyboard(visit: Visit, report: Path) -> None:
     assert table.is_visible()
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("size", [NARROW, {"width": 1400, "height": 900}], ids=["narrow", "wide"])
 def test_nothing_sticks_out(visit: Visit, report: Path, size: dict[str, int]) -> None:
     """Wide tables scroll by themselves, the page does not."""
@@ -76,7 +62,6 @@ def test_nothing_sticks_out(visit: Visit, report: Path, size: dict[str, int]) ->
         assert tables, "control: some table is wider than the screen"
 
 
-@pytest.mark.long
 def test_the_screen_shows_something(visit: Visit, report: Path) -> None:
     """Dark words on white, and the colour of the verdict; the same page gives the same pixels."""
     page = _open(visit, report)
@@ -87,7 +72,6 @@ def test_the_screen_shows_something(visit: Visit, report: Path) -> None:
     assert (pixels > 240).mean() > 0.6
 
 
-@pytest.mark.long
 def test_it_prints(visit: Visit, report: Path) -> None:
     """On paper there is the text of the verdict, and a sentence where the viewer is on the screen."""
     page = _open(visit, report)
@@ -100,7 +84,6 @@ def test_it_prints(visit: Visit, report: Path) -> None:
     assert not page.get_by_text("The HTML file has a viewer here").is_visible()
 
 
-@pytest.mark.long
 def test_the_viewer_works_inside(visit: Visit, report: Path) -> None:
     """It draws, jumps, and cannot reach the document around it."""
     page = _open(visit, report)

@@ -50,7 +50,7 @@ def _pages(*sections: Section) -> list[PageObject]:
 REST = Section(title="the rest", blocks=(Text(text="of it"),), folded=True)
 
 
-@pytest.mark.parametrize("steps", [1, 4, 12])
+@some_cases("steps", [1, 4, 12])
 @some_cases("height", [200, 1200, 4000], quick=2)
 def test_sentence_figure_and_steps_share_one_page(steps: int, height: int) -> None:
     """However tall the picture, it gives way; however much room is left, the rest begins on the next page."""
@@ -70,6 +70,7 @@ def test_more_than_a_page_goes_on_and_loses_nothing() -> None:
     assert all(re.search(rf"(?m)(^|\s){k}\.", text) for k in range(1, 41))
 
 
+@pytest.mark.long
 def test_several_pages_to_decide_by_begin_a_page_each() -> None:
     """And come before all else, with what had no room behind them, under its own name."""
     pages = [page.extract_text() for page in _pages(_page("leg", spare=6), _page("arm", spare=6), REST)]
@@ -84,6 +85,7 @@ def test_several_pages_to_decide_by_begin_a_page_each() -> None:
     assert text.index("arm: spare") < text.index("the rest")
 
 
+@pytest.mark.long
 def test_spare_parts_fill_the_page() -> None:
     """As many as fit: the next would not, and none is cut."""
     (first, *_) = _pages(_page("leg", spare=8), REST)
@@ -125,6 +127,7 @@ def test_folded_sections_can_be_opened_by_keyboard_and_need_no_script() -> None:
     assert html.index("because of leg") < html.index("<details>")
 
 
+@pytest.mark.long
 def test_numbered_points_have_their_numbers() -> None:
     """In both forms; others have none."""
     numbered, plain = (Section(title="t", blocks=(List(points=("one", "two"), numbered=n),)) for n in (True, False))

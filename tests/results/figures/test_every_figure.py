@@ -147,6 +147,7 @@ def test_an_overlap_is_noticed() -> None:
     assert _outside(figure) == ["moved"]
 
 
+@pytest.mark.long
 def test_figures_leave_the_program_as_it_is() -> None:
     """Matplotlib comes with the first figure and not before; pyplot, its windows and settings stay out of it."""
     code = """

@@ -145,6 +145,7 @@ def test_dead_pads_are_named(run: Run, shank: WarmShank) -> None:
     )
 
 
+@pytest.mark.long
 def test_rules_that_lack_a_warm_up_are_refused(run: Run, shank: WarmShank) -> None:
     """By name, with what to do; without a rule the same calibration leaves heat in."""
     assert run("skin", "calibrate", "bag.toml", "-o", "bare.json").code == 0
