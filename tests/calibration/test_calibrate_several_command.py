@@ -97,6 +97,7 @@ def test_moments_of_a_sensor_that_is_not_fitted_are_refused(days: Path, run: Run
     assert run("calibrate", str(kept), "-o", "b.json", "--sensor", "arm_ft").code == 0
 
 
+@pytest.mark.long
 def test_files_that_ask_for_different_estimators_are_refused(days: Path, run: Run) -> None:
     """The first file does not overrule the second; a type for all does."""
     second = days / CALIBRATION[1]

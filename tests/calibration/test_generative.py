@@ -98,6 +98,7 @@ def test_errors_are_as_large_as_they_are_said_to_be(with_prior: bool) -> None:
     assert np.abs(ratios).max() < 4.5
 
 
+@pytest.mark.long
 def test_sessions_share_a_matrix_and_have_offsets_of_their_own() -> None:
     """Bodies with other centres of mass, after other power-ups, tell together what neither tells alone."""
     centres, offsets = [(0.0, 0.0, -0.1), (0.1, 0.0, 0.0), (0.0, 0.1, 0.0)], [OFFSET, -OFFSET, 2.0 * OFFSET]
@@ -203,7 +204,7 @@ def _warmed(degrees: float) -> GenerativeFit:
     return fit_generative([replace(data, variables=30.0 + warmer)], PRIOR, assumptions(), variables=[TEMPERATURE])
 
 
-@pytest.mark.parametrize("prior", [None, np.array([0.5, -0.3, 1.0, 0.01, 0.02, -0.01])])
+@some_cases("prior", [None, np.array([0.5, -0.3, 1.0, 0.01, 0.02, -0.01])])
 def test_a_variable_that_never_moves_keeps_the_coefficient_it_had(prior: FloatArray | None) -> None:
     """Zero, or what was said of it, with the standard deviation that was supposed: half a per cent of full scale."""
     data = read_by(anyhow())
@@ -243,7 +244,7 @@ def test_prior_deviations_of_a_variable_are_respected() -> None:
     assert np.abs(fit.model.coefficients).max() < 1e-6
 
 
-@pytest.mark.parametrize("with_prior", [True, False])
+@some_cases("with_prior", [True, False])
 def test_eight_channels_are_fitted_with_a_prior_and_without(with_prior: bool) -> None:
     """Both read loads to a thousandth; the prior is several per cent off."""
     rng = np.random.default_rng(5)
@@ -350,6 +351,7 @@ def test_an_accuracy_of_the_reference_limits_what_small_loads_teach() -> None:
     assert left[0.5, 0.0] < 0.3
 
 
+@pytest.mark.long
 def test_repeatability_widens_and_moves_nothing() -> None:
     """Three thousandths of the response are added to every error, and the matrix is the same."""
     data = [read_by(anyhow())]

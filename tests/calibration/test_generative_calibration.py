@@ -60,6 +60,7 @@ def test_recordings_together_teach_more_than_each(recorded: Path) -> None:
     assert [i.experiment for i in every.provenance.intervals] == [run.experiment.name for run in _runs(recorded)]
 
 
+@pytest.mark.long
 def test_every_session_has_its_offset(days: Path) -> None:
     """Two days in one fit: their offsets differ by the change of the power-up, and have errors."""
     for file in VALIDATION:

@@ -137,6 +137,7 @@ def test_an_attached_load_is_no_error_of_a_link(arm: Path, load_kg: float) -> No
     assert np.abs(of_loaded["zero of wrist"]).max() > np.abs(of_bare["zero of wrist"]).max()
 
 
+@pytest.mark.long
 def test_recordings_with_and_without_tolerances_are_a_warning(arm: Path) -> None:
     """By the names of the intervals in which the model is taken as exact."""
     uncertain, exact = recording_moments(_run(arm))[0], recording_moments(_run(arm, EXACT))[0]
@@ -300,7 +301,7 @@ def _written_out(means: WindowMeans, result: GenerativeFit) -> tuple[FloatArray,
     return told @ mean, told @ covariance @ told.T
 
 
-@pytest.mark.parametrize("as_they_are", [True, False])
+@some_cases("as_they_are", [True, False])
 def test_rows_with_a_common_model_are_one_gaussian_inference(
     monkeypatch: pytest.MonkeyPatch, as_they_are: bool
 ) -> None:

@@ -82,6 +82,7 @@ def test_it_writes_what_a_robot_and_a_calibration_need(folder: Path) -> None:
     assert set(read_urdf(folder / "device_35_kg.urdf").sensors) == {"ft_1"}
 
 
+@pytest.mark.long
 def test_two_loads_tell_the_matrix(run: Run, folder: Path, tmp_path: Path) -> None:
     """The experiment files are taken as they are, and the true matrix comes out."""
     asked = run("calibrate", str(folder / "35_kg.toml"), str(folder / "15_kg.toml"), "-o", str(tmp_path / "new.json"))
@@ -109,6 +110,7 @@ def test_the_documented_example_may_be_used(run: Run, folder: Path, tmp_path: Pa
     assert np.sqrt((error**2).sum(axis=1).mean()) < force["after_at_most"] < force["allowed"]
 
 
+@pytest.mark.long
 def test_one_load_does_not(run: Run, folder: Path, tmp_path: Path) -> None:
     """Gravity makes no moment about the line through its two centres of mass: calibrate names it and stops."""
     asked = run("calibrate", str(folder / "35_kg.toml"), "-o", str(tmp_path / "new.json"))

@@ -46,6 +46,7 @@ def _texts(section: Section) -> str:
     return "\n".join(block.text for block in section.blocks if isinstance(block, Text))
 
 
+@pytest.mark.long
 def test_the_contacts_are_those_of_the_command(folder: Path, assessed: ExperimentAssessment) -> None:
     """Numbers and pictures of `skin wrench`; the JSON has every contact."""
     alone = skin_wrench(folder / SKIN, folder / "shank.json")
@@ -58,6 +59,7 @@ def test_the_contacts_are_those_of_the_command(folder: Path, assessed: Experimen
     assert len([block for block in section.blocks if isinstance(block, Figure)]) == 2
 
 
+@pytest.mark.long
 def test_the_heuristic_is_told_apart(assessed: ExperimentAssessment) -> None:
     """Its row counts messages and contacts; words and captions say that it is no newtons."""
     (row,) = assessed.skin_events

@@ -119,6 +119,7 @@ def test_contacts_are_estimated_without_a_file(experiment: Experiment, arm: Path
         experiment.estimate(contacts=["knee"])
 
 
+@pytest.mark.long
 def test_a_sensor_is_accepted_by_limits(experiment: Experiment, arm: Path, tmp_path: Path) -> None:
     """By a file or its content, as the command says it."""
     run, spec = experiment["arm_ft"], tmp_path / "limits.toml"
@@ -202,6 +203,7 @@ def test_a_workbench_is_asked_by_its_file(tmp_path: Path) -> None:
     assert answer.calibrations[0].provenance.code_version
 
 
+@pytest.mark.long
 def test_a_log_and_trials_may_be_named_by_text(arm: Path) -> None:
     """One log needs no list; trials need no Path."""
     from forcetorque.evaluation.trials.comparison import compare

@@ -83,6 +83,7 @@ def test_the_robot_model_may_be_off_unless_it_is_said_to_be_exact(experiment: Ex
     assert made.fit_options.tolerance == EXACT
 
 
+@pytest.mark.long
 def test_arrays_may_come_in_frames_of_pandas(experiment: Experiment) -> None:
     """Readings, instants and joint positions: the columns of one frame, or of several."""
     arguments = arrays_of(experiment)
@@ -378,6 +379,7 @@ def test_what_is_no_calibration_is_refused_in_a_line(experiment: Experiment, que
             ask({"mine": Path("arm.json")})
 
 
+@pytest.mark.long
 def test_verdicts_show_themselves_as_a_table(experiment: Experiment) -> None:
     """A row per calibration and load case; the tuple that they are stays one, and their records are flat."""
     run = experiment["arm_ft"]

@@ -264,6 +264,7 @@ def test_sensors_of_a_standing_leg_are_fitted_all_at_once(run: Run, tmp_path: Pa
     assert result["stages"][3]["text"].count("no verdict") == 2
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("folder")
 def test_from_python() -> None:
     """One line, with the same result; an empty reason is refused."""

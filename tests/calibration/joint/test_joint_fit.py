@@ -130,6 +130,7 @@ def test_a_touch_is_left_out_and_does_little_harm() -> None:
     assert _errors(believing, other)[4].max() > 2.0 * _errors(result.fit, other)[4].max()
 
 
+@pytest.mark.long
 def test_a_body_that_is_heavier_than_its_file_says_is_found() -> None:
     """A mass is told where the sensors do not stand for it: the posterior is narrower than the prior."""
     terms = _of_wrong_model(11).model_errors()
@@ -197,6 +198,7 @@ def test_a_fit_leaves_what_its_matrices_and_offsets_do() -> None:
         assert np.abs(residuals_by(one, factors, nothing) - left).max() > 0.5
 
 
+@pytest.mark.long
 def test_equations_are_made_linear_three_times() -> None:
     """About the model, and twice about the fit before."""
     stretch = swaying(1, duration_s=1.0).stretch

@@ -21,6 +21,9 @@ FEET = ("l_foot_ft", "r_foot_ft")
 DAY = "simulated/switching_day2.toml"
 
 
+pytestmark = pytest.mark.long
+
+
 @pytest.fixture(scope="module")
 def walked(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder with two simulated days and a folder of calibrations of the first."""
@@ -115,7 +118,6 @@ def test_estimate_takes_offsets_and_says_where_there_is_none(inside: Path, run: 
     assert all(250.0 < force < 360.0 for force in forces.values())
 
 
-@pytest.mark.long
 def test_the_script_of_the_page_runs(inside: Path) -> None:
     """It gives what `analysis.coherence` does."""
     from forcetorque.locomotion.net_force.result import Coherence
