@@ -112,6 +112,7 @@ def test_loads_under_an_exact_matrix_carry_no_error(unknown: tuple[LoadProblem, 
     assert load_error_of(solve(replace(_problem(weighed=False), slope=()))) is None
 
 
+@pytest.mark.long
 def test_the_evidence_finds_the_mass_where_the_largest_density_does_not(
     unknown: tuple[LoadProblem, LoadSolution],
 ) -> None:

@@ -191,6 +191,7 @@ def test_the_curve_script_shows_every_lambda(data_dir: Path, tmp_path: Path, mon
     assert len(shown.splitlines()) > 40
 
 
+@pytest.mark.long
 def test_nothing_touches_the_free_leg(data_dir: Path) -> None:
     """The contact of the free leg is small, and ten times larger while the floor is touched."""
     experiment = _load(ROOT / "examples" / "08_icub_yoga_contacts.toml", data_dir)

@@ -17,6 +17,7 @@ SWITCHING = EXAMPLE.with_name("23_icub_yoga_switching.toml")
 pytestmark = pytest.mark.real_data
 
 
+@pytest.mark.long
 def test_four_sensors_come_out_of_one_stretch(data_dir: Path, tmp_path: Path) -> None:
     """Every part is closed better than by the priors, what stands on the leg counts, and what is open is said."""
     copy = tmp_path / EXAMPLE.name

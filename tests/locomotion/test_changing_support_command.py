@@ -130,6 +130,7 @@ def test_one_leg_is_calibrated_jointly_where_it_hangs_or_bears_alone(inside: Pat
     assert [interval.label for interval in read_calibration(file).provenance.intervals] == KNOWN
 
 
+@pytest.mark.long
 def test_estimate_finds_the_feet_of_each_phase(inside: Path, tmp_path: Path, run: Run) -> None:
     """Contacts of an interval are the links that touch in it."""
     result = run("estimate", "switching_day2.toml", "-o", tmp_path / "est.parquet", "--format", "json").result()
@@ -162,6 +163,7 @@ def test_sphere_takes_one_side_of_the_sensor(inside: Path, run: Run) -> None:
     assert "by [[contact]] or contact_links r_sole does in every one" in refused.err
 
 
+@pytest.mark.long
 def test_gains_and_view_take_it(inside: Path, tmp_path: Path, run: Run) -> None:
     """Head-room of the channels, and a page whose robot changes its support."""
     assert run("bench", "gains", "switching_day1.toml").code == 0

@@ -157,6 +157,7 @@ def test_a_load_that_samples_agree_on_may_be_written(tmp_path: Path) -> None:
     assert "--to" not in answer.command
 
 
+@pytest.mark.long
 def test_a_load_with_contact_in_its_samples_is_not_offered_to_the_robot(tmp_path: Path) -> None:
     """The first reason says how many samples disagree, and the next step names the session of most of them."""
     fitted = '[[interval]]\nlabel = "{0}"\nstart_s = {1}\nend_s = {2}\nuse = "calibration"\nsession = "{0}"\n'

@@ -130,6 +130,7 @@ def test_the_sentence_says_what_to_record_first_and_what_it_brings(planned: Plan
     assert "recording 2: positions" in planned.text()
 
 
+@pytest.mark.long
 def test_before_any_recording_the_plan_is_that_from_the_prior(arm: Path) -> None:
     """A file without recording, intervals and streams gives the same; other commands say what is missing."""
     new, old = plan(_unrecorded(arm), recordings=1, seconds=30.0), plan(_run(arm), recordings=1, seconds=30.0)

@@ -438,6 +438,7 @@ def test_the_same_files_give_the_same_tables(days: Path, quick_days: tuple[Path,
         assert texts[0] == texts[1]
 
 
+@pytest.mark.long
 def test_a_lambda_is_what_calibrate_calls_so(days: Path, run: Run) -> None:
     """Typed for a study of one file or for a calibration of it, a lambda gives the same fit; a sixth does not."""
     assert (

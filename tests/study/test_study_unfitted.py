@@ -87,6 +87,7 @@ def test_the_generative_fit_of_a_data_set_is_that_of_calibrate(recorded: Path) -
     np.testing.assert_allclose(every.squared_error, (errors**2).mean(axis=0), rtol=1e-6)
 
 
+@pytest.mark.long
 def test_a_generative_fit_that_is_best_is_written_with_its_posterior(recorded: Path, tmp_path: Path) -> None:
     """Where a lambda leaves all types far behind, the choice and each of its rows is the generative fit."""
     study = study_sensor(

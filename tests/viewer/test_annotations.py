@@ -108,6 +108,7 @@ def test_an_interval_to_the_last_sample_ends_with_the_log(arm: Path, built: Buil
         intervals_toml(_saved([], [_interval(late, late + 1.0)]), built)
 
 
+@pytest.mark.long
 def test_a_wrist_sensor_states_no_support(tmp_path: Path) -> None:
     """Its own frame carries it in every interval, and the experiment file knows no other."""
     file = write_wrist(tmp_path)

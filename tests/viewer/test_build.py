@@ -154,6 +154,7 @@ def test_series_are_expected_prior_and_every_calibration(intact: Path) -> None:
     np.testing.assert_allclose(difference, 0.0, rtol=0, atol=1e-4)  # its offset is that of the calibration interval
 
 
+@pytest.mark.long
 def test_sphere_and_ellipsoid_lie_in_the_clouds(intact: Path) -> None:
     """Expected forces lie about the sphere of the weight, those of a series on its ellipsoid, offset included."""
     experiment = load_experiment(intact / PARQUET)
@@ -276,6 +277,7 @@ def test_it_is_said_who_acts_on_whom(intact: Path, direction: MeasureDirection) 
     assert (sensor.acting, sensor.acted_on) == ends
 
 
+@pytest.mark.long
 def test_intervals_and_findings_have_seconds(arm: Path) -> None:
     """Intervals count from the start of the recording, and what is wrong has its time."""
     built = _view(add(arm / PARQUET, IGNORED))

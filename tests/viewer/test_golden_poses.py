@@ -126,6 +126,7 @@ def test_any_robot_stands_as_in_the_library(intact: Path, data: st.DataObject) -
     _agree(built, motion, model, support)
 
 
+@pytest.mark.long
 def test_a_wrong_sign_is_noticed(intact: Path) -> None:
     """Negative control: with one axis turned round the poses differ by far more than the tolerance."""
     model = read_urdf(icub("iCubGenova04"))

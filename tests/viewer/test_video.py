@@ -27,6 +27,7 @@ def _film(script: str) -> bytes:
         return film_page(server.url, FILM, browser=browser)
 
 
+@pytest.mark.long
 def test_the_page_is_asked_when_it_is_ready() -> None:
     """It gets the wishes as they are, after its promise is kept, and what it gives comes back as bytes."""
     script = """

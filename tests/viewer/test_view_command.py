@@ -130,6 +130,7 @@ def test_no_browser_is_opened_unless_wanted(run: Run, arm: Path, monkeypatch: py
     assert "WARNING: no browser could be opened; open the address yourself" in ended.log
 
 
+@pytest.mark.long
 def test_samples_of_an_earlier_session_are_kept(run: Run, arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What was saved before goes to another name; saving again in one session replaces only its own."""
     _visit(monkeypatch, lambda url: _save(url, SAMPLE))

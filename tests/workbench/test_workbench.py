@@ -70,6 +70,7 @@ def plate(data_dir: Path, tmp_path: Path) -> Callable[..., Path]:
     return written
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_rows_of_the_plate_are_predicted_and_series_are_not(plate: Callable[..., Path]) -> None:
     """One row at a time, a fifth with its range over partitions, and no whole series."""
@@ -89,6 +90,7 @@ def test_rows_of_the_plate_are_predicted_and_series_are_not(plate: Callable[...,
     assert sum("do not predict" in message for message in result.warnings) >= 5
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_a_series_of_the_plate_is_not_determined_without_a_prior(plate: Callable[..., Path]) -> None:
     """The reason names the direction that it alone moves."""

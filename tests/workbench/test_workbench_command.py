@@ -22,6 +22,7 @@ def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.long
 def test_it_writes_a_calibration_and_a_figure_and_reports_the_fault(run: Run, bench: Path) -> None:
     """Which export then takes as any other."""
     outcome = run("bench", "workbench", "SIM001.toml", "-o", "new.json", "--figure", "bench.png")

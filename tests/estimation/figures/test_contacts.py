@@ -50,6 +50,7 @@ def test_the_legend_states_the_mean_magnitude(drawn: list[Figure]) -> None:
     assert legend_of(drawn[0]) == ["a: mean |f| 5 N", "b: mean |f| 0 N"]
 
 
+@pytest.mark.long
 def test_sessions_of_two_days_are_drawn_end_to_end(drawn: list[Figure]) -> None:
     """A day between them, or clocks that start again, take no room; a line and a label part them."""
     forces = _forces()

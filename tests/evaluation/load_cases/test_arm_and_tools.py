@@ -141,6 +141,7 @@ def test_a_weighed_tool_is_named_by_its_result(
         load_experiment(file)
 
 
+@pytest.mark.long
 def test_a_tool_that_the_sensor_itself_weighed_is_named(
     arm: tuple[Path, np.ndarray], weighed: WeighedLoad, tmp_path: Path
 ) -> None:

@@ -74,6 +74,7 @@ def test_the_same_sensor_is_judged_by_what_is_allowed(arm: Path, allowed: float,
     assert _verdict(run, _fit(run)).decision == decision
 
 
+@pytest.mark.long
 def test_between_the_two_there_are_not_enough_data(arm: Path) -> None:
     """A requirement at the median of the prediction has an even chance."""
     run = _run(arm)
@@ -86,6 +87,7 @@ def test_between_the_two_there_are_not_enough_data(arm: Path) -> None:
     assert "the chance that it is within that is" in verdict.message
 
 
+@pytest.mark.long
 def test_a_constant_error_is_red_unless_the_use_allows_it(arm: Path) -> None:
     """An offset that is 6 N off forbids readings with the fitted offset, and not those that are tared."""
     run = _run(arm, PUSH + PUSH.replace('"push"', '"kept"').replace("tared", "fitted"))

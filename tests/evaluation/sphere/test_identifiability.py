@@ -68,6 +68,7 @@ def test_intervals_hold_the_truth(half: float, noise: float, memory: float, expe
         assert believed == (count if expected else 0)
 
 
+@pytest.mark.long
 def test_a_naive_interval_does_not_hold_the_truth() -> None:
     """Negative control: on a cap, the fit and the tolerance around it miss the truth nearly always."""
     rng = np.random.default_rng(8)

@@ -72,6 +72,7 @@ def test_calibration_is_seen_to_mend(arm: Path, run: Run) -> None:
     assert any("the force has no one size" in reason for reason in prior["without_model"]["why"])
 
 
+@pytest.mark.long
 def test_what_was_fitted_is_warned_of(arm: Path, run: Run) -> None:
     """All intervals are taken if none is named, and those that flatter are named."""
     ended = run("study", "sphere", PARQUET, "-c", "fitted.json", "--format", "json")

@@ -154,6 +154,7 @@ def test_the_wrist_of_24_poses(data_dir: Path, tmp_path: Path) -> None:
     np.testing.assert_allclose(analysis.moment.error_Nm, 0.0, atol=0.005)
 
 
+@pytest.mark.long
 def test_the_wrist_of_100_poses(data_dir: Path, tmp_path: Path) -> None:
     """All on one side and drifting by 2 N: one mass is known to 5 %, and three are only with the model."""
     analysis = _analysed(load_experiment(write_axia(data_dir, tmp_path, "_100")), "wrist").analysis

@@ -78,6 +78,7 @@ def test_three_trials_of_which_one_drifts() -> None:
         assert {"centre x", "centre y", "centre z"} <= set(drift.exceeds)
 
 
+@pytest.mark.long
 def test_only_the_direction_of_drift_depends_on_the_order() -> None:
     """Turned round, means and pooled fits are the same, and the drift has the other sign."""
     rng = np.random.default_rng(2)
@@ -188,6 +189,7 @@ def test_the_file_says_condition_and_number(arm: Path) -> None:
             parse_experiment(file)
 
 
+@pytest.mark.long
 def test_trials_are_what_the_analysis_gives(arm: Path) -> None:
     """A file is a trial, or each interval is one; both read as `sphere` does."""
     (whole,), failures = read_trials([arm / PARQUET])

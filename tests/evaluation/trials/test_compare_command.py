@@ -134,6 +134,7 @@ def test_ranks_are_of_intervals(compared: Run) -> None:
     assert unknown["drift"] is None or unknown["drift"]["exceeds"] is None
 
 
+@pytest.mark.long
 def test_the_table_has_the_forms_of_the_thesis(compared: Run) -> None:
     """Errors and two indices for each trial; trials down, conditions across, and the mean apart from the pooled fit."""
     ended = compared("--details")

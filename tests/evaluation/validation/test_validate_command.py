@@ -55,6 +55,7 @@ def test_the_best_candidate_is_named_in_every_form(arm: Path, run: Run) -> None:
     assert snapshot(arm) == before
 
 
+@pytest.mark.long
 def test_joint_torques_are_in_every_form(arm: Path, run: Run) -> None:
     """A row per candidate, offset and joint that depends on the sensor; the same numbers in JSON, CSV and table."""
     result = run("study", "validate", PARQUET, "-c", "fitted.json", "--format", "json").result()

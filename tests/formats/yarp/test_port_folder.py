@@ -158,6 +158,7 @@ def test_a_log_without_line_feeds_does_not_fill_the_memory(tmp_path: Path) -> No
     assert peak < 4 * port_folder.BLOCK_SIZE
 
 
+@pytest.mark.long
 def test_a_long_log_is_read_in_blocks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A packed log of 20 MB: besides its result, twice while that is put together, some blocks are held."""
     monkeypatch.setattr(port_folder, "BLOCK_SIZE", 1 << 18)

@@ -257,6 +257,7 @@ def test_what_is_missing_is_named(standing: Standing, tilted: Standing) -> None:
     assert sum(row.samples for row in result.feet) > 0
 
 
+@pytest.mark.long
 def test_the_script_of_the_page_runs(
     standing: Standing, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

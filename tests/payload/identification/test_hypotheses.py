@@ -213,6 +213,7 @@ def test_a_bare_sensor_is_said_to_be_bare() -> None:
     assert swapped == {"swapped columns": 20}
 
 
+@pytest.mark.long
 def test_noisy_readings_under_an_unknown_tilt_are_no_error() -> None:
     """Other frames are tried without the tilt, which would need the orientation that they do not have."""
     noise = 10.0 * SIZES * np.random.default_rng(7).normal(size=(COUNT, 6))

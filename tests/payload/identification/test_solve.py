@@ -125,6 +125,7 @@ def test_a_temperature_is_told_from_bias_and_load() -> None:
     assert (np.array(variable.half_width_95) < 0.1 * np.abs(slope).max()).all()
 
 
+@pytest.mark.long
 def test_a_mount_that_nobody_states_is_found() -> None:
     """A sensor that is turned by a quarter and three degrees; stated as not turned, the quarter is named."""
     rng = np.random.default_rng(5)

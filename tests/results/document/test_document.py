@@ -169,6 +169,7 @@ def test_numbers_stand_to_the_right() -> None:
         Table(caption="odd", headings=("a", "b"), rows=(("1",),))
 
 
+@pytest.mark.long
 def test_long_and_wide_tables_go_on() -> None:
     """Every row of a table of three pages is there, and every cell of one that is wider than the page."""
     text = _pdf_text(pdf_bytes(_document(rows=150)))

@@ -62,6 +62,7 @@ def test_sentence_figure_and_steps_share_one_page(steps: int, height: int) -> No
     assert not any(page.images for page in others)
 
 
+@pytest.mark.long
 def test_more_than_a_page_goes_on_and_loses_nothing() -> None:
     """The control: forty steps are no page, and all are there."""
     pages = _pages(_page("leg", steps=40, spare=0), REST)

@@ -57,6 +57,7 @@ def test_every_channel_is_drawn_before_and_after(gains: SensorGains) -> None:
     assert count_of(image, COLOURS[7]) == 0
 
 
+@pytest.mark.long
 def test_what_is_drawn_depends_on_the_gains(gains: SensorGains) -> None:
     """Factors of one draw the same lines on both sides; the recommended ones do not."""
     drawn = png_bytes(gain_figure([gains]))

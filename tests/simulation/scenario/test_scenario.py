@@ -216,6 +216,7 @@ def test_traces_serve_any_number_of_sensors() -> None:
     assert not np.array_equal(moved["fit"].loads["arm_ft"], traces["fit"].loads["arm_ft"])
 
 
+@pytest.mark.long
 def test_sensors_that_are_left_out_change_no_other() -> None:
     """A sensor keeps its matrix, serial number and offsets whichever others are simulated."""
     every = load_scenario(bundled_scenario("icub-insitu"))

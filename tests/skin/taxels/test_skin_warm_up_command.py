@@ -98,6 +98,7 @@ def test_bad_warm_ups_are_refused_by_file(run: Run, shank: WarmShank) -> None:
     assert "no.toml" in run(*CALIBRATE, "no.toml").error()
 
 
+@pytest.mark.long
 @some_cases("stated", [False, True])
 def test_what_is_added_to_a_warm_up_is_said(run: Run, shank: WarmShank, stated: bool) -> None:
     """A rate of rows that have no time, once and by the name of the warm-up; of one as it was logged, nothing."""

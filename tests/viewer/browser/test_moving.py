@@ -43,6 +43,7 @@ def test_slider_and_number_jump(page: Page, sample: Callable[[], int], arm: Arm)
     assert number.input_value() == str(SAMPLES - 1)
 
 
+@pytest.mark.long
 def test_click_on_a_plot_jumps_to_that_time(page: Page, sample: Callable[[], int], arm: Arm) -> None:
     """The clicked place along the time axis is the instant that is shown, and the cursor is drawn there."""
     for plot, share in enumerate((0.2, 0.45, 0.7)):
