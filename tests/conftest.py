@@ -29,8 +29,15 @@ from tests.scenes.experiment_folders import (
 
 __all__ = ["arm", "days", "intact", "intact_warm", "intact_warm_log", "recorded", "warm", "warm_log"]
 
-_HEAVY = ("study/test_icub_insitu.py", "evaluation/sphere/")
-"""Files and folders that take longest, the longest first: begun last, one worker would end long after the other."""
+_HEAVY = (
+    "study/test_icub_insitu.py",
+    "evaluation/sphere/",
+    "report/test_report_command.py",
+    "examples/test_examples.py",
+    "app/test_snapshots.py",
+    "formats/test_damaged_files.py",
+)
+"""Files and folders that take longest, in the long run or always: begun last, one worker would end after the other."""
 
 _DEFAULT_DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 

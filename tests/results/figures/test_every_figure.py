@@ -22,7 +22,7 @@ from tests.cases import some_cases
 from tests.report.drawing import FIGURES, panels, shown_texts, size_of
 
 every_figure = pytest.mark.parametrize("name", list(FIGURES))
-FEW = ("balance", "comparison", "contact", "device", "difference")
+FEW = ("comparison", "contact", "device")
 """Of several capabilities."""
 some_figures = some_cases("name", [*FEW, *(name for name in FIGURES if name not in FEW)], quick=len(FEW))
 """A few, and in the long run all: what they have in common is written once, in the canvas."""
