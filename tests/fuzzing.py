@@ -31,6 +31,6 @@ def sampled(count: int) -> int:
         count: Number of the long run.
 
     Returns:
-        That number, or a 250th of it.
+        That number, or a hundredth of it.
     """
-    return count if SHARE[0] == 1 else count // 250
+    return count if SHARE[0] == 1 else count // 100
