@@ -99,6 +99,7 @@ def test_the_scale_stays_open_where_nobody_weighed_a_load(unknown: tuple[LoadPro
     assert wider.error_covariance(push)[0, 0] > (5.0 * share) ** 2
 
 
+@pytest.mark.long
 def test_a_weighed_load_closes_it(unknown: tuple[LoadProblem, LoadSolution]) -> None:
     """With one stated load the masses of the others add next to nothing to the gain of forces."""
     errors = [load_error_of(solution) for solution in (unknown[1], _solution(weighed=True)[1])]

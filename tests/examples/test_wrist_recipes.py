@@ -128,6 +128,7 @@ def _only(text: str, label: str) -> str:
     return "[[interval]]".join([head, *used])
 
 
+@pytest.mark.long
 def test_a_wrench_of_the_base_frame(data_dir: Path, tmp_path: Path) -> None:
     """Turned into the sensor, another series of poses agrees; along the axes as they are logged it does not."""
     text = (EXAMPLES / "26_wrist_base_frame.toml").read_text()

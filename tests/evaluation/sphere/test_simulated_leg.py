@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis
-from tests.cases import some_cases
 from tests.evaluation.sphere.simulated_leg import GRAVITY, JUDGED, SCREWS, Leg, leg, screwed
 
 SEEDS = range(1, 11)
-SOME = pytest.mark.parametrize("seeds", [range(1, 6), pytest.param(SEEDS, marks=pytest.mark.long)], ids=["5", "10"])
+pytestmark = pytest.mark.long
+
+SOME = pytest.mark.parametrize("seeds", [range(1, 6), SEEDS], ids=["5", "10"])
 LEG_MASS = 4.734
 """What the model of this robot has beyond the sensor; the thesis has 4.733; kg."""
 ACCELERATIONS = 0.002
@@ -40,7 +41,6 @@ def _screwed(seed: int, screws: str) -> Leg:
 
 
 @SOME
-@pytest.mark.long
 def test_before_in_situ_calibration(seeds: range) -> None:
     """Table 4.1 has 0.5 to 1.24 kg with the model and 0.5 to 2.4 without: eight of ten sensors fall into that."""
     found = np.array([_indices(_leg(seed).analysed("grid", _leg(seed).workbench)) for seed in seeds])
@@ -51,7 +51,6 @@ def test_before_in_situ_calibration(seeds: range) -> None:
     np.testing.assert_allclose(found[:, 0], found[:, 1], atol=0.1)
 
 
-@pytest.mark.long
 @SOME
 def test_after_in_situ_calibration(seeds: range) -> None:
     """Without temperature, as in Table 4.1, below 0.2 kg, where that has 0.12 and 0.13; with it below 0.1 kg."""
@@ -63,7 +62,6 @@ def test_after_in_situ_calibration(seeds: range) -> None:
     assert np.median(compensated[:, 0]) < 0.5 * np.median(plain[:, 0])
 
 
-@pytest.mark.long
 @SOME
 def test_the_calibrated_errors_hold_the_true_weight(seeds: range) -> None:
     """The masses of the true matrix are that of the leg, within their intervals, on every seed."""
@@ -81,7 +79,7 @@ def test_the_calibrated_errors_hold_the_true_weight(seeds: range) -> None:
     assert held >= 0.9 * 3 * len(seeds)
 
 
-@some_cases("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", [1, 2, 3])
 def test_mixed_screws(seed: int) -> None:
     """Tables 4.3 and 4.4: about 0.8 kg with loose screws along x, 1.1 kg with loose ones elsewhere, which is worse."""
     along_x, elsewhere = (
@@ -93,7 +91,6 @@ def test_mixed_screws(seed: int) -> None:
     assert along_x < elsewhere
 
 
-@pytest.mark.long
 def test_even_screws_change_nothing_here() -> None:
     """Where the simulation fails: the thesis has 0.5 to 1.1 kg with even screws, most with loose ones."""
     for name in ("2 N m", "0.5 N m"):
@@ -101,7 +98,6 @@ def test_even_screws_change_nothing_here() -> None:
         assert _indices(_screwed(1, name).analysed("grid", _screwed(1, name).workbench))[0] < 0.08
 
 
-@pytest.mark.long
 def test_temperature_hardly_moves_the_index() -> None:
     """The cold grid and the warm one, 13 degrees apart, give one index: an offset is no deformation."""
     for seed in SEEDS[:2]:
@@ -117,7 +113,6 @@ def test_temperature_hardly_moves_the_index() -> None:
         assert np.abs(centres[0] - centres[1]).max() > 1.0
 
 
-@pytest.mark.long
 def test_coverage_decides() -> None:
     """A tenth of the grid is one row: without the model the ellipsoid is then unknown, and its interval holds."""
     for seed in SEEDS[:3]:

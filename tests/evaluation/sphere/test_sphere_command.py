@@ -194,6 +194,7 @@ def test_two_calibrations_of_one_sensor_are_compared(arm: Path, run: Run) -> Non
     assert first == second
 
 
+@pytest.mark.long
 def test_files_of_one_name_are_told_apart(arm: Path, run: Run) -> None:
     """Calibrations of one name in two folders have the folders before them, in every table and line."""
     for folder in ("old", "new"):

@@ -88,7 +88,7 @@ def test_arms_are_caps_and_not_identifiable(yoga: Yoga, run: str, start_s: float
         assert analysis.free.index_low == 0.0
 
 
-@pytest.mark.parametrize("run", ["dumperLeftLegNoIMU", "dumperRightLegNoIMU"])
+@some_cases("run", ["dumperLeftLegNoIMU", "dumperRightLegNoIMU"])
 def test_the_interval_of_the_arms_holds_the_scatter(yoga: Yoga, run: str) -> None:
     """Over the contact-free window: all that windows and methods give for one radius, 1.3 to 3.5 kg."""
     for name in ARMS:
