@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
+from hypothesis import is_hypothesis_test, settings
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -29,12 +29,15 @@ from tests.scenes.experiment_folders import (
 
 __all__ = ["arm", "days", "intact", "intact_warm", "intact_warm_log", "recorded", "warm", "warm_log"]
 
-# a slow machine is no failure
-settings.register_profile("patient", deadline=None)
-settings.load_profile("patient")
-
-_HEAVY = ("study/test_icub_insitu.py", "evaluation/sphere/")
-"""Files and folders that take longest, the longest first: begun last, one worker would end long after the other."""
+_HEAVY = (
+    "study/test_icub_insitu.py",
+    "evaluation/sphere/",
+    "report/test_report_command.py",
+    "examples/test_examples.py",
+    "app/test_snapshots.py",
+    "formats/test_damaged_files.py",
+)
+"""Files and folders that take longest, in the long run or always: begun last, one worker would end after the other."""
 
 _DEFAULT_DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 
@@ -53,6 +56,15 @@ def pytest_configure(config: pytest.Config) -> None:
         config.option.hypothesis_seed = str(secrets.randbelow(2**32))
     if config.option.all_examples:
         fuzzing.SHARE[0] = 1
+    # a slow machine is no failure
+    settings.register_profile("patient", deadline=None, max_examples=fuzzing.examples(100))
+    settings.load_profile("patient")
+
+
+def pytest_itemcollected(item: pytest.Item) -> None:
+    """Let the long run draw all examples of every test of Hypothesis."""
+    if is_hypothesis_test(getattr(item, "obj", None)):
+        item.add_marker("fuzz")
 
 
 def pytest_report_header(config: pytest.Config) -> str:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How many random examples a test of damaged or random input draws: a quarter in every run, all in the long one.
 
+Tests of Hypothesis that state no number draw 100 in the long run (`tests/conftest.py`).
+
 Every run draws others, so that a day of runs has met more of them than one long run.
 """
 

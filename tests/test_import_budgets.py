@@ -83,6 +83,7 @@ def test_a_help_is_there_at_once(bytecode: dict[str, str]) -> None:
     assert any(_command(bytecode, unused, "calibrate", "--help") < 0.3 for _ in range(RUNS))
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_a_load_is_weighed_without_what_it_does_not_use(
     bytecode: dict[str, str], data_dir: Path, tmp_path: Path
@@ -91,6 +92,7 @@ def test_a_load_is_weighed_without_what_it_does_not_use(
     assert _within(2.7, bytecode, "payload", _example("07", data_dir, tmp_path))
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_a_log_is_judged_without_what_it_does_not_use(bytecode: dict[str, str], data_dir: Path, tmp_path: Path) -> None:
     """`evaluate` on the yoga log takes less than 3.2 times what its libraries take."""
@@ -99,6 +101,7 @@ def test_a_log_is_judged_without_what_it_does_not_use(bytecode: dict[str, str], 
     assert _within(3.2, bytecode, "evaluate", file, "-c", leg)
 
 
+@pytest.mark.long
 def test_a_module_and_its_time_are_noticed(bytecode: dict[str, str]) -> None:
     """Negative control: a child that loads scipy.signal lists it, and one that is busy for 0.3 s spends them."""
     busy = "import scipy.signal, time\nbusy = time.process_time()\nwhile time.process_time() < busy + 0.3: pass"

@@ -79,6 +79,7 @@ def grouped(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
         yield
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("grouped")
 def test_a_command_of_a_group_answers_and_has_a_schema(run: Run) -> None:
     """Typed behind the name of its group; its schema is called after both."""

@@ -26,6 +26,7 @@ from tests.scenes.experiments import PARQUET
 ROOT = Path(forcetorque.__file__).parent
 
 
+@pytest.mark.long
 def test_an_experiment_file_with_a_mark_is_the_same_experiment(arm: Path, run: Run) -> None:
     """Also to `plan`, which looks at its tables first, and to `report`, which looks at its schema."""
     plain = run("evaluate", PARQUET, "-c", "fitted.json", "--format", "json").result()

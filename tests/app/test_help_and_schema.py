@@ -16,6 +16,7 @@ from forcetorque.recording.stream import QUANTITIES
 from tests.app.commands import question_of, typed_commands
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.scenes.experiments import TEXTS
 
 PROGRAM = whole_program()
@@ -117,7 +118,7 @@ def test_the_help_of_a_command_has_one_line_and_an_example(run: Run, command: st
         assert re.search(r"  [A-Z]|\n {10,}[A-Z]", option), option
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@some_cases("command", sorted(COMMANDS, key="demo".__eq__), quick=len(COMMANDS) - 1)  # the demo runs
 def test_the_example_of_a_command_can_be_typed(
     run: Run, command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -15,6 +15,7 @@ from typer.models import OptionInfo
 from forcetorque.app.command_line import whole_program
 from tests.app.outcome import Run
 from tests.browser import BROWSERS
+from tests.cases import some_cases
 from tests.scenes.benches import write_bench
 from tests.scenes.experiments import PARQUET, TWO, YARP, edit, snapshot
 
@@ -297,18 +298,19 @@ def test_real_files_of_others_are_seen_as_such(arm: Path, run: Run, name: str) -
     assert snapshot(arm) == before
 
 
-@pytest.mark.parametrize(
+@some_cases(
     "words",
     [
-        ("calibrate", PARQUET, "-o", "new.json", "--figure", "new.png"),
         ("calibrate", PARQUET, "-o", "folder"),
         ("estimate", PARQUET, "-o", "new.parquet"),
         ("estimate", PARQUET, "-o", "new.csv"),
         ("export", "fitted.json", "--to", "csv", "-o", "new"),
         ("export", "fitted.json", "--to", "wholebodydynamics", "-o", "new"),
-        ("view", PARQUET, "-o", "new.html"),
         ("export", "fitted.json", "--to", "csv", "-o", "empty"),
+        ("view", PARQUET, "-o", "new.html"),
+        ("calibrate", PARQUET, "-o", "new.json", "--figure", "new.png"),
     ],
+    quick=6,
 )
 def test_a_result_is_replaced_by_the_next_one(arm: Path, run: Run, words: tuple[str, ...]) -> None:
     """Whoever types a command again wants its result again: no force is needed."""

@@ -38,6 +38,7 @@ def test_a_result_goes_to_standard_output_alone(arm: Path) -> None:
     assert json.loads(Path("made.json").read_text(encoding="utf-8"))["sensor"]["serial"] == "SIM001"
 
 
+@pytest.mark.long
 def test_an_error_is_one_line_and_exit_code_2(arm: Path) -> None:
     """No traceback, nothing on standard output, no file."""
     edit(arm / PARQUET, 'frame = "base"', 'frame = "bse"')
@@ -68,6 +69,7 @@ for form in {_FORMS}:
 """
 
 
+@pytest.mark.long
 def test_a_terminal_without_letters_gets_them_spelled(arm: Path, run: Run) -> None:
     """Under `LC_ALL=C` without UTF-8 mode: numbers with their errors in plain letters, as many as elsewhere."""
     plain = {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0", "COLUMNS": "120", "PATH": os.environ["PATH"]}
@@ -81,6 +83,7 @@ def test_a_terminal_without_letters_gets_them_spelled(arm: Path, run: Run) -> No
     assert [b"+-" in form for form in shown.stdout.split(b"end of form\n")] == [True, False, False, False]
 
 
+@pytest.mark.long
 def test_a_name_that_is_no_text_is_one_line(arm: Path) -> None:
     """The name of a file may hold bytes of another encoding; the error still says it."""
     ended = subprocess.run(

@@ -12,6 +12,7 @@ import pytest
 from forcetorque.experiment.calibration.artefact import Calibration, write_calibration
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.scenes.campaigns import by_day
 from tests.scenes.experiments import edit
 from tests.scenes.studies import VALIDATION
@@ -39,7 +40,7 @@ def judged(days: Path, calibrated: Calibration, monkeypatch: pytest.MonkeyPatch)
     return days
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@some_cases("command", COMMANDS)
 def test_the_json_has_both_and_fits_the_schema(judged: Path, run: Run, command: str) -> None:
     """What all files show together, and each by itself; of one file there is no more than ever."""
     words = (*COMMANDS[command], "--format", "json")
@@ -58,7 +59,7 @@ def test_the_json_has_both_and_fits_the_schema(judged: Path, run: Run, command: 
     assert list(one) == [name for name in several if name in one]
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@some_cases("command", COMMANDS)
 def test_people_see_a_line_per_recording(judged: Path, run: Run, command: str) -> None:
     """Below what they show together; not where there is one file."""
     several, one = (
@@ -72,7 +73,7 @@ def test_people_see_a_line_per_recording(judged: Path, run: Run, command: str) -
     assert "arm day_2" not in one.out
 
 
-@pytest.mark.parametrize("command", ["evaluate", "study validate"])
+@some_cases("command", ["evaluate", "study validate"])
 def test_lines_of_csv_say_of_which_recording_they_are(judged: Path, run: Run, command: str) -> None:
     """Pooled lines of none; one file has no such column."""
     words = (*COMMANDS[command], "--format", "csv")
@@ -129,6 +130,7 @@ def test_a_file_without_the_sensor_is_named(judged: Path, run: Run) -> None:
         assert VALIDATION[1] in error
 
 
+@pytest.mark.long
 def test_estimates_are_written_per_file(judged: Path, run: Run) -> None:
     """One file of samples each, with the name of its experiment, as each gives by itself."""
     result = run("estimate", *VALIDATION, "-o", "estimates.csv", "-c", "arm.json", "--format", "json").result()
@@ -147,6 +149,7 @@ def test_estimates_are_written_per_file(judged: Path, run: Run) -> None:
     assert {row["experiment"] for row in rows} == {"arm day_1", "arm day_2"}
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_a_report_reads_every_file_with_its_session(judged: Path, run: Run) -> None:
     """Errors with the calibration's own offset are those of `evaluate` on each recording."""

@@ -31,6 +31,7 @@ from forcetorque.workbench.simulated_benches import BenchFaults
 from tests.app.added_command import added_command
 from tests.app.commands import question_of, typed_commands
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.formats.lerobot.datasets import tool_episodes, write_dataset
 from tests.locomotion.foot_forces import write_foot_forces
 from tests.scenes.benches import write_bench
@@ -97,6 +98,8 @@ COMMANDS = _of_experiments() | {
     "bench workbench": ("bench", "workbench", "SIM001.toml"),
 }
 """What is typed; of a command that only needs an experiment nothing has to be stated."""
+SLOW = ("bench device", "skin wrench")
+"""Commands that take some seconds, of which other tests see the table."""
 WITHOUT_TABLE = {"dataset compensate", "demo", "fleet run", "payload", "robot torque-loop", "run", "schema", "simulate"}
 """Shown elsewhere: `payload` needs a wrist, `fleet run` processes, `simulate`, `torque-loop`, `run` and `demo` minutes;
 `schema` is JSON; `dataset compensate` a dataset, which its own tests have."""
@@ -219,7 +222,7 @@ def _hardly_optimised(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("shown_widths", "blank_pictures", "_hardly_optimised")
-@pytest.mark.parametrize("name", COMMANDS)
+@some_cases("name", sorted(COMMANDS, key=SLOW.__contains__), quick=len(COMMANDS) - len(SLOW))
 def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, request: pytest.FixtureRequest) -> None:
     """Line by line; no line of a table is wider than the terminal."""
     for file in COMMANDS[name][1:]:

@@ -47,6 +47,7 @@ def _loads_pandas(expression: str) -> bool:
     return run.stdout.split()[-1] == "True"
 
 
+@pytest.mark.long
 def test_pandas_is_not_loaded() -> None:
     """Negative control: by Arrow's own conversion it is, so there is a reason to have ours."""
     assert not _loads_pandas("arrow_numbers(column)")

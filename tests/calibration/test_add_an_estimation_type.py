@@ -103,6 +103,7 @@ def test_its_three_types_are_fitted_studied_and_stated_in_files(library: Path) -
     assert answer["file"] == answer["parts"] == "tared"
 
 
+@pytest.mark.long
 def test_a_strategy_without_its_origin_is_refused(library: Path) -> None:
     """Negative control: it does not pass for one of the others."""
     assert _answer(library) == {"error": "type TnTdTO: no origin of the columns is stated for the offset 'tared'"}

@@ -19,6 +19,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
 from forcetorque.recording.storage import read_recording, write_recording
+from tests.cases import some_cases
 from tests.scenes.experiments import FACTORY, MOUNTED, PARQUET, TWO, YARP, add, edit
 
 FORCE_ROWS = 0.02
@@ -55,7 +56,7 @@ def test_both_forms_give_the_same_calibration(intact: Path) -> None:
     assert np.abs(own.offset - yarp.offset).max() < DIGITS * np.abs(own.offset).max()
 
 
-@pytest.mark.parametrize("form", [PARQUET, YARP])
+@some_cases("form", [PARQUET, YARP])
 def test_the_artefact_says_what_it_was_made_from(intact: Path, form: str) -> None:
     """Sensor, robot, intervals, number of samples and inputs are those of the experiment."""
     experiment = load_experiment(intact / form)
@@ -88,6 +89,7 @@ def test_the_priors_offset_is_the_mean_on_the_fitted_data(intact: Path) -> None:
     assert np.abs(made.prior.offset - elsewhere).max() > 1e6 * rounding
 
 
+@pytest.mark.long
 def test_how_lambda_came_about_is_recorded(intact: Path) -> None:
     """A given lambda is called so; a chosen one comes with its candidates, itself among them."""
     experiment = load_experiment(intact / PARQUET)
@@ -111,6 +113,7 @@ def test_raw_readings_are_those_of_the_log(intact: Path) -> None:
     assert np.abs(recovered.raw - counts.raw).max() < DIGITS * np.abs(counts.raw).max()
 
 
+@pytest.mark.long
 def test_samples_that_cannot_be_used_are_left_out_and_counted(arm: Path) -> None:
     """A gap of the sensor, marked by NaN, and an ignored interval take samples out; only the gap counts as loss."""
     recording = read_recording(arm / "recording")

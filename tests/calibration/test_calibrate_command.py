@@ -16,6 +16,7 @@ from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.recording.storage import read_recording
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.scenes.experiments import FT_LOG, MOUNTED, PARQUET, TWO, YARP, add, edit, edit_lines, snapshot
 from tests.scenes.warm_experiments import EXACT, PER_DEGREE, TEMPERATURE, fixed_signal, put, with_variables
 
@@ -90,6 +91,7 @@ def test_the_table_is_the_default(arm: Path, run: Run) -> None:
     assert run("calibrate", PARQUET, "-o", "other.json", "--type", "OnTdTO", "--details").out.count(" yes ") == 6
 
 
+@pytest.mark.long
 def test_brackets_in_names_are_shown(arm: Path, run: Run) -> None:
     """What the user called things is text, never markup."""
     edit(arm / PARQUET, 'label = "fit"', 'label = "run [bold] :smile: [/x]"')
@@ -98,6 +100,7 @@ def test_brackets_in_names_are_shown(arm: Path, run: Run) -> None:
     assert "\n\n[/red] arm: arm_ft (SIM001)" in run("evaluate", PARQUET, "-c", "a.json", "--details").out
 
 
+@pytest.mark.long
 def test_a_folder_gets_one_file_per_sensor(arm: Path, run: Run) -> None:
     """The folder is made; names and serial numbers with a slash stay inside it."""
     result = run("calibrate", TWO, "-o", "deep/made", "--format", "json").result()
@@ -110,6 +113,7 @@ def test_a_folder_gets_one_file_per_sensor(arm: Path, run: Run) -> None:
     assert [entry["calibration"]["sensor"]["serial"] for entry in result["calibrations"]] == ["SIM001", "SIM/002"]
 
 
+@pytest.mark.long
 def test_sensors_are_chosen_by_name(arm: Path, run: Run) -> None:
     """--sensor picks, in the order given and each once; a file takes one sensor."""
     one = run("calibrate", TWO, "-o", "one.json", "--sensor", "tool_ft", "--format", "json").result()
@@ -169,6 +173,7 @@ def test_a_limb_that_stands_still_is_refused(arm: Path, run: Run) -> None:
     assert max(kept["calibrations"][0]["calibration"]["validity"]["expected_wrench_sd"]) < 1e-9
 
 
+@pytest.mark.long
 def test_a_tool_without_mass_is_refused(arm: Path, run: Run) -> None:
     """The model is named as what to mend; the sensor of the arm is fitted all the same."""
     place = "xyz='0.03 0 -0.05' rpy='0 0 0'/><mass value="
@@ -229,6 +234,7 @@ def test_a_bad_lambda_is_refused(arm: Path, run: Run, value: str) -> None:
     assert snapshot(arm) == before
 
 
+@pytest.mark.long
 def test_findings_of_the_log_are_warnings(arm: Path, run: Run) -> None:
     """What the readers found is said before the fit, on standard error only."""
     made = run("calibrate", YARP, "-o", "a.json", "--format", "json")
@@ -254,6 +260,7 @@ def test_an_earlier_file_is_replaced(arm: Path, run: Run) -> None:
     assert read_calibration(file).lambda_counts2 == 17.0
 
 
+@pytest.mark.long
 def test_the_temperature_is_fitted_and_shown(warm: Path, run: Run) -> None:
     """File, JSON, CSV and table hold the exact coefficients with their unit and reference value."""
     words = ("calibrate", PARQUET, "-o", "made.json", "--lambda", "0", "--format")
@@ -286,7 +293,7 @@ def test_sensors_with_and_without_temperature_share_a_result(warm: Path, run: Ru
     assert kinds == {"arm_ft_SIM001.json": "OwTrTO", "tool_ft_SIM%2F002.json": "OnTdTO"}
 
 
-@pytest.mark.parametrize("name", ESTIMATION_TYPES)
+@some_cases("name", ESTIMATION_TYPES, quick=3)
 def test_the_type_comes_from_the_command_or_the_file(warm: Path, run: Run, name: str) -> None:
     """--type is the same fit as the file's type, and rules over it."""
     words = ("calibrate", PARQUET, "-o", "a.json", "--lambda", "6e4", "--format", "json")
@@ -353,6 +360,7 @@ def test_a_prior_of_another_sensor_is_refused(arm: Path, run: Run) -> None:
     )
 
 
+@pytest.mark.long
 def test_what_was_learnt_is_drawn_where_it_is_asked(arm: Path, run: Run) -> None:
     """A PNG beside the calibration, named in the result; without the option there is none."""
     before = snapshot(arm)

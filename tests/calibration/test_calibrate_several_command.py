@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from forcetorque.experiment.calibration.artefact import read_calibration
 from tests.app.json_schema import faults
@@ -15,6 +16,7 @@ from tests.scenes.experiments import edit, snapshot
 from tests.scenes.studies import CALIBRATION
 
 
+@pytest.mark.long
 def test_recordings_and_moments_come_to_one_calibration(days: Path, run: Run) -> None:
     """All files, and two of them with the moments of the others, give the same; the file says which went in."""
     whole = run("calibrate", *CALIBRATION, "-o", "whole.json", "--moments", "kept", "--format", "json").result()
@@ -58,6 +60,7 @@ def test_a_file_twice_is_refused(days: Path, run: Run) -> None:
     assert "expected every experiment file once, it comes twice" in error
 
 
+@pytest.mark.long
 def test_moments_are_not_for_a_type_of_the_thesis(days: Path, run: Run) -> None:
     """It needs samples; the error says what to leave out."""
     assert run("calibrate", CALIBRATION[0], "-o", "a.json", "--moments", "kept").code == 0
@@ -67,6 +70,7 @@ def test_moments_are_not_for_a_type_of_the_thesis(days: Path, run: Run) -> None:
     assert not Path("b.json").exists()
 
 
+@pytest.mark.long
 def test_a_file_of_moments_is_no_place_to_write_to(days: Path, run: Run) -> None:
     """What was kept of a recording is not replaced by the calibration that is made of it."""
     assert run("calibrate", CALIBRATION[0], "-o", "a.json", "--moments", "kept").code == 0
@@ -77,6 +81,7 @@ def test_a_file_of_moments_is_no_place_to_write_to(days: Path, run: Run) -> None
     assert kept.read_bytes() == before
 
 
+@pytest.mark.long
 def test_moments_of_a_sensor_that_is_not_fitted_are_refused(days: Path, run: Run) -> None:
     """They would be left out in silence; with moments alone, --sensor chooses among theirs."""
     assert run("calibrate", CALIBRATION[0], "-o", "a.json", "--moments", "kept").code == 0
@@ -92,6 +97,7 @@ def test_moments_of_a_sensor_that_is_not_fitted_are_refused(days: Path, run: Run
     assert run("calibrate", str(kept), "-o", "b.json", "--sensor", "arm_ft").code == 0
 
 
+@pytest.mark.long
 def test_files_that_ask_for_different_estimators_are_refused(days: Path, run: Run) -> None:
     """The first file does not overrule the second; a type for all does."""
     second = days / CALIBRATION[1]

@@ -16,6 +16,7 @@ from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET, edit, snapshot
 
 Damage = Callable[[Path], object]
@@ -93,6 +94,7 @@ def test_a_wrong_model_is_refused(arm: Path, run: Run, name: str, regularisation
     assert snapshot(arm) == before
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_the_intact_experiment_raises_no_doubt(arm: Path, run: Run) -> None:
     """The negative control of all the others: no warning, and a verdict "good"."""
@@ -109,7 +111,7 @@ DOUBTED: dict[str, tuple[Damage, str]] = {
 
 
 @pytest.mark.usefixtures("blank_pictures")
-@pytest.mark.parametrize("name", DOUBTED)
+@some_cases("name", DOUBTED)
 def test_a_doubtful_model_is_said_and_never_called_good(arm: Path, run: Run, name: str) -> None:
     """A warning of `calibrate`, the doubt in the file, and no verdict "good" of `report` on the same recording."""
     damage, words = DOUBTED[name]

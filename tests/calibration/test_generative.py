@@ -29,6 +29,7 @@ from tests.calibration.synthetic import (
     hanging,
     read_by,
 )
+from tests.cases import some_cases
 
 ROUNDING = 1e-8
 """Relative: double precision times the condition of the whitened columns, some 1e6."""
@@ -79,6 +80,7 @@ def test_a_limb_that_stands_still_leaves_the_prior_and_finds_the_offset() -> Non
     np.testing.assert_allclose(fit.posterior.mean_covariance, before, rtol=1e-6, atol=1e-9 * before.max())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("with_prior", [True, False])
 def test_errors_are_as_large_as_they_are_said_to_be(with_prior: bool) -> None:
     """Error over standard error of 432 coefficients of 12 sensors has a root mean square of 1, and none is above 4.5.
@@ -96,6 +98,7 @@ def test_errors_are_as_large_as_they_are_said_to_be(with_prior: bool) -> None:
     assert np.abs(ratios).max() < 4.5
 
 
+@pytest.mark.long
 def test_sessions_share_a_matrix_and_have_offsets_of_their_own() -> None:
     """Bodies with other centres of mass, after other power-ups, tell together what neither tells alone."""
     centres, offsets = [(0.0, 0.0, -0.1), (0.1, 0.0, 0.0), (0.0, 0.1, 0.0)], [OFFSET, -OFFSET, 2.0 * OFFSET]
@@ -119,6 +122,7 @@ def _two_sessions() -> tuple[list[WindowMeans], GenerativeFit]:
     return data, fit_generative(data, PRIOR, assumptions())
 
 
+@pytest.mark.long
 @settings(max_examples=5)
 @given(st.lists(st.floats(-1e4, 1e4), min_size=6, max_size=6))
 def test_what_a_power_up_adds_moves_the_offset_of_its_session_alone(added: list[float]) -> None:
@@ -139,6 +143,7 @@ def test_a_step_within_a_session_is_no_offset() -> None:
     assert np.abs(apart - fit_generative([data], PRIOR, assumptions()).model.matrix).max() > 1e-3 * np.abs(PRIOR).max()
 
 
+@pytest.mark.long
 def test_an_offset_may_drift() -> None:
     """A drift is found within its error; a ramp in time changes nothing else."""
     drift = np.array([0.05, -0.02, 0.1, 0.002, 0.001, -0.003])
@@ -164,6 +169,7 @@ def test_a_drift_of_a_session_of_two_seconds_is_refused() -> None:
         fit_generative(data, PRIOR, assumptions(), drift=True)
 
 
+@pytest.mark.long
 def test_a_session_with_a_single_sample_gets_an_offset() -> None:
     """It tells nothing of the matrix, and its offset is known as well as one reading is."""
     data, single = read_by(anyhow(), session="long"), read_by(anyhow(n=1, seed=9), offset=-OFFSET, session="one")
@@ -177,6 +183,7 @@ def test_a_session_with_a_single_sample_gets_an_offset() -> None:
     assert np.isfinite(only.posterior.covariance).all()
 
 
+@pytest.mark.long
 def test_a_variable_that_hardly_moves_does_no_harm() -> None:
     """With 0.05 degC the matrix is as good as without, and with 10 degC the coefficient is found too."""
     fits = {degrees: _warmed(degrees) for degrees in (0.0, 0.05, 10.0)}
@@ -197,7 +204,7 @@ def _warmed(degrees: float) -> GenerativeFit:
     return fit_generative([replace(data, variables=30.0 + warmer)], PRIOR, assumptions(), variables=[TEMPERATURE])
 
 
-@pytest.mark.parametrize("prior", [None, np.array([0.5, -0.3, 1.0, 0.01, 0.02, -0.01])])
+@some_cases("prior", [None, np.array([0.5, -0.3, 1.0, 0.01, 0.02, -0.01])])
 def test_a_variable_that_never_moves_keeps_the_coefficient_it_had(prior: FloatArray | None) -> None:
     """Zero, or what was said of it, with the standard deviation that was supposed: half a per cent of full scale."""
     data = read_by(anyhow())
@@ -237,7 +244,7 @@ def test_prior_deviations_of_a_variable_are_respected() -> None:
     assert np.abs(fit.model.coefficients).max() < 1e-6
 
 
-@pytest.mark.parametrize("with_prior", [True, False])
+@some_cases("with_prior", [True, False])
 def test_eight_channels_are_fitted_with_a_prior_and_without(with_prior: bool) -> None:
     """Both read loads to a thousandth; the prior is several per cent off."""
     rng = np.random.default_rng(5)
@@ -298,6 +305,7 @@ def _one_session() -> tuple[WindowMeans, GenerativeFit]:
     return data, fit_generative([data], PRIOR, assumptions())
 
 
+@pytest.mark.long
 @settings(max_examples=5)
 @given(st.floats(-3.0, 3.0))
 def test_the_unit_of_a_count_does_not_matter(decades: float) -> None:
@@ -343,6 +351,7 @@ def test_an_accuracy_of_the_reference_limits_what_small_loads_teach() -> None:
     assert left[0.5, 0.0] < 0.3
 
 
+@pytest.mark.long
 def test_repeatability_widens_and_moves_nothing() -> None:
     """Three thousandths of the response are added to every error, and the matrix is the same."""
     data = [read_by(anyhow())]
@@ -384,8 +393,8 @@ def _wandering(rng: np.random.Generator, n: int, forgets_in_s: float) -> FloatAr
     return np.array(values)
 
 
-@pytest.mark.parametrize("with_prior", [True, False])
-@pytest.mark.parametrize("forgets_in_s", [15.0, 50.0])
+@some_cases("with_prior", [True, False])
+@some_cases("forgets_in_s", [15.0, 50.0])
 def test_an_accuracy_in_wrenches_is_no_error_of_each_channel_by_itself(forgets_in_s: float, with_prior: bool) -> None:
     """References that wander by 0.9 N and 0.2 N m: pushes err as predicted, in force and in moment, prior or not.
 

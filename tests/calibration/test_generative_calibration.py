@@ -34,6 +34,7 @@ def _calibrated(runs: Sequence[SensorRun] | None, moments: Sequence[RecordingMom
     return calibrate_sensor(runs, code_version="1", created="now", moments=moments)
 
 
+@pytest.mark.long
 def test_recordings_together_teach_more_than_each(recorded: Path) -> None:
     """On days with offsets of their own, all four beat each alone; and every load direction is better known."""
     every = _calibrated(_runs(recorded))
@@ -59,6 +60,7 @@ def test_recordings_together_teach_more_than_each(recorded: Path) -> None:
     assert [i.experiment for i in every.provenance.intervals] == [run.experiment.name for run in _runs(recorded)]
 
 
+@pytest.mark.long
 def test_every_session_has_its_offset(days: Path) -> None:
     """Two days in one fit: their offsets differ by the change of the power-up, and have errors."""
     for file in VALIDATION:
@@ -75,6 +77,7 @@ def test_every_session_has_its_offset(days: Path) -> None:
     assert fitted.in_session("elsewhere") is fitted
 
 
+@pytest.mark.long
 def test_what_was_kept_of_recordings_gives_the_same_fit(recorded: Path, tmp_path: Path) -> None:
     """Moments in a file, with runs or alone, come to the matrix of the recordings themselves, to the digits of JSON."""
     runs = _runs(recorded)
@@ -167,6 +170,7 @@ def test_a_thesis_type_warns_where_loads_leave_it_alone(intact: Path) -> None:
     assert not [*fit_doubts(default.model_copy(update={"validity": excited}))]
 
 
+@pytest.mark.long
 def test_a_contact_that_nobody_stated_is_left_out_and_said(arm: Path, tmp_path: Path) -> None:
     """Three seconds with 24 N on the hand: counted, and named with their seconds in the artefact and its file."""
     file = edit(arm / PARQUET, "start_s = 14.5\nend_s = 23.5", "start_s = 23.5\nend_s = 23.9")

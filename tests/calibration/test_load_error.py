@@ -99,6 +99,7 @@ def test_the_scale_stays_open_where_nobody_weighed_a_load(unknown: tuple[LoadPro
     assert wider.error_covariance(push)[0, 0] > (5.0 * share) ** 2
 
 
+@pytest.mark.long
 def test_a_weighed_load_closes_it(unknown: tuple[LoadProblem, LoadSolution]) -> None:
     """With one stated load the masses of the others add next to nothing to the gain of forces."""
     errors = [load_error_of(solution) for solution in (unknown[1], _solution(weighed=True)[1])]
@@ -112,6 +113,7 @@ def test_loads_under_an_exact_matrix_carry_no_error(unknown: tuple[LoadProblem, 
     assert load_error_of(solve(replace(_problem(weighed=False), slope=()))) is None
 
 
+@pytest.mark.long
 def test_the_evidence_finds_the_mass_where_the_largest_density_does_not(
     unknown: tuple[LoadProblem, LoadSolution],
 ) -> None:

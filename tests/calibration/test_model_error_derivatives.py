@@ -31,6 +31,7 @@ from forcetorque.robot.model import RobotModel
 from forcetorque.robot.modified_robot import RobotErrors
 from tests.calibration.synthetic import LIMIT_COUNTS, PRIOR, anyhow, read_by
 from tests.calibration.synthetic import assumptions as assumed
+from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET
 
 HAND = ("hand", "tool")
@@ -103,6 +104,7 @@ def test_a_model_that_is_exact_has_no_columns(arm: Path) -> None:
     assert terms["zero of elbow"].deviation == pytest.approx(np.radians(0.5))
 
 
+@pytest.mark.long
 def test_a_model_may_be_off_where_the_file_says_nothing(arm: Path) -> None:
     """By the same tolerances as with an empty table."""
     silent, stated = _run(arm, ""), _run(arm)
@@ -135,6 +137,7 @@ def test_an_attached_load_is_no_error_of_a_link(arm: Path, load_kg: float) -> No
     assert np.abs(of_loaded["zero of wrist"]).max() > np.abs(of_bare["zero of wrist"]).max()
 
 
+@pytest.mark.long
 def test_recordings_with_and_without_tolerances_are_a_warning(arm: Path) -> None:
     """By the names of the intervals in which the model is taken as exact."""
     uncertain, exact = recording_moments(_run(arm))[0], recording_moments(_run(arm, EXACT))[0]
@@ -160,6 +163,7 @@ def test_a_tolerance_of_something_unknown_is_refused(arm: Path, key: str, known:
         _run(arm, f"tolerance = {{ {key} }}\n")
 
 
+@pytest.mark.long
 def test_stored_moments_carry_the_model(arm: Path) -> None:
     """A calibration from a file of moments is that from the recording, errors of the model included."""
     run = _run(arm)
@@ -189,7 +193,7 @@ def test_a_mass_that_is_wrong_is_named(arm: Path) -> None:
     assert error.value < -3.0 * error.tolerance
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("tolerance", "least_deg", "most_deg"),
     [
         ("mount_deg = 5.0", 0.0, 0.3),
@@ -300,7 +304,7 @@ def _written_out(means: WindowMeans, result: GenerativeFit, reading: FloatArray)
     return told @ mean, told @ covariance @ told.T
 
 
-@pytest.mark.parametrize("as_they_are", [True, False])
+@some_cases("as_they_are", [True, False])
 def test_rows_with_a_common_model_are_one_gaussian_inference(
     monkeypatch: pytest.MonkeyPatch, as_they_are: bool
 ) -> None:

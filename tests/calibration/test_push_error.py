@@ -88,6 +88,7 @@ def _ratios(case: Case) -> tuple[FloatArray, FloatArray]:
     return case.ratio(choice.fit.matrix), case.ratio(case.unfloored(choice).fit.matrix)
 
 
+@pytest.mark.long
 def test_a_push_that_was_not_recorded_reads_no_worse_than_before(alone: list[Case]) -> None:
     """With the thesis' type none of 16 cases is above 1.05.
 
@@ -103,6 +104,7 @@ def test_a_push_that_was_not_recorded_reads_no_worse_than_before(alone: list[Cas
     assert unfloored.max() > 4.0
 
 
+@pytest.mark.long
 def test_the_default_reads_such_a_push_better_and_knows_how_well(alone: list[Case]) -> None:
     """None of the same 16 is above 1.05, half of them err by less than a quarter, and nine of ten intervals hold.
 

@@ -103,6 +103,7 @@ def test_a_urdf_needs_one_fit(arm: Path, run: Run) -> None:
         read_model_errors("exact.json")
 
 
+@pytest.mark.long
 def test_the_urdf_does_not_replace_the_calibration(arm: Path, run: Run) -> None:
     """One name for both is refused, and the calibration stays; so is the URDF of the experiment."""
     file = _experiment(arm, 'urdf = "arm.urdf"\n').file

@@ -9,6 +9,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE
 from tests.calibration.generative.tools import Wrist
+from tests.cases import some_cases
 
 SPECIMENS = range(8)
 
@@ -22,7 +23,7 @@ def _errors(
     return np.array(after), np.array([wrist.push_error(wrist.prior) for wrist in wrists])
 
 
-@pytest.mark.parametrize(("length_m", "force_N"), [(0.067, 0.3), (0.1, 0.2), (0.3, 0.1)])
+@some_cases(("length_m", "force_N"), [(0.067, 0.3), (0.1, 0.2), (0.3, 0.1)])
 def test_one_tool_makes_a_push_read_better(length_m: float, force_N: float) -> None:
     """A push of 10 N errs by 0.45 N with the identity, 3 % off.
 
@@ -35,6 +36,7 @@ def test_one_tool_makes_a_push_read_better(length_m: float, force_N: float) -> N
     assert (after < before).all()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("accuracy", [0.0, ACCURACY_SHARE])
 def test_three_tools_tell_all_of_the_matrix(accuracy: float) -> None:
     """Means of 20 specimens: .004 N and .0003 N m; two tools leave .12 N and .14 N m."""

@@ -69,11 +69,13 @@ def test_a_turned_sensor_is_warned_of_and_estimated(tmp_path: Path) -> None:
     assert Calibration.model_validate_json(calibration.model_dump_json(by_alias=True)).mount is not None
 
 
+@pytest.mark.long
 def test_a_mount_as_stated_is_no_warning(tmp_path: Path) -> None:
     """Negative control."""
     assert _calibrated(_written(tmp_path, np.zeros(3))).warnings == ()
 
 
+@pytest.mark.long
 def test_a_calibration_fits_the_mount_that_it_was_made_with(tmp_path: Path) -> None:
     """The printed key is stated for other analyses; without it, or unknown, they refuse."""
     unknown = _written(tmp_path, TURN_DEG, mount='mount = "unknown"')

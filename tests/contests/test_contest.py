@@ -109,6 +109,7 @@ def test_rows_hold_together(answer: Contest) -> None:
     assert {line["row"] for line in answer.records()} == {"contestant", "pair"}
 
 
+@pytest.mark.long
 def test_loads_that_somebody_was_fitted_on_are_refused(entries: Entries) -> None:
     """By a run, by what is stated of a file; the message names who, the load and the run."""
     rng = np.random.default_rng(1)
@@ -199,6 +200,7 @@ def _bench(rng: np.random.Generator) -> BenchRecording:
     return BenchRecording.of(bench, measure_direction=direction, frame="child")
 
 
+@pytest.mark.long
 def test_a_workbench_and_a_file_meet_their_like(entries: Entries) -> None:
     """A bench beats what was bought; a file is what it was fitted as; weights of the bench may not judge."""
     bench = _method("bench", Method.WORKBENCH, bench=_bench(np.random.default_rng(2)))
@@ -220,6 +222,7 @@ def test_a_workbench_and_a_file_meet_their_like(entries: Entries) -> None:
         contest(replace(entries, runs=(*entries.runs[2:], heavy), contestants=(maker(THIRD), bench)))
 
 
+@pytest.mark.long
 def test_a_calibration_of_another_sensor_is_left_out(entries: Entries) -> None:
     """By its serial number, as everywhere."""
     fit = entries.runs[1].sensor_run(OURS, None)

@@ -28,6 +28,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place
 
 
+@pytest.mark.long
 def test_it_ranks_draws_and_goes_into_a_report(run: Run, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Table, figure, JSON and CSV; what lacks something is named; a report that is given the JSON draws it."""
     monkeypatch.chdir(folder)

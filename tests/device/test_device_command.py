@@ -58,6 +58,7 @@ def folder(design: DeviceDesign, tmp_path_factory: pytest.TempPathFactory) -> Pa
     return output
 
 
+@pytest.mark.long
 def test_it_draws(run: Run, tmp_path: Path) -> None:
     """The motion, what the sensor sees of it, what is swept, and errors of references."""
     asked = run("bench", "device", "--figures", tmp_path / "figures", "--details")
@@ -81,6 +82,7 @@ def test_it_writes_what_a_robot_and_a_calibration_need(folder: Path) -> None:
     assert set(read_urdf(folder / "device_35_kg.urdf").sensors) == {"ft_1"}
 
 
+@pytest.mark.long
 def test_two_loads_tell_the_matrix(run: Run, folder: Path, tmp_path: Path) -> None:
     """The experiment files are taken as they are, and the true matrix comes out."""
     asked = run("calibrate", str(folder / "35_kg.toml"), str(folder / "15_kg.toml"), "-o", str(tmp_path / "new.json"))
@@ -90,6 +92,7 @@ def test_two_loads_tell_the_matrix(run: Run, folder: Path, tmp_path: Path) -> No
     assert (np.abs(matrix - truth) / np.abs(truth).max(axis=1, keepdims=True)).max() < MATRIX
 
 
+@pytest.mark.long
 def test_the_documented_example_may_be_used(run: Run, folder: Path, tmp_path: Path) -> None:
     """Pushes err by 0.2 N; the accuracy of the reference, 0.9 N and 0.2 N m, is no error of 19 N."""
     new = tmp_path / "new.json"
@@ -107,6 +110,7 @@ def test_the_documented_example_may_be_used(run: Run, folder: Path, tmp_path: Pa
     assert np.sqrt((error**2).sum(axis=1).mean()) < force["after_at_most"] < force["allowed"]
 
 
+@pytest.mark.long
 def test_one_load_does_not(run: Run, folder: Path, tmp_path: Path) -> None:
     """Gravity makes no moment about the line through its two centres of mass: calibrate names it and stops."""
     asked = run("calibrate", str(folder / "35_kg.toml"), "-o", str(tmp_path / "new.json"))
@@ -115,6 +119,7 @@ def test_one_load_does_not(run: Run, folder: Path, tmp_path: Path) -> None:
     assert not (tmp_path / "new.json").exists()
 
 
+@pytest.mark.long
 def test_with_a_prior_one_load_is_taken(run: Run, tmp_path: Path) -> None:
     """The prior says what the load does not; gravity may come from an IMU."""
     simulation = (
@@ -164,6 +169,7 @@ def test_a_motion_of_ones_own(run: Run, tmp_path: Path) -> None:
     assert "it hangs at 81.0 deg and does not reach it" in asked.err
 
 
+@pytest.mark.long
 def test_the_example_with_a_third_lock_tells_all_with_one_load(run: Run, tmp_path: Path) -> None:
     """One load of 35 kg is enough, and what it tells holds for another load."""
     example = Path(__file__).parents[2] / "examples" / "20_device_third_lock.toml"

@@ -109,6 +109,7 @@ def test_budgets_are_by_joint_and_sensor(demands: DeviceDemands) -> None:
         assert max(one.force_N for one in single) < row.force_N < sum(one.force_N for one in single)
 
 
+@pytest.mark.long
 def test_a_weak_motor_and_a_motion_of_its_own(demands: DeviceDemands) -> None:
     """Negative controls: 60 N m bear less than 35 kg; half a swing with one load leaves directions untold."""
     up = tuple(DevicePosture(pitch_deg=pitch, yaw_deg=yaw) for pitch, yaw in ((-90.0, 0.0), (90.0, 0.0), (90.0, 90.0)))

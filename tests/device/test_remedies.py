@@ -118,6 +118,7 @@ def test_without_the_lock_at_minus_90_the_rank_is_5_again() -> None:
         third_lock_steps(DEVICE).require_possible(DEVICE, _options(35.0)["12 steps"].trajectories[0].load)
 
 
+@pytest.mark.long
 def test_requirement_1_is_not_met_in_every_direction() -> None:
     """By extents the device excites more than the workbench; by covariance it has .4 to .6 in its worst direction."""
     span = device_span(DEVICE, swaps=0)
@@ -147,6 +148,7 @@ def test_the_table_of_rest_agrees_with_the_robot_model() -> None:
     assert np.abs(table.loads(turned).wrench - known.wrench).max() > 1.0
 
 
+@pytest.mark.long
 def test_errors_on_held_out_loads_are_those_predicted() -> None:
     """A few seeds of the third lock: within the bar in the median, and of the predicted size."""
     errors = _errors("third lock", 8)
@@ -206,6 +208,7 @@ def test_the_12_steps_alone_have_errors_of_many_newtons() -> None:
     assert np.median(_errors("12 steps", 3)[:, 0]) > 30.0
 
 
+@pytest.mark.long
 def test_an_optimised_motion_keeps_to_time_torque_and_locks() -> None:
     """With few changes it is already no worse than the third lock in volume and in both mean squares."""
     third = _options(25.0)["third lock"].trajectories[0]

@@ -44,6 +44,7 @@ def test_the_file_holds_every_sample_with_units(arm: Path, run: Run) -> None:
     assert result["wrench_sources"] == {"arm_ft": "fitted.json"}
 
 
+@pytest.mark.long
 def test_text_holds_the_same_as_parquet(arm: Path, run: Run) -> None:
     """Both forms have the same columns and, to the last digit, the same numbers."""
     for name in ("out.parquet", "out.csv"):
@@ -85,6 +86,7 @@ def test_contacts_by_name(arm: Path, run: Run) -> None:
     assert ranks == {"base": 6, "arm_ft": 3, "tool_ft": 6}
 
 
+@pytest.mark.long
 def test_what_trades_off_is_said(arm: Path, run: Run) -> None:
     """With more unknowns than equations the groups are in the result and on the screen."""
     words = ("estimate", PARQUET, "-o", "o.csv", "--contacts", "hand", "--contacts", "forearm:force")
@@ -138,6 +140,7 @@ def test_a_calibration_of_another_sensor_is_refused(arm: Path, run: Run) -> None
     assert "SIM009" in run("estimate", PARQUET, "-o", "out.csv", "-c", "fitted.json").error()
 
 
+@pytest.mark.long
 def test_the_temperature_of_each_instant_is_used(warm: Path, run: Run) -> None:
     """The exact calibration finds that nothing touches; where the file states no temperature it is refused."""
     words = ("estimate", PARQUET, "-o", "out.csv", "--format", "json")

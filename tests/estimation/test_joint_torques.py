@@ -30,6 +30,7 @@ from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.mechanics.samples import robot_motion_at
 from forcetorque.robot.tree import build_tree
+from tests.cases import some_cases
 from tests.scenes.experiments import JOINTS, PARQUET, TWO, edit
 from tests.scenes.robots import joint_xml, link_xml
 
@@ -93,7 +94,7 @@ def _errors_of_the_estimator(experiment: Experiment, corrections: dict[str, Corr
     return {joint: (over.estimates.torque(joint) - model[joint])[later] for joint in JOINTS}
 
 
-@pytest.mark.parametrize("branch", [False, True], ids=["chain", "branch"])
+@some_cases("branch", [False, True], ids=["chain", "branch"])
 def test_with_measured_others_it_is_what_the_estimator_gives(arm: Path, branch: bool) -> None:
     """Mean, root mean square and largest error of each joint are those of `estimate`, whatever the other sensor does.
 

@@ -69,6 +69,7 @@ def test_the_report_shows_them(arm: Path) -> None:
     assert answer.model_dump(mode="json")["fusion"]["torques"]
 
 
+@pytest.mark.long
 def test_skin_makes_a_figure_without_fusion(tmp_path: Path) -> None:
     """Sensors and skin are then one source, with a band."""
     write_leg(tmp_path)
@@ -79,6 +80,7 @@ def test_skin_makes_a_figure_without_fusion(tmp_path: Path) -> None:
     assert len(figures(torque_section(answer))) == 1
 
 
+@pytest.mark.long
 def test_what_cannot_be_told_is_said(arm: Path) -> None:
     """It does not cost the document; a plain experiment has no section."""
     file = with_motors(arm)

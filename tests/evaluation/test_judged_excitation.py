@@ -71,6 +71,7 @@ def _rows(evaluation: Evaluation) -> list[tuple[float, bool]]:
     return [(row.force_error_mean_N, row.hardly_moved) for row in evaluation.verdicts if row.calibration == NAME]
 
 
+@pytest.mark.long
 def test_a_sensor_that_is_turned_and_judged_at_rest_is_said_to_be_judged_by_nothing(arm: Path) -> None:
     """Turned by 90 degrees it errs by some tenths of a newton at rest; negative control: in motion by tens."""
     moving = _run(arm)
@@ -96,6 +97,7 @@ def test_a_sensor_that_is_turned_and_judged_at_rest_is_said_to_be_judged_by_noth
     assert sum("hardly moved" in line.text for line in assess(still, {NAME: _turned(still)}).verdict) == 1
 
 
+@pytest.mark.long
 def test_the_excitation_is_that_of_the_reference(arm: Path) -> None:
     """Of all three components together, alike for all candidates; the load is the larger of judged and fitted."""
     run = _run(arm)

@@ -18,6 +18,7 @@ from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.icub_matrix import read_matrix_file
 from tests.app.outcome import typed
+from tests.cases import some_cases
 from tests.notebook import run_notebook, texts
 from tests.page_scripts import marked, printed
 from tests.scenes.device_designs import hardly_optimise
@@ -25,11 +26,18 @@ from tests.scenes.device_designs import hardly_optimise
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
+MARKED = [page for page in PAGES if marked(page.read_text(encoding="utf-8"))]
+SLOW = ("device.md", "demands.md", "python.md", "run.md", "span.md", "report.md")
+"""Pages whose scripts take some seconds."""
 NOTEBOOK = ROOT / "examples" / "14_from_arrays.ipynb"
 SCRIPTS = sorted((ROOT / "examples").glob("*.py"))
 LARGEST_NOTEBOOK = 100_000
 """Bytes, its picture included."""
 YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
+
+
+def _is_slow(page: Path) -> bool:
+    return page.name in SLOW
 
 
 def _block(name: str, page: str = README) -> str:
@@ -97,6 +105,7 @@ def test_the_readmes_script_runs(demo: tuple[Path, str], monkeypatch: pytest.Mon
     assert read_calibration(folder / "mine.json").sensor.serial == "SIM001"
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_the_notebook_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> None:
     """In an empty folder, cell by cell: it comes to the outputs that are stored in it, which are small.
@@ -147,7 +156,7 @@ def test_the_script_of_the_page_on_uses_runs(demo: tuple[Path, str], monkeypatch
 
 
 @pytest.mark.usefixtures("blank_pictures")
-@pytest.mark.parametrize("page", [page for page in PAGES if marked(page.read_text())], ids=lambda page: page.name)
+@some_cases("page", sorted(MARKED, key=_is_slow), quick=len(MARKED) - len(SLOW), ids=lambda page: page.name)
 def test_marked_scripts_of_pages_run(page: Path, demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
     """As they stand: what they name is there after the demonstration."""
     folder, _ = demo

@@ -16,8 +16,8 @@ ROOT = Path(__file__).resolve().parents[2]
 GUIDES = ROOT / "docs" / "guides"
 LONGEST = 60
 PAGES = (*sorted(GUIDES.glob("*.md")), ROOT / "docs" / "agents.md")
-FAST = ("wrist.md", "notebook.md", "agents.md")
-"""Pages that run in a few seconds."""
+FAST = ("wrist.md", "agents.md")
+"""Pages that run in a second."""
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ HIGHEST_PA = 1.5e5
 ABOVE_KPA, INSIDE_KPA, PRINTED_ABOVE_KPA = 25.0, 13.0, 1000.0
 """At most 0.25 bar above the fitted 1.5 bar, 0.13 bar inside; the fifth order has more than 10 bar above."""
 
-pytestmark = pytest.mark.real_data
+pytestmark = [pytest.mark.real_data, pytest.mark.long]
 
 
 @pytest.fixture(scope="module")

@@ -22,6 +22,7 @@ def _printed(number: int) -> list[str]:
     return [cell.strip() for cell in line.strip("|").split("|")][1:]
 
 
+@pytest.mark.long
 def test_the_example_comes_to_the_figures_of_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Tools and errors of three recordings; without the tools, the direction that stays with the prior."""
     folder = tmp_path / "simulated"

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "simulation.md"
 
@@ -21,6 +22,7 @@ def _names_after(heading: str) -> dict[str, Any]:
     return names
 
 
+@pytest.mark.long
 def test_the_script_on_contact_switching_runs() -> None:
     """Nothing is left of a reading but error and bias, and the share of the left foot goes from all to nothing."""
     names = _names_after("Contact switching")

@@ -76,6 +76,7 @@ def _load(text: str, data_dir: Path, tmp_path: Path) -> Experiment:
     return load_experiment(copy)
 
 
+@pytest.mark.long
 def test_three_clocks_of_a_wrist(data_dir: Path, tmp_path: Path) -> None:
     """Of the IMU's clock the shaking tells the delay; the mass is that of still poses but for what one turn misses."""
     text = (EXAMPLES / "25_wrist_clocks.toml").read_text()
@@ -89,6 +90,7 @@ def test_three_clocks_of_a_wrist(data_dir: Path, tmp_path: Path) -> None:
     assert load.mass_kg == pytest.approx(0.932, abs=0.04)
 
 
+@pytest.mark.long
 def test_slow_turns_tell_the_clock_of_the_arm(data_dir: Path, tmp_path: Path) -> None:
     """Each of two runs alone agrees with the other within their intervals, and by the IMU as by the sensor."""
     text = (EXAMPLES / "25_wrist_clocks.toml").read_text().replace("delay_s = 0.0", 'delay_s = "estimate"')
@@ -126,6 +128,7 @@ def _only(text: str, label: str) -> str:
     return "[[interval]]".join([head, *used])
 
 
+@pytest.mark.long
 def test_a_wrench_of_the_base_frame(data_dir: Path, tmp_path: Path) -> None:
     """Turned into the sensor, another series of poses agrees; along the axes as they are logged it does not."""
     text = (EXAMPLES / "26_wrist_base_frame.toml").read_text()

@@ -26,6 +26,7 @@ from forcetorque.inspection.plausibility.checks import examine
 from forcetorque.recording.recording import Use
 from forcetorque.recording.smoothing import smooth
 from forcetorque.robot.mechanics.samples import SensorSamples
+from tests.cases import some_cases
 from tests.page_scripts import printed
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -55,7 +56,7 @@ def _verdicts(path: Path, data_dir: Path) -> dict[tuple[str, str], CalibrationEr
     return {(v.calibration, v.offset): v for v in _evaluation(path, data_dir).verdicts}
 
 
-@pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
+@some_cases("path", YOGA, ids=lambda path: path.name)
 def test_no_worse_than_the_prior(path: Path, data_dir: Path) -> None:
     """On judged data neither force nor moment error is above that of the prior, with either offset."""
     verdicts = _verdicts(path, data_dir)
@@ -67,7 +68,7 @@ def test_no_worse_than_the_prior(path: Path, data_dir: Path) -> None:
         assert not any(row.conclusion == "worse" for row in _judgements(path, data_dir).values())
 
 
-@pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
+@some_cases("path", YOGA, ids=lambda path: path.name)
 def test_the_legs_log_raises_no_doubt(path: Path, data_dir: Path) -> None:
     """Fitted while it moves or is nearly static: the leg's sensor is one, and the masses beyond it are right."""
     experiment = _load(path, data_dir)
@@ -75,6 +76,7 @@ def test_the_legs_log_raises_no_doubt(path: Path, data_dir: Path) -> None:
     assert examine([part.data_set for part in parts], experiment.sensors[0].prior) == ()
 
 
+@pytest.mark.long
 def test_the_free_foots_log_is_in_doubt(data_dir: Path) -> None:
     """It reads a fifth less than the model: what is fitted to that makes its reading of the robot's weight worse."""
     experiment = _load(ROOT / "examples" / "10_icub_yoga_study.toml", data_dir)
@@ -84,6 +86,7 @@ def test_the_free_foots_log_is_in_doubt(data_dir: Path) -> None:
     assert "the gain changed by -2" in doubt.message
 
 
+@pytest.mark.long
 def test_a_quiet_half_still_teaches(data_dir: Path) -> None:
     """Nearly static data: .86 to .80 N with the fitted offset, .76 to .48 N with the mean of what is judged."""
     verdicts = _verdicts(YOGA[2], data_dir)
@@ -94,6 +97,7 @@ def test_a_quiet_half_still_teaches(data_dir: Path) -> None:
     assert new.force_error_mean_N < 0.65 * prior.force_error_mean_N
 
 
+@pytest.mark.long
 def test_the_edges_of_a_judged_interval_are_smoothed_as_its_middle_is(data_dir: Path) -> None:
     """Over 43 to 58 s, whole or in pieces, as a longer interval has it; cut there, the reading was off by 1 N."""
     experiment = _load(ROOT / "examples" / "10_icub_yoga_study.toml", data_dir)
@@ -127,6 +131,7 @@ def _judgements(path: Path, data_dir: Path) -> dict[tuple[str, str], PriorCompar
     return {(row.offset, row.quantity): row for row in _evaluation(path, data_dir).comparisons}
 
 
+@pytest.mark.long
 def test_the_reverse_is_better_where_the_offset_is_that_of_the_judged_half(data_dir: Path) -> None:
     """Force 3.8 to 1.1 N, better in every stretch: .30 of it. With the fitted offset one stretch is all there is."""
     rows = _judgements(YOGA[1], data_dir)
@@ -140,6 +145,7 @@ def test_the_reverse_is_better_where_the_offset_is_that_of_the_judged_half(data_
     assert rows["judged-mean", "force"].ratio == pytest.approx(0.30, abs=0.02)
 
 
+@pytest.mark.long
 def test_forward_with_the_offset_of_the_judged_half_is_not_better(data_dir: Path) -> None:
     """Negative control: .67 to .55 N, in some stretches more and in some less."""
     row = _judgements(YOGA[0], data_dir)["judged-mean", "force"]
@@ -156,6 +162,7 @@ def test_half_the_error_where_the_fitted_part_moves(data_dir: Path) -> None:
     assert verdicts["new", "fitted"].force_error_mean_N < 0.5 * verdicts["prior", "fitted"].force_error_mean_N
 
 
+@pytest.mark.long
 def test_the_prior_reproduces_the_known_error(data_dir: Path, tmp_path: Path) -> None:
     """The prior's error on unsmoothed data is what an independent static fit saw, 2.9 N forwards and 4.2 N back."""
     for path, seen in ((YOGA[0], 2.9), (YOGA[1], 4.2)):
@@ -172,6 +179,7 @@ def test_joints_that_the_sensor_does_not_need_may_be_absent(data_dir: Path) -> N
     assert set(experiment.recording.streams) == {"right_leg_ft", "left_leg", "right_leg"}
 
 
+@pytest.mark.long
 def test_the_curve_script_shows_every_lambda(data_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The example script prints a row per candidate and marks one."""
     copy = tmp_path / YOGA[0].name
@@ -183,6 +191,7 @@ def test_the_curve_script_shows_every_lambda(data_dir: Path, tmp_path: Path, mon
     assert len(shown.splitlines()) > 40
 
 
+@pytest.mark.long
 def test_nothing_touches_the_free_leg(data_dir: Path) -> None:
     """The contact of the free leg is small, and ten times larger while the floor is touched."""
     experiment = _load(ROOT / "examples" / "08_icub_yoga_contacts.toml", data_dir)

@@ -52,6 +52,7 @@ def _errors(matrix: FloatArray, offset: FloatArray, judged: DataSet) -> list[flo
     return [float(np.linalg.norm(one, axis=1).mean()) for one in (force, own_force, moment)]
 
 
+@pytest.mark.long
 def test_the_moving_leg_is_read_twice_as_well_where_it_was_not_fitted(data_dir: Path, tmp_path: Path) -> None:
     """Mean of four splits, raw and smoothed: 2.32 to 1.21 N as fitted, 1.81 to 1.02 N own offset, .206 to .159 N m.
 
@@ -115,6 +116,7 @@ def _stood_upon(accuracy: float, data_dir: Path, tmp_path: Path) -> tuple[FloatA
     return change[:3] - weight, np.sqrt(np.diag(predicted)[:3]), by_prior[:3] - weight
 
 
+@pytest.mark.long
 def test_a_foot_that_was_free_is_known_to_read_the_robot_badly(data_dir: Path, tmp_path: Path) -> None:
     """The fit makes it worse, 37 to 49 N (62 and 39 N with an accuracy of 0 and 2e-3), and says it: 28, 24 and 28 N.
 

@@ -17,6 +17,7 @@ SWITCHING = EXAMPLE.with_name("23_icub_yoga_switching.toml")
 pytestmark = pytest.mark.real_data
 
 
+@pytest.mark.long
 def test_four_sensors_come_out_of_one_stretch(data_dir: Path, tmp_path: Path) -> None:
     """Every part is closed better than by the priors, what stands on the leg counts, and what is open is said."""
     copy = tmp_path / EXAMPLE.name
@@ -32,6 +33,7 @@ def test_four_sensors_come_out_of_one_stretch(data_dir: Path, tmp_path: Path) ->
     assert result.warnings[0].startswith("stance gain not determined: ")
 
 
+@pytest.mark.long
 def test_the_misfit_of_the_model_is_not_taken_for_errors_of_the_matrices(data_dir: Path, tmp_path: Path) -> None:
     """On both feet, where nothing was fitted, the net force stays within 4 % of the weight (priors: 2.4 N).
 

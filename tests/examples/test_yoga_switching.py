@@ -14,7 +14,7 @@ from forcetorque.base.errors import ExperimentError
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "23_icub_yoga_switching.toml"
 
-pytestmark = pytest.mark.real_data
+pytestmark = [pytest.mark.real_data, pytest.mark.long]
 
 
 def test_the_feet_bear_the_weight_in_all_phases(data_dir: Path, tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ STANDING = {"l_ankle_roll", "l_ankle_pitch", "l_knee", "l_hip_yaw", "l_hip_roll"
 SHOWN = 0.005
 """N m: half of the last digit that docs/estimation/estimation.md prints."""
 
-pytestmark = pytest.mark.real_data
+pytestmark = [pytest.mark.real_data, pytest.mark.long]
 
 Key = tuple[str, Offset, str]
 

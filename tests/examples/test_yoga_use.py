@@ -43,6 +43,7 @@ def run(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> SensorRun:
     return SensorRun(load_experiment(file), "r_foot_ft_sensor")
 
 
+@pytest.mark.long
 def test_a_foot_that_was_free_is_not_to_be_stood_upon(run: SensorRun, data_dir: Path, tmp_path: Path) -> None:
     """Without a stated use it is asked for the weight of the robot: not enough data; the 99 % interval holds the truth.
 

@@ -162,6 +162,7 @@ def test_a_use_that_no_file_has_is_refused(recorded: Path) -> None:
         _campaign(recorded, CALIBRATION).samples(Use.VALIDATION)
 
 
+@pytest.mark.long
 def test_the_artefact_says_what_lambda_was_chosen_on(recorded: Path) -> None:
     """Whole recordings where there are several, else pieces of the one."""
     options = {"regularisation": "held-out", "kind": ESTIMATION_TYPES["OnTdTO"], "code_version": "1", "created": "now"}

@@ -26,6 +26,7 @@ from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import ARM_URDF
+from tests.cases import some_cases
 
 SECONDS, BEGIN_S = 40.0, 3.0
 BEYOND, SENSOR = "upper_arm", "arm_ft"
@@ -232,9 +233,7 @@ def test_the_motion_of_the_sensor_tells_where_the_model_knows_of_no_mass() -> No
     assert abs(with_load.delay_s - 0.08) < 2.0 * with_load.delay_half_width_s
 
 
-@pytest.mark.parametrize(
-    "name", ["gyro and orientation", "wrench and accelerometer", "joints and wrench of an unknown load"]
-)
+@some_cases("name", ["gyro and orientation", "wrench and accelerometer", "joints and wrench of an unknown load"])
 def test_noise_of_an_arm_at_rest_tells_no_clock(name: str) -> None:
     """Negative control."""
     with pytest.raises(RecordingError, match=r"clock\[0\]: .*(the delay is not identifiable|lies at the end)"):

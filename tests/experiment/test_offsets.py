@@ -111,6 +111,7 @@ def test_an_offset_needs_samples() -> None:
     np.testing.assert_array_equal(mean_offset(gap), [2.0, 3.0])
 
 
+@pytest.mark.long
 def test_the_interval_of_an_offset_holds_it() -> None:
     """In noise that is white and slow: 95 % intervals hold the truth in 92 to 98 %; of white noise alone too few."""
     rng, inside, naive = np.random.default_rng(5), 0, 0

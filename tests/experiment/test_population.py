@@ -62,6 +62,7 @@ def test_what_is_not_there_is_named(tmp_path: Path) -> None:
         read_population([tmp_path])
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_real_sensors_are_told_from_wrongly_wired_ones(data_dir: Path) -> None:
     """Each of 32 factory matrices is far nearer to the others than it would be with two channels swapped."""

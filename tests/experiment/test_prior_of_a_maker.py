@@ -18,6 +18,7 @@ from forcetorque.formats.icub_matrix import encode_matrix
 from forcetorque.formats.prior.firmware_updater import FirmwareFile, write_firmware_file
 from forcetorque.formats.prior.matrix_files import PolynomialModel, write_polynomial_model
 from forcetorque.formats.prior.registry import read_prior_file
+from tests.cases import some_cases
 from tests.scenes.tutorial_log import distortion, motion, robot_text, truth
 
 VOLTS_PER_COUNT = 20.0 / 65536.0
@@ -109,7 +110,7 @@ def _judged(file: Path) -> tuple[float, float]:
 
 
 @pytest.mark.real_data
-@pytest.mark.parametrize(("name", "serial"), [("FT35366.cal", "FT35366"), ("FT11712.cal", "FT11712")])
+@some_cases(("name", "serial"), [("FT35366.cal", "FT35366"), ("FT11712.cal", "FT11712")])
 def test_an_ati_file_is_the_prior_of_gauges(data_dir: Path, tmp_path: Path, name: str, serial: str) -> None:
     """Its volts become counts; a sensor that is 3 % off is calibrated from there, and its full scale is the maker's."""
     (tmp_path / name).write_bytes((data_dir / "ati_cal" / name).read_bytes())

@@ -360,6 +360,7 @@ def _samples(arm: Path) -> int:
     return sum(len(one.raw) for one in SensorRun(experiment, experiment.sensors[0]).samples(Use.CALIBRATION))
 
 
+@pytest.mark.long
 def test_a_planted_delay_of_a_sensor_is_taken_back(arm: Path) -> None:
     """Against what joints and model demand, with its interval, for inspect, calibrate and Python."""
     _late(arm, 40_000_000)

@@ -51,6 +51,7 @@ def _fitted(run: SensorRun, regularisation: float) -> Calibration:
     return calibrate_sensor(run, code_version="1", created="2020-01-01T00:00:00+00:00", regularisation=regularisation)
 
 
+@pytest.mark.long
 def test_all_questions_about_a_sensor_compute_samples_and_motion_once(run: SensorRun, calls: dict[str, int]) -> None:
     """One interval to fit and one to judge, however many candidates; a run of its own for each would not do so."""
     calibrations = {f"{k}.json": _fitted(run, 10.0**k) for k in range(4)}
@@ -81,6 +82,7 @@ def test_much_work_in_all_intervals_together_is_compiled(run: SensorRun, monkeyp
         SensorRun(run.experiment, "arm_ft").samples(Use.VALIDATION)
 
 
+@pytest.mark.long
 def test_answers_do_not_depend_on_what_was_asked_before(run: SensorRun) -> None:
     """To the last digit: evaluation and validation by a run that has answered everything else."""
     calibrations = {"new.json": _fitted(run, 5.0)}

@@ -59,6 +59,7 @@ def _bias(run: SensorRun, calibration: Calibration) -> dict[str, FloatArray]:
     return {row.calibration: row.bias for row in rows if row.offset == "fitted"}
 
 
+@pytest.mark.long
 def test_the_offset_of_the_session_is_used_and_of_no_other(arm: Path, fitted: Calibration) -> None:
     """Calibration and prior alike are a step away in the session, and as they were where it is another's."""
     edit(arm / PARQUET, 'label = "judge"\n', 'label = "judge"\nsession = "day 2"\n')
@@ -70,6 +71,7 @@ def test_the_offset_of_the_session_is_used_and_of_no_other(arm: Path, fitted: Ca
             assert np.allclose(shifted[candidate] - bias, step, rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.long
 def test_a_recording_without_a_session_is_found_by_its_name(arm: Path, fitted: Calibration) -> None:
     """Also by the name that told it from others in the campaign; the file's name comes before the experiment's."""
     run = _run(arm)

@@ -88,6 +88,7 @@ def test_each_recording_has_the_errors_that_it_has_alone(recorded: Path, fitted:
     assert all(np.abs(row.bias).max() < ROUNDING for row in removed)
 
 
+@pytest.mark.long
 def test_calibrations_are_compared_with_their_priors_over_all_recordings(recorded: Path, fitted: Calibration) -> None:
     """Each is cut by itself: stretches add up; contact forces are compared over both too."""
     pooled = evaluate(two_days(recorded), {NAME: fitted}).comparisons

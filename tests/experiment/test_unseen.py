@@ -19,6 +19,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Stream
+from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET, edit
 
 FITTED = "was fitted on the interval 'fit', which overlaps the validation interval 'judge'"
@@ -59,6 +60,7 @@ def _with_other_noise(stream: Stream) -> Stream:
     return replace(stream, signals=signals)
 
 
+@pytest.mark.long
 def test_fitted_readings_are_known_under_other_stamps_and_names(arm: Path) -> None:
     """Of a log that was exported again, with stamps from another origin, cut, and under another name."""
     fitted = _fitted(arm)
@@ -73,7 +75,7 @@ def test_fitted_readings_are_known_under_other_stamps_and_names(arm: Path) -> No
     assert evaluate(_run(arm), {"new": fitted}).verdicts
 
 
-@pytest.mark.parametrize("from_zero", [True, False])
+@some_cases("from_zero", [True, False])
 def test_other_readings_with_the_same_stamps_were_not_fitted(arm: Path, from_zero: bool) -> None:
     """Where logs count from their start, as with a rate; a time of day that is the same is the same log."""
     if from_zero:

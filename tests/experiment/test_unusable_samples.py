@@ -78,6 +78,7 @@ def test_what_says_nothing_of_the_load_is_not_fitted(arm: Path) -> None:
         assert np.abs(fit.matrix - _fitted(plain, **options).matrix).max() > 0.0
 
 
+@pytest.mark.long
 def test_the_counts_are_in_table_json_and_files(arm: Path, tmp_path: Path) -> None:
     """Calibration file and moments read back; the table and the JSON of results name interval and kind."""
     run = SensorRun(_damaged(load_experiment(arm / PARQUET)), "arm_ft")
@@ -96,6 +97,7 @@ def test_the_counts_are_in_table_json_and_files(arm: Path, tmp_path: Path) -> No
         assert json.loads(result.json_text())["unusable_samples"][1]["frozen"] == 50
 
 
+@pytest.mark.long
 def test_what_is_frozen_is_not_judged(arm: Path) -> None:
     """Errors are those of a log that lacks the frozen second."""
     plain = load_experiment(arm / PARQUET)

@@ -108,6 +108,7 @@ def test_a_load_that_was_not_fitted_is_named_with_its_predicted_error(arm: Path,
     assert "predicted" not in plain[0]
 
 
+@pytest.mark.long
 def test_every_question_gives_the_same_answer(arm: Path) -> None:
     """Evaluate, validate, accept and assess: one row each, and its sentence among the warnings once."""
     calibration = _fitted(arm)
@@ -130,6 +131,7 @@ def test_every_question_gives_the_same_answer(arm: Path) -> None:
     assert not evaluate(run, {}).validity  # a prior was fitted to nothing
 
 
+@pytest.mark.long
 def test_estimates_have_a_flag_per_sample(arm: Path) -> None:
     """In the table as often as the summary says; a gap has neither; without a calibration there is no column."""
     experiment, file = load_experiment(arm / PARQUET), arm / "estimates.parquet"

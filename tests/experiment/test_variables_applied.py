@@ -97,6 +97,7 @@ def test_a_verdict_takes_the_temperature_of_the_judged_samples(
     assert np.abs(wrong - part.samples.reference).max() > 1.0  # negative control: the temperature matters there
 
 
+@pytest.mark.long
 def test_a_verdict_does_not_depend_on_who_is_judged_beside(
     warm_log: Path, with_temperature: Calibration, without: Calibration
 ) -> None:

@@ -53,6 +53,7 @@ def test_two_writers_of_one_recording_agree(arm: Path) -> None:
     assert [f.kind for f in by_library.findings] == [f.kind for f in by_tests.findings]
 
 
+@pytest.mark.long
 def test_a_written_log_calibrates_as_the_recording_itself(arm: Path) -> None:
     """The matrix through wrenches, degrees and text is that of the counts, far within its standard error."""
     write_ports(arm / "written", _sent(arm), PORTS)

@@ -13,10 +13,14 @@ import pytest
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.registry import LOG_FORMATS, format_name
 from forcetorque.formats.ros.log_format import RosFormat
+from tests.cases import some_cases
 from tests.formats.fuzzed import CASES, SLOWEST_S, Processes, array_case, damaged
 from tests.formats.ros import test_log_format as ros
 from tests.formats.ros.bags import write_bag
 from tests.fuzzing import sampled
+
+SLOW = ("packed sqlite3", "packed mcap", "index", "matlab 7.3", "hdf5 of other files")
+"""Forms of files that take seconds; other forms of the same readers stand for them in the quick run."""
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +32,7 @@ def processes() -> Iterator[Processes]:
 
 
 @pytest.mark.fuzz
-@pytest.mark.parametrize("name", CASES)
+@some_cases("name", sorted(CASES, key=SLOW.__contains__), quick=len(CASES) - len(SLOW))
 def test_damaged_files_are_refused_or_read(
     tmp_path: Path, name: str, processes: Processes, request: pytest.FixtureRequest
 ) -> None:

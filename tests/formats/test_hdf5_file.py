@@ -18,6 +18,7 @@ from forcetorque.formats.hdf5_file import dataset_numbers, not_in_file, opened_h
 from forcetorque.formats.log_format import SketchingFormat
 from forcetorque.formats.registry import recognised_format
 from forcetorque.formats.robometry.log_format import RobometryFormat
+from tests.cases import some_cases
 from tests.formats.array_file import test_hdf5_and_npz as arrays
 from tests.formats.robometry import test_log_format as robometry
 from tests.formats.robometry.logger import write_log
@@ -153,7 +154,7 @@ def test_a_dataset_of_the_file_is_read(others: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", ELSEWHERE)
-@pytest.mark.parametrize("part", ["data", "timestamps", "units_of_measure"])
+@some_cases("part", ["data", "timestamps", "units_of_measure"])
 def test_a_log_of_robometry_names_no_other_file(others: Path, part: str, kind: str) -> None:
     """Neither its samples nor its times or labels are followed out of the file, nor the group of a channel."""
     path = write_log(others / "log.mat", robometry.LEAVES)

@@ -90,6 +90,7 @@ def test_what_calibrate_only_warns_of_is_no_fault(kind: str) -> None:
     assert inspection_answer(inspection).verdict == "REMARKS"
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_a_foot_of_which_the_gain_is_doubted_is_not_called_faulty(run: Run, data_dir: Path, tmp_path: Path) -> None:
     """Its matrix bears the robot's weight within a percent: that `calibrate` doubts its gain is a remark."""

@@ -107,6 +107,7 @@ def test_a_dead_channel_is_named_and_leaves_the_others_theirs(tmp_path: Path, va
     assert next(inspection.answers()).verdict == f"200 Hz, {verdict}"
 
 
+@pytest.mark.long
 def test_white_noise_has_a_drift_in_one_of_twenty_logs_at_most() -> None:
     """The half-widths are those of all six components at once: 95 % of 200 logs have none beyond its own."""
     stamps = np.arange(220, dtype=np.int64) * 50_000_000

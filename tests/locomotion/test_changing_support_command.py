@@ -64,6 +64,7 @@ def test_inspect_compares_only_where_the_reading_is_known(inside: Path, run: Run
             assert not (row["start_s"] or -1.0) > phase["start_s"] or row["start_s"] > phase["end_s"]
 
 
+@pytest.mark.long
 def test_one_sensor_is_calibrated_and_judged_over_its_known_phases(inside: Path, tmp_path: Path, run: Run) -> None:
     """Fitted on the first day it is far better than its prior on the second; others follow."""
     fitted = tmp_path / "leg.json"
@@ -90,6 +91,7 @@ def test_one_sensor_is_calibrated_and_judged_over_its_known_phases(inside: Path,
     assert run("export", fitted, "--to", "wholebodydynamics", "-o", tmp_path / "export").code == 0
 
 
+@pytest.mark.long
 def test_both_feet_down_without_touched_are_refused_by_name(inside: Path, tmp_path: Path, run: Run) -> None:
     """Where the other foot is a contact beside a support at rest, a fit that cannot be says what may have touched."""
     text = (inside / "switching_day1.toml").read_text(encoding="utf-8")
@@ -104,6 +106,7 @@ def test_both_feet_down_without_touched_are_refused_by_name(inside: Path, tmp_pa
     assert not (tmp_path / "leg.json").exists()
 
 
+@pytest.mark.long
 def test_all_sensors_are_calibrated_jointly_over_all_phases(inside: Path, tmp_path: Path, run: Run) -> None:
     """Double supports count, too, for parts that nothing touches."""
     outcome = run("calibrate", "switching_day1.toml", "--jointly", "-o", tmp_path / "joint")
@@ -127,6 +130,7 @@ def test_one_leg_is_calibrated_jointly_where_it_hangs_or_bears_alone(inside: Pat
     assert [interval.label for interval in read_calibration(file).provenance.intervals] == KNOWN
 
 
+@pytest.mark.long
 def test_estimate_finds_the_feet_of_each_phase(inside: Path, tmp_path: Path, run: Run) -> None:
     """Contacts of an interval are the links that touch in it."""
     result = run("estimate", "switching_day2.toml", "-o", tmp_path / "est.parquet", "--format", "json").result()
@@ -135,6 +139,7 @@ def test_estimate_finds_the_feet_of_each_phase(inside: Path, tmp_path: Path, run
     assert feet == {("hanging", "torso"), ("l_sole", "l_sole"), ("r_sole", "r_sole"), *both}
 
 
+@pytest.mark.long
 def test_sphere_takes_one_side_of_the_sensor(inside: Path, run: Run) -> None:
     """All phases have not the same mass on it; one has, and double support is refused by name."""
     assert (
@@ -158,6 +163,7 @@ def test_sphere_takes_one_side_of_the_sensor(inside: Path, run: Run) -> None:
     assert "by [[contact]] or contact_links r_sole does in every one" in refused.err
 
 
+@pytest.mark.long
 def test_gains_and_view_take_it(inside: Path, tmp_path: Path, run: Run) -> None:
     """Head-room of the channels, and a page whose robot changes its support."""
     assert run("bench", "gains", "switching_day1.toml").code == 0

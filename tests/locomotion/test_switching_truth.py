@@ -54,6 +54,7 @@ def _read_by(matrix: FloatArray, offset: FloatArray) -> Correction:
     return Correction(model=WrenchModel(matrix=matrix, offset=offset), source="a test", matrix_source="a test")
 
 
+@pytest.mark.long
 def test_perfect_sensors_find_all_contacts(
     written: tuple[Experiment, Recording, Mapping[str, SimulatedSensor]],
 ) -> None:

@@ -32,6 +32,7 @@ def _why(weighed: WeighedLoad) -> str:
     return "\n".join(answer.why)
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_one_recording_does_not_know_the_bias_of_another_day(data_dir: Path, tmp_path: Path) -> None:
     """Intervals from poses hold few of the biases that three runs have under the same load."""

@@ -24,6 +24,7 @@ EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "27_arm_and_tools.p
 UR5 = "ur_description/urdf/ur5_robot.urdf"
 
 
+@pytest.mark.long
 def test_a_calibration_does_not_take_an_estimated_tool_for_known(arm: tuple[Path, np.ndarray], tmp_path: Path) -> None:
     """The predicted error of a push where the tool's centre of mass is has the share by which its mass is open.
 

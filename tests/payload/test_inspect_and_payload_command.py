@@ -19,6 +19,7 @@ from forcetorque.payload.identify import weigh_load
 from forcetorque.recording.storage import read_recording, write_recording
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.results.showing import require_shown
 from tests.scenes.experiments import FT_LOG, MOUNTED, PARQUET, RATE_HZ, YARP, edit_lines
 from tests.scenes.wrist_postures import write_postures
@@ -109,7 +110,7 @@ def test_nothing_to_inspect_is_an_error(arm: Path, run: Run) -> None:
 
 
 @pytest.mark.real_data
-@pytest.mark.parametrize("example", ["02_icub_yoga_forward.toml", "04_icub_yoga_quiet.toml"])
+@some_cases("example", ["02_icub_yoga_forward.toml", "04_icub_yoga_quiet.toml"])
 def test_the_yoga_log_tells_its_story(run: Run, data_dir: Path, tmp_path: Path, example: str) -> None:
     """Contact before 17 s and after 62 s, steps of fx at 22.5 and 58.5 s, fy off at 24-30 s, nothing in 32-58 s."""
     path = tmp_path / example
@@ -133,6 +134,7 @@ def test_the_yoga_log_tells_its_story(run: Run, data_dir: Path, tmp_path: Path, 
     assert not [f for f in timed if f["start_s"] < 58.0 and f["end_s"] > 32.0]
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_calibrate_warns_of_doubtful_samples(run: Run, data_dir: Path, tmp_path: Path) -> None:
     """What inspect finds inside a fitted interval is a warning; the quiet part has none."""
@@ -231,6 +233,7 @@ def test_a_log_of_a_stated_format_is_described(arm: Path, run: Run) -> None:
     assert "expected a bag of ROS" in run("inspect", arm / "table.csv", "--log-format", "ros").error()
 
 
+@pytest.mark.long
 def test_a_mass_below_zero_is_refused(run: Run, tmp_path: Path) -> None:
     """With what the measurements say is wrong; the same file without the fault has an answer and exit code 0."""
     path = write_postures(tmp_path, seed=6, postures=POSTURES, known=False)

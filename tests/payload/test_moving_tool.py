@@ -10,6 +10,7 @@ import pytest
 
 from forcetorque.app.python.experiment import load_experiment
 from forcetorque.payload.result import WeighedLoad
+from tests.cases import some_cases
 from tests.scenes.moving_tool import BIAS, CENTRE, INERTIA, MASS, write_moving_tool
 
 SPEEDS = (1.0, 3.0, 7.0)
@@ -34,7 +35,7 @@ def _deviations(weighed: WeighedLoad) -> np.ndarray:
     return np.asarray((np.concatenate(values) - truth) / np.concatenate(halves), dtype=np.float64)
 
 
-@pytest.mark.parametrize("speed", SPEEDS)
+@some_cases("speed", SPEEDS)
 def test_the_load_of_a_fast_arm_is_right(tmp_path: Path, speed: float) -> None:
     """Mass, centre of mass, inertia and bias lie within twice their intervals, and nothing is named.
 

@@ -73,6 +73,7 @@ def _names(weighed: WeighedLoad) -> list[str]:
     return [one.name for one in weighed.hypotheses]
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_a_hundred_poses_drift_and_jump(axia: dict[str, SensorRun]) -> None:
     """1.24 kg without drift, 1.18 kg with, by plain least squares; held-out rows take it, and the jump is named."""

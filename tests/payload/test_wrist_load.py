@@ -114,6 +114,7 @@ def test_the_load_is_estimated_on_the_calibration_poses(tmp_path: Path) -> None:
     np.testing.assert_allclose(session.bias, BIAS, atol=4 * NOISE.max())
 
 
+@pytest.mark.long
 def test_a_tilt_that_is_asked_for_stands_in_answer_and_details(tmp_path: Path) -> None:
     """A world that is level, by orientations: no tilt, with its interval."""
     path = write_postures(tmp_path, seed=5, postures=Rotation.random(8, random_state=4), known=False)
@@ -156,6 +157,7 @@ def test_a_load_that_samples_agree_on_may_be_written(tmp_path: Path) -> None:
     assert "--to" not in answer.command
 
 
+@pytest.mark.long
 def test_a_load_with_contact_in_its_samples_is_not_offered_to_the_robot(tmp_path: Path) -> None:
     """The first reason says how many samples disagree, and the next step names the session of most of them."""
     fitted = '[[interval]]\nlabel = "{0}"\nstart_s = {1}\nend_s = {2}\nuse = "calibration"\nsession = "{0}"\n'
@@ -169,6 +171,7 @@ def test_a_load_with_contact_in_its_samples_is_not_offered_to_the_robot(tmp_path
     assert answer.command == typed("inspect", EXPERIMENT)
 
 
+@pytest.mark.long
 def test_recordings_that_disagree_are_the_first_reason(tmp_path: Path) -> None:
     """Also where no sample of either does."""
     words = "a and b disagree beyond their intervals: mass by 0.1 kg, where 0.02 are expected"
@@ -178,6 +181,7 @@ def test_recordings_that_disagree_are_the_first_reason(tmp_path: Path) -> None:
     assert "--to" not in answer.command
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("half_width", "is_stated"), [(0.001, True), (0.01, False)])
 def test_a_fitted_drift_beyond_its_half_width_is_a_reason(
     tmp_path: Path, half_width: float, *, is_stated: bool
@@ -247,6 +251,7 @@ def test_a_load_that_is_not_determined_does_not_stop_who_does_not_need_it(tmp_pa
         calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created="now")
 
 
+@pytest.mark.long
 def test_samples_that_lack_something_are_left_out_and_counted(tmp_path: Path) -> None:
     """Two poses without a reading are no part of the answer, and a warning says so."""
     path = _write(tmp_path)
@@ -273,6 +278,7 @@ mass_kg = 1.1
 """
 
 
+@pytest.mark.long
 def test_intervals_say_which_load_hangs(tmp_path: Path) -> None:
     """Two tables, one of whose masses is stated; each interval has its own reference."""
     head, tail = TEXT.split("[load]")[0], TEXT[TEXT.index("[recording]") :]
@@ -309,6 +315,7 @@ def test_loads_that_contradict_are_refused(tmp_path: Path, old: str, new: str, m
         load_experiment(_write(tmp_path, text=text.replace(old, new)))
 
 
+@pytest.mark.long
 def test_a_known_wrench_is_a_reference(tmp_path: Path) -> None:
     """Wrenches by dead weights in the log take the place of mass and motion; there is then nothing to weigh."""
     distorted = np.eye(6) + 0.1 * np.diag(np.random.default_rng(2).normal(size=6))
@@ -490,6 +497,7 @@ def test_what_contradicts_is_refused(tmp_path: Path, old: str, new: str, match: 
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("old", "new", "match"),
     [
@@ -522,6 +530,7 @@ def test_a_calibration_says_which_statement_the_readings_contradict(
     assert any("the sensor is turned against the axes of the motion" in words for words in doubts) == contradicted
 
 
+@pytest.mark.long
 def test_a_bias_that_steps_is_said_and_does_not_speak_against_the_calibration(tmp_path: Path) -> None:
     """`calibrate` warns of it; in the file, of which verdicts are made, it is no doubt: the load is hardly changed."""
     path = _write(tmp_path)
@@ -547,6 +556,7 @@ def test_the_sense_of_a_reading_is_compared_once_for_a_fit(tmp_path: Path, monke
     assert asked == [run]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("full_scale", "heavy"), [("100.0, 100.0, 200.0", False), ("8.0, 8.0, 8.0", True)])
 def test_a_load_that_weighs_more_than_its_sensor_reads_is_named(tmp_path: Path, full_scale: str, heavy: bool) -> None:
     """A weight of 10.8 N."""
@@ -555,6 +565,7 @@ def test_a_load_that_weighs_more_than_its_sensor_reads_is_named(tmp_path: Path, 
     assert [("kg weigh 10.8 N, and the sensor reads 8 N at most" in words) for words in doubts] == [True] * heavy
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_the_real_wrist_example(data_dir: Path, tmp_path: Path) -> None:
     """Sixteen poses of a real sensor give 0.932 kg; on the eight others the force is right to 0.2 N."""

@@ -43,6 +43,7 @@ def test_what_is_expected_is_what_a_calibration_from_them_says(motions: list[Exp
     )
 
 
+@pytest.mark.long
 def test_the_first_is_the_best_by_itself(motions: list[Experiment]) -> None:
     """Each recording alone comes to no less than the one that is named first; the steps follow one another."""
     plan = plan_jointly(motions)
@@ -55,6 +56,7 @@ def test_the_first_is_the_best_by_itself(motions: list[Experiment]) -> None:
     assert plan.steps[0].excess_after < 0.5 * plan.steps[0].excess_before
 
 
+@pytest.mark.long
 def test_what_adds_nothing_is_named(motions: list[Experiment]) -> None:
     """The advice names what helps, and what does not."""
     plan = plan_jointly(motions)

@@ -130,6 +130,7 @@ def test_the_sentence_says_what_to_record_first_and_what_it_brings(planned: Plan
     assert "recording 2: positions" in planned.text()
 
 
+@pytest.mark.long
 def test_before_any_recording_the_plan_is_that_from_the_prior(arm: Path) -> None:
     """A file without recording, intervals and streams gives the same; other commands say what is missing."""
     new, old = plan(_unrecorded(arm), recordings=1, seconds=30.0), plan(_run(arm), recordings=1, seconds=30.0)
@@ -139,6 +140,7 @@ def test_before_any_recording_the_plan_is_that_from_the_prior(arm: Path) -> None
         load_experiment(arm / "new.toml")
 
 
+@pytest.mark.long
 def test_a_clock_belongs_to_what_was_recorded(arm: Path) -> None:
     """It changes no plan and is said; where nothing was recorded it is refused by its name."""
     clock = '\n[[clock]]\nstream = "arm_ft"\nto = "joints"\ndelay_s = 0.0\n'
@@ -165,6 +167,7 @@ def test_a_full_scale_alone_is_enough_to_begin_with(arm: Path) -> None:
     assert first.force_after_N < first.force_before_N
 
 
+@pytest.mark.long
 def test_a_calibration_is_where_the_plan_begins(arm: Path) -> None:
     """Its predicted error stands before the first recording; nothing is assumed of the noise."""
     from forcetorque.evaluation.load_cases.load_case import operating_load_cases
@@ -179,6 +182,7 @@ def test_a_calibration_is_where_the_plan_begins(arm: Path) -> None:
     assert not any("nothing was recorded" in sentence for sentence in planned.limits)
 
 
+@pytest.mark.long
 def test_a_stiff_limb_leaves_directions_to_the_prior_and_says_so(arm: Path) -> None:
     """One centre of mass spans three directions; after one recording a second brings nothing, and the reason is named.
 
@@ -204,6 +208,7 @@ def test_where_nothing_helps_the_plan_says_so(arm: Path) -> None:
     assert planned.advice.startswith("nothing within these limits helps: the best recording of ")
 
 
+@pytest.mark.long
 def test_temperatures_are_gone_through_where_the_use_changes_them(arm: Path) -> None:
     """A use at other temperatures asks for a recording that warms up; one at the same does not."""
     variable = 'prior = "matrix_SIM001.txt"\nvariable = [{ name = "temperature" }]'

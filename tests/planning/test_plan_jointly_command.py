@@ -26,6 +26,7 @@ def test_recordings_are_ordered(days: Path, run: Run) -> None:
     assert faults({**result, "steps": "none"}, schema)
 
 
+@pytest.mark.long
 def test_people_see_steps_and_sensors(days: Path, run: Run) -> None:
     """Two tables and a sentence."""
     text = run(*WORDS, "--details").out

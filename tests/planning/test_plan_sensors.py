@@ -237,6 +237,7 @@ def test_two_tools_teach_what_a_stiff_arm_does_not(tmp_path: Path, seeds: range)
         assert all(errors[tools, k].within >= 0.8 for k in (1, 2, 3))
 
 
+@pytest.mark.long
 def test_postures_all_alike_leave_the_error_of_the_prior(tmp_path: Path) -> None:
     """Negative control: as long as a planned recording, and at rest in one posture, nothing is learnt."""
     leg = Leg()

@@ -99,6 +99,7 @@ def test_a_planted_delay_is_within_its_interval(delay_s: float) -> None:
     assert delay.explained > 0.9
 
 
+@pytest.mark.long
 def test_a_drift_is_estimated_with_the_delay_or_said_to_be_there() -> None:
     """The delay is that in the middle of the reading."""
     delay = planted(2, delay_s=0.05, drift=1e-3, with_drift=True)
@@ -107,6 +108,7 @@ def test_a_drift_is_estimated_with_the_delay_or_said_to_be_there() -> None:
     assert planted(2, delay_s=0.05, drift=1e-3).drifts
 
 
+@pytest.mark.long
 def test_a_far_delay_is_found_where_it_is_looked_for() -> None:
     """Beyond the search it is refused, not taken from its end."""
     assert planted(3, delay_s=1.3, around_s=1.2).delay_s == pytest.approx(1.3, abs=0.005)
@@ -114,6 +116,7 @@ def test_a_far_delay_is_found_where_it_is_looked_for() -> None:
         planted(3, delay_s=1.3)
 
 
+@pytest.mark.long
 def test_no_motion_tells_no_delay() -> None:
     """Negative control: noise beside noise, refused whatever its seed."""
     for seed in range(4):

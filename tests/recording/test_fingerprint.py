@@ -37,6 +37,7 @@ def test_samples_are_known_again(written: object) -> None:
     assert _found(values, written(values)) > 0  # type: ignore[operator]
 
 
+@pytest.mark.long
 def test_other_samples_of_the_same_motion_are_others() -> None:
     """Of a hundred recordings that differ in their noise alone none is taken for another."""
     values = _reading(1)

@@ -15,6 +15,7 @@ import pytest
 
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
+from tests.browser import Visit
 from tests.scenes.experiments import PARQUET, TWO, add, edit, snapshot
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -118,6 +119,7 @@ def test_evaluate_and_validate_say_what_the_report_says(result: Any, run: Run) -
     assert all(line in shown for line in lines)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_the_decision_comes_first_and_says_what_the_numbers_say(result: Any, run: Run) -> None:
     """The word on the use, the figure and the steps, then all else, folded; the JSON has the same verdict and steps."""
@@ -198,6 +200,7 @@ def test_results_of_other_commands_are_shown_as_they_are(result: Any) -> None:
     assert b"<b>bold" not in Path("report.html").read_bytes()
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_without_a_calibration_the_priors_are_shown(arm: Path, run: Run) -> None:
     """Of all sensors; the verdict says that there is nothing to compare them with."""
@@ -228,6 +231,7 @@ def test_what_cannot_be_judged_is_said_and_the_rest_is_shown(arm: Path, run: Run
     assert "Uncertainty" in _words("report.html")
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_nothing_is_shown_of_a_calibration_on_data_that_it_was_fitted_on(arm: Path, run: Run) -> None:
     """Fitted and judged intervals change places: another calibration is judged, the fitted one is not."""
@@ -249,6 +253,7 @@ def test_nothing_is_shown_of_a_calibration_on_data_that_it_was_fitted_on(arm: Pa
     assert all(line["tone"] == "caution" for line in flattered)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_the_order_of_intervals_in_the_file_does_not_matter(arm: Path, run: Run) -> None:
     """Two judged intervals, the later one first: figures and numbers come in the order of time."""
@@ -260,6 +265,7 @@ def test_the_order_of_intervals_in_the_file_does_not_matter(arm: Path, run: Run)
     assert sensor["comparisons"]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_load_cases_of_the_acceptance_file_are_judged(arm: Path, run: Run) -> None:
     """Each has a verdict; one that the sensor cannot read is said in a line, and the rest of the report is there."""
@@ -277,6 +283,7 @@ def test_load_cases_of_the_acceptance_file_are_judged(arm: Path, run: Run) -> No
     assert _sensor(result)["evaluation"]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("blank_pictures")
 def test_a_load_case_that_cannot_be_had_costs_no_errors(arm: Path, run: Run) -> None:
     """Also where the experiment file states it: what is measured does not hang on what the sensor is for."""
@@ -416,3 +423,17 @@ def test_a_real_leg(data_dir: Path, run: Run, tmp_path: Path, monkeypatch: pytes
     assert any("independent samples" in line["text"] for line in rest)
     assert Path("leg.html").stat().st_size < NORMAL_BYTES
     assert min(count for row in sensor["independence"] for count in row["independent"]) < 200
+
+
+@pytest.mark.browser
+def test_the_verdict_is_on_the_first_screen(visit: Visit, reported: Path) -> None:
+    """Title, then verdict, both without scrolling; every picture is drawn."""
+    page = visit.blank()
+    page.goto((reported / "report.html").as_uri())
+    assert page.get_by_role("heading", level=1).is_visible()
+    verdict = page.locator(".verdict").first.bounding_box()
+    assert verdict is not None
+    assert verdict["y"] + verdict["height"] < page.viewport_size["height"]  # type: ignore[index]
+    widths = page.locator("img").evaluate_all("images => images.map(image => image.complete ? image.naturalWidth : 0)")
+    assert len(widths) == 7
+    assert min(widths) >= 1000

@@ -51,6 +51,7 @@ def test_any_rotation_and_shift_is_found(k: int) -> None:
     assert mount.undetermined == ""
 
 
+@pytest.mark.long
 def test_intervals_hold_under_an_uncertain_matrix() -> None:
     """Of 40 draws with coefficients off by 10 %, 95 % intervals hold the mount; none as stated is 3 deviations off."""
     held, false = [], 0

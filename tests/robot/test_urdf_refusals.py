@@ -13,6 +13,7 @@ from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileEr
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
+from tests.fuzzing import examples
 from tests.scenes.robots import PENDULUM_URDF, joint_xml, link_xml, read_text, robot_xml
 
 A_B = (link_xml("a"), link_xml("b"))
@@ -236,7 +237,7 @@ def test_the_fuzzed_file_is_a_robot_when_whole(folder: Path) -> None:
     assert isinstance(_read_bytes(_BYTES[: len(_BYTES) // 2], folder), str)
 
 
-@settings(derandomize=True, deadline=None, max_examples=300)
+@settings(derandomize=True, deadline=None, max_examples=examples(300))
 @given(changes=st.lists(st.tuples(st.integers(0, len(_BYTES) - 1), st.integers(0, 255)), min_size=1, max_size=4))
 def test_changed_bytes_give_a_model_or_one_line(folder: Path, changes: list[tuple[int, int]]) -> None:
     """Whatever bytes stand where, the reader gives a model or one of its own errors, in one line."""
@@ -247,7 +248,7 @@ def test_changed_bytes_give_a_model_or_one_line(folder: Path, changes: list[tupl
     assert isinstance(found, RobotModel) or len(found.splitlines()) == 1
 
 
-@settings(derandomize=True, deadline=None, max_examples=150)
+@settings(derandomize=True, deadline=None, max_examples=examples(150))
 @given(start=st.integers(0, len(_BYTES)), length=st.integers(1, len(_BYTES)))
 def test_cuts_give_a_model_or_one_line(folder: Path, start: int, length: int) -> None:
     """A file with a piece cut out, or cut short, gives a model or one of our errors."""

@@ -142,6 +142,7 @@ def test_a_calibration_tells_what_a_count_is_worth(arm: Path, run: Run) -> None:
     assert prior["channels"] == fitted["channels"]
 
 
+@pytest.mark.long
 def test_a_figure_is_written_where_it_is_asked(arm: Path, run: Run) -> None:
     """A PNG with a row per sensor, named in the result; the log and everything else stay as they are."""
     before = snapshot(arm)
@@ -204,6 +205,7 @@ def test_the_file_says_where_a_wrong_gain_stands(arm: Path, run: Run) -> None:
     assert "sensor[0]: expected amplifier_gain of 6 numbers" in run("bench", "gains", YARP).error()
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_the_yoga_log(run: Run, data_dir: Path, tmp_path: Path) -> None:
     """A channel of the real leg sensor has 6 % left: the command says so, draws it, and warns of recovered counts."""

@@ -20,6 +20,7 @@ def taps(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write_taps(tmp_path_factory.mktemp("taps"))
 
 
+@pytest.mark.long
 def test_the_response_is_shown_and_drawn(taps: Path, run: Run) -> None:
     """JSON has the filter and the curve, CSV the numbers, and the figure is a PNG."""
     figure = taps.parent / "bode.png"

@@ -18,6 +18,7 @@ def chamber(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write_cycles(tmp_path_factory.mktemp("chamber"), *record(np.random.default_rng(21), hours=0.5))
 
 
+@pytest.mark.long
 def test_drift_is_shown_and_drawn(chamber: Path, run: Run) -> None:
     """JSON has the numbers, the table the lines for an experiment file, and the figure is a PNG."""
     figure = chamber.parent / "drift.png"

@@ -65,6 +65,7 @@ def _without_gains(heat: HeatGains) -> HeatGains:
     return replace(heat, gains=np.zeros(heat.gains.shape))
 
 
+@pytest.mark.long
 def test_heat_from_inside_is_no_force(table: PressureTable, learned: HeatGains) -> None:
     """The object stays as heavy as it is, for five minutes; without gains it weighs many times that.
 
@@ -79,6 +80,7 @@ def test_heat_from_inside_is_no_force(table: PressureTable, learned: HeatGains) 
     assert _forces(wrong, 300.0, 309.0).min() > 2.0 * TRUE_N
 
 
+@pytest.mark.long
 def test_nothing_is_felt_where_nothing_touches(table: PressureTable, learned: HeatGains) -> None:
     """No contact in five minutes of warming; the firmware's rule sees some."""
     _, told = _followed(table, learned, HELD, touched=False)
@@ -88,6 +90,7 @@ def test_nothing_is_felt_where_nothing_touches(table: PressureTable, learned: He
     assert sum(len(contacts) > 0 for contacts in wrong.values()) > 0.5 * len(wrong)
 
 
+@pytest.mark.long
 def test_the_limit_is_time_times_rate(table: PressureTable, learned: HeatGains) -> None:
     """It grows evenly while the object lies there, in proportion to the rate, and falls as evenly afterwards."""
     follower, told = _followed(table, learned, HELD)

@@ -23,6 +23,7 @@ from forcetorque.skin.figures import skin_event_figure
 from forcetorque.skin.report_blocks import skin_section
 from forcetorque.skin.wrench.result import skin_event_rows
 from forcetorque.skin.wrench.wrench import skin_wrench
+from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET, edit
 from tests.scenes.skin_arm import EVENT, EVENT_S, EVENTS, PATCH, SKIN, write_skin_arm
 
@@ -45,6 +46,7 @@ def _texts(section: Section) -> str:
     return "\n".join(block.text for block in section.blocks if isinstance(block, Text))
 
 
+@pytest.mark.long
 def test_the_contacts_are_those_of_the_command(folder: Path, assessed: ExperimentAssessment) -> None:
     """Numbers and pictures of `skin wrench`; the JSON has every contact."""
     alone = skin_wrench(folder / SKIN, folder / "shank.json")
@@ -57,6 +59,7 @@ def test_the_contacts_are_those_of_the_command(folder: Path, assessed: Experimen
     assert len([block for block in section.blocks if isinstance(block, Figure)]) == 2
 
 
+@pytest.mark.long
 def test_the_heuristic_is_told_apart(assessed: ExperimentAssessment) -> None:
     """Its row counts messages and contacts; words and captions say that it is no newtons."""
     (row,) = assessed.skin_events
@@ -86,7 +89,7 @@ def test_without_skin_there_is_no_section(intact: Path) -> None:
     assert skin_section(assessed).blocks == ()
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("old", "new", "words"),
     [('table = "shank.json"\n', "", "states no table"), ('serial = "S1"', 'serial = "S2"', "its own table")],
 )

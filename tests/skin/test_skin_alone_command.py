@@ -15,6 +15,7 @@ from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.scene import SkinEventSeries
 from forcetorque.viewer.scene_builder import BuiltScene, scene_of
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.scenes.skin_alone import EVENTS, HEURISTIC, MESSAGES, PERIOD_S, TOUCHED, write_events
 from tests.scenes.touched import write_table, write_touched
 
@@ -69,6 +70,7 @@ def test_a_report_of_contacts_alone(run: Run, tmp_path: Path) -> None:
     assert "2 patches in 1 recording" in page
 
 
+@pytest.mark.long
 def test_a_patch_alone_is_shown_and_reported(run: Run, tmp_path: Path) -> None:
     """With a table and neither robot nor sensor."""
     write_touched(tmp_path, along=3)
@@ -84,7 +86,7 @@ def test_a_patch_alone_is_shown_and_reported(run: Run, tmp_path: Path) -> None:
 
 
 @pytest.mark.real_data
-@pytest.mark.parametrize("name", REAL)
+@some_cases("name", REAL)
 def test_logs_of_a_real_robot_open(data_dir: Path, tmp_path: Path, name: str) -> None:
     """All contacts with an instant of their own are drawn, in no newtons, on one clock."""
     file = write_events(tmp_path)

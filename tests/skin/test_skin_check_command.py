@@ -42,6 +42,7 @@ def test_findings_are_exit_code_1(run: Run, folder: Path) -> None:
     assert faults({**content, "findings": [{"defect": 1}]}, schema) != []
 
 
+@pytest.mark.long
 def test_a_figure_is_drawn(run: Run, folder: Path) -> None:
     """And refused before the layout is read."""
     ended = run("skin", "check", "sound.txt", "--figure", "patch.png", "--details")

@@ -30,6 +30,8 @@ from tests.skin.thesis_trials import (
     torque_table,
 )
 
+pytestmark = pytest.mark.long
+
 QUICK: Final = (
     Load(mass_kg=1.0, on_top=True),
     Load(mass_kg=1.9, on_top=False),
@@ -99,7 +101,6 @@ def test_tables_have_a_row_for_each_load(rows: Sequence[LoadRow]) -> None:
     assert any(line.startswith("without 3 kg: mean error") for line in summary([rows]))
 
 
-@pytest.mark.long
 @pytest.mark.real_data
 def test_the_experiment_on_a_leg_of_real_taxels(data_dir: Path) -> None:
     """All loads, drawn anew five times: what docs/skin/experiment.md says of ten others."""

@@ -242,6 +242,7 @@ def test_threads_change_nothing_and_progress_is_told() -> None:
     assert counted == [1500, 3000]
 
 
+@pytest.mark.long
 def test_little_work_does_not_load_the_compiler() -> None:
     """It would take longer than the work; asked for, it is there."""
     code = (

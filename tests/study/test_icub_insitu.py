@@ -188,6 +188,7 @@ def test_a_choice_on_one_day_leaves_a_third_of_the_force_on_the_other(seeds: ran
     assert max(shares) < THIRD
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seeds", SEEDS, ids=len)
 def test_linear_effects_are_taken_out_to_the_noise(seeds: range) -> None:
     """With linear drift, mounting and offsets the choice comes within 10 % of the true sensor on the other day."""

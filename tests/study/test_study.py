@@ -321,6 +321,7 @@ def test_a_sensor_without_variables_is_studied_without_the_types_that_need_them(
         _study(data, kinds=[ESTIMATION_TYPES["OwTrTO"]])
 
 
+@pytest.mark.long
 def test_a_sensor_without_a_prior_is_studied_at_lambda_zero(days: Path) -> None:
     """There is nothing to pull towards and no workbench; the calibrations say so."""
     for file in FILES:
@@ -357,6 +358,7 @@ def test_without_validation_or_calibration_there_is_no_study(recorded: Path) -> 
         _study(judged)
 
 
+@pytest.mark.long
 def test_progress_tells_every_step(data: StudyData) -> None:
     """Fitting once, evaluating in each mode; no line of an interval where all are evaluated at once."""
     said: list[str] = []

@@ -114,6 +114,7 @@ def _sensor(run: Run, *words: object) -> Any:
     return sensor
 
 
+@pytest.mark.long
 def test_from_a_scenario_to_a_calibration_that_is_better(
     tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -289,6 +290,7 @@ def test_the_calibrations_can_be_evaluated(days: Path, studied_days: Path, run: 
     assert run("export", FOLDER / CALIBRATIONS[1], "--to", "csv", "-o", "matrix.csv").code == 0
 
 
+@pytest.mark.long
 def test_types_and_lambdas_can_be_chosen(days: Path, run: Run) -> None:
     """In any order and each once: types as they are typed, lambdas sorted."""
     sensor = _sensor(run, "--type", "OwTrTO", "--type", "CnTdTO", "--lambda", "60", "--lambda", "1.5", "--lambda", "60")
@@ -302,6 +304,7 @@ def test_types_and_lambdas_can_be_chosen(days: Path, run: Run) -> None:
     ]  # fmt: skip
 
 
+@pytest.mark.long
 def test_data_sets_are_named_by_label_or_kind(days: Path, run: Run) -> None:
     """With blanks around the words, which may stand in names too."""
     sensor = _sensor(run, *QUICK, "--data-set", "all = grid, random", "--data-set", "warm ones=grid_warm,move_warm")
@@ -334,6 +337,7 @@ def test_sphere_types_need_a_sphere(days: Path, run: Run) -> None:
     assert named["candidates"] == sensor["candidates"] + 6
 
 
+@pytest.mark.long
 def test_every_sensor_has_a_folder_of_its_own(arm: Path, run: Run) -> None:
     """Its serial number cannot lead anywhere else; one alone can be asked for."""
     words = ("--lambda", "100", "--format", "json")
@@ -348,6 +352,7 @@ def test_every_sensor_has_a_folder_of_its_own(arm: Path, run: Run) -> None:
     assert [row["sensor"] for row in rows] == [name for name in ("arm_ft", "tool_ft") for _ in range(5)]
 
 
+@pytest.mark.long
 def test_csv_has_every_candidate(quick: Outcome) -> None:
     """The same rows as the file, with the name of the sensor, and the workbench last."""
     rows = quick.rows()
@@ -359,6 +364,7 @@ def test_csv_has_every_candidate(quick: Outcome) -> None:
     ]
 
 
+@pytest.mark.long
 def test_the_table_shows_the_choice_and_what_to_expect(days: Path, run: Run) -> None:
     """The best in both modes beside the workbench, axis by axis, and what is left on another session."""
     done = run("study", "fits", *FILES, *QUICK, "-o", "out", "--details")
@@ -382,6 +388,7 @@ def test_the_table_shows_the_choice_and_what_to_expect(days: Path, run: Run) -> 
     assert done.out.count("power-up 1") == done.out.count("power-up 2") == 2
 
 
+@pytest.mark.long
 def test_the_table_says_which_data_leave_directions_still(days: Path, run: Run) -> None:
     """A short piece of the grid, about one joint, moves a part of the six; the reader learns how many."""
     edit(days / "grid_cold.toml", "end_s = 19.75", "end_s = 3.0")
@@ -393,6 +400,7 @@ def test_the_table_says_which_data_leave_directions_still(days: Path, run: Run) 
     assert "all: loads move" not in shown
 
 
+@pytest.mark.long
 def test_the_log_tells_every_step(quick: Outcome) -> None:
     """Files, fits and judging, on standard error."""
     log = quick.log
@@ -405,6 +413,7 @@ def test_the_log_tells_every_step(quick: Outcome) -> None:
     assert [line for line in log if line.startswith("INFO")][-1] == "INFO: drawing figures"
 
 
+@pytest.mark.long
 def test_folders_above_the_new_one_are_made(quick: Outcome) -> None:
     """And stay when all went well."""
     assert quick.code == 0
@@ -412,6 +421,7 @@ def test_folders_above_the_new_one_are_made(quick: Outcome) -> None:
     assert [path.name for path in Path().iterdir()] == ["out"]
 
 
+@pytest.mark.long
 def test_the_same_files_give_the_same_tables(days: Path, quick_days: tuple[Path, Outcome], run: Run) -> None:
     """Nothing is random: two runs write the same bytes, but for the time of the calibrations."""
     assert run("study", "fits", *FILES, *QUICK, "-o", "out").code == 0
@@ -428,6 +438,7 @@ def test_the_same_files_give_the_same_tables(days: Path, quick_days: tuple[Path,
         assert texts[0] == texts[1]
 
 
+@pytest.mark.long
 def test_a_lambda_is_what_calibrate_calls_so(days: Path, run: Run) -> None:
     """Typed for a study of one file or for a calibration of it, a lambda gives the same fit; a sixth does not."""
     assert (

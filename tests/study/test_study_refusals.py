@@ -10,6 +10,7 @@ import pytest
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.study.study import SensorStudy
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET, edit, snapshot
 from tests.scenes.studies import CALIBRATION, FILES, SERIAL, VALIDATION
 
@@ -17,7 +18,7 @@ QUICK = ("--type", "OnTdTO", "--type", "OwTrTO", "--lambda", "0", "--lambda", "1
 TABLES_AND_CALIBRATIONS = 7 + 4
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("words", "message"),
     [
         (("--data-set", "grid"), "--data-set: expected NAME=LABEL,LABEL with labels or kinds, got 'grid'"),
@@ -37,6 +38,7 @@ TABLES_AND_CALIBRATIONS = 7 + 4
             "error: sensor 'arm_ft': nothing can be fitted; grid SnTdTO: sphere offset: name the data sets that draw",
         ),
     ],
+    quick=11,
 )
 def test_options_that_are_refused(days: Path, run: Run, words: tuple[str, ...], message: str) -> None:
     """One line that says which option or name; no folder, not even those above it, and no temporary file is left."""
@@ -45,14 +47,15 @@ def test_options_that_are_refused(days: Path, run: Run, words: tuple[str, ...], 
     assert snapshot(days) == before
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("files", "message"),
     [
         ((*FILES, "absent.toml"), "absent.toml"),
-        (CALIBRATION, 'expected at least one interval with use = "validation", got none'),
         (VALIDATION, 'expected at least one interval with use = "calibration", got none'),
         ((*FILES, "day_1.toml"), "day_1.toml: expected every experiment file once, it comes twice"),
+        (CALIBRATION, 'expected at least one interval with use = "validation", got none'),
     ],
+    quick=3,
 )
 def test_files_that_are_refused(days: Path, run: Run, files: tuple[str, ...], message: str) -> None:
     """Missing, of one use only, or given twice."""
@@ -90,6 +93,7 @@ def test_a_folder_that_is_there_is_refused_before_any_work(days: Path, run: Run)
     assert [path.name for path in Path("out").iterdir()] == ["mine.txt"]
 
 
+@pytest.mark.long
 def test_an_error_at_the_very_end_leaves_nothing_behind(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """Tables and calibrations of a study that broke off are not there; folders that were, are."""
 

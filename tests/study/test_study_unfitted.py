@@ -87,6 +87,7 @@ def test_the_generative_fit_of_a_data_set_is_that_of_calibrate(recorded: Path) -
     np.testing.assert_allclose(every.squared_error, (errors**2).mean(axis=0), rtol=1e-6)
 
 
+@pytest.mark.long
 def test_a_generative_fit_that_is_best_is_written_with_its_posterior(recorded: Path, tmp_path: Path) -> None:
     """Where a lambda leaves all types far behind, the choice and each of its rows is the generative fit."""
     study = study_sensor(
@@ -109,6 +110,7 @@ def test_a_generative_fit_that_is_best_is_written_with_its_posterior(recorded: P
     )  # fmt: skip
 
 
+@pytest.mark.long
 def test_a_judged_session_that_was_fitted_is_read_with_its_offset(days: Path) -> None:
     """By the generative fit, which has one per session; the offset of another session is worse."""
     text = (days / "day_1.toml").read_text(encoding="utf-8")
@@ -126,6 +128,7 @@ def test_a_judged_session_that_was_fitted_is_read_with_its_offset(days: Path) ->
     assert force < 0.3 * elsewhere
 
 
+@pytest.mark.long
 def test_the_truth_beside_simulated_files_gives_the_error_of_every_candidate(days: Path) -> None:
     """In the table and in the choice; without it, or that of another serial number, there are no such columns."""
     _write_truth(days)

@@ -20,6 +20,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.viewer.annotations import Annotations, intervals_toml, samples_csv, save_annotations
 from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene, build_scene
+from tests.fuzzing import examples
 from tests.payload.test_wrist_load import _write as write_wrist
 from tests.scenes.experiments import JOINTS, PARQUET, add, edit
 
@@ -36,6 +37,7 @@ def _saved(samples: list[dict[str, Any]], intervals: list[dict[str, Any]]) -> An
     return Annotations.model_validate({"samples": samples, "intervals": intervals})
 
 
+@pytest.mark.long
 def test_samples_have_their_posture_in_degrees(built: BuiltScene) -> None:
     """A row per saved sample: number, time, mark, label and every joint, as in Table 4.2 of the thesis."""
     saved = _saved([_sample(3, mark="begin", label='covers, "touch"'), _sample(700, mark="end")], [])
@@ -106,6 +108,7 @@ def test_an_interval_to_the_last_sample_ends_with_the_log(arm: Path, built: Buil
         intervals_toml(_saved([], [_interval(late, late + 1.0)]), built)
 
 
+@pytest.mark.long
 def test_a_wrist_sensor_states_no_support(tmp_path: Path) -> None:
     """Its own frame carries it in every interval, and the experiment file knows no other."""
     file = write_wrist(tmp_path)
@@ -129,7 +132,7 @@ def test_what_would_be_used_twice_is_named(arm: Path, built: BuiltScene) -> None
 
 
 @given(st.text(max_size=200), st.floats(-1e6, 20.0))
-@settings(max_examples=50)
+@settings(max_examples=examples(50))
 def test_any_label_survives_toml(built: BuiltScene, label: str, start: float) -> None:
     """Quotes, control characters, emoji: what is read is what was written; times to the nanosecond."""
     if any(0xD800 <= ord(character) < 0xE000 for character in label):

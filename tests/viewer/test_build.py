@@ -154,6 +154,7 @@ def test_series_are_expected_prior_and_every_calibration(intact: Path) -> None:
     np.testing.assert_allclose(difference, 0.0, rtol=0, atol=1e-4)  # its offset is that of the calibration interval
 
 
+@pytest.mark.long
 def test_sphere_and_ellipsoid_lie_in_the_clouds(intact: Path) -> None:
     """Expected forces lie about the sphere of the weight, those of a series on its ellipsoid, offset included."""
     experiment = load_experiment(intact / PARQUET)
@@ -172,6 +173,7 @@ def test_sphere_and_ellipsoid_lie_in_the_clouds(intact: Path) -> None:
         assert np.median(np.linalg.norm(unit, axis=0)) == pytest.approx(1.0, abs=0.1)
 
 
+@pytest.mark.long
 def test_ellipsoids_of_a_long_log_see_a_part_of_it(intact: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """From every third sample they are nearly the same, and the page says that they are."""
     whole = _view(intact / PARQUET)
@@ -205,6 +207,7 @@ def test_inputs_and_version_are_stated(intact: Path, built: BuiltScene) -> None:
     assert any(line.startswith("forcetorque ") for line in built.scene.provenance)
 
 
+@pytest.mark.long
 def test_two_sensors_and_a_choice_of_them(intact: Path) -> None:
     """All sensors are shown, or those asked for; the frame of each is where the robot has it."""
     both = _view(intact / TWO)
@@ -274,6 +277,7 @@ def test_it_is_said_who_acts_on_whom(intact: Path, direction: MeasureDirection) 
     assert (sensor.acting, sensor.acted_on) == ends
 
 
+@pytest.mark.long
 def test_intervals_and_findings_have_seconds(arm: Path) -> None:
     """Intervals count from the start of the recording, and what is wrong has its time."""
     built = _view(add(arm / PARQUET, IGNORED))

@@ -24,6 +24,8 @@ from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.viewer.posture import upright
 from forcetorque.viewer.scene_builder import BuiltScene, build_scene
+from tests.cases import some_cases
+from tests.fuzzing import examples
 from tests.robot.mechanics.random_robots import robots
 from tests.scenes.experiments import PARQUET
 from tests.scenes.robots import example_robot, icub
@@ -80,7 +82,7 @@ def _agree(built: BuiltScene, motion: JointMotion, model: RobotModel, support: s
             np.testing.assert_allclose(pose, standing @ expected[link][sample], rtol=0, atol=FLOAT32)
 
 
-@pytest.mark.parametrize("support", ["l_sole", "root_link", "r_hand"])
+@some_cases("support", ["l_sole", "root_link", "r_hand"])
 def test_an_icub_stands_as_in_the_library_and_in_pinocchio(intact: Path, support: str) -> None:
     """Every link of an iCub, on whatever it stands, is where two libraries put it."""
     pinocchio = pytest.importorskip("pinocchio")
@@ -114,7 +116,7 @@ def test_slides_and_followers_move(intact: Path) -> None:
 
 
 @given(st.data())
-@settings(max_examples=30)
+@settings(max_examples=examples(30))
 def test_any_robot_stands_as_in_the_library(intact: Path, data: st.DataObject) -> None:
     """Trees with joints of every kind, some of which mimic others, rooted wherever the support is."""
     model = data.draw(robots())
@@ -124,6 +126,7 @@ def test_any_robot_stands_as_in_the_library(intact: Path, data: st.DataObject) -
     _agree(built, motion, model, support)
 
 
+@pytest.mark.long
 def test_a_wrong_sign_is_noticed(intact: Path) -> None:
     """Negative control: with one axis turned round the poses differ by far more than the tolerance."""
     model = read_urdf(icub("iCubGenova04"))

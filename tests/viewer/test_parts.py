@@ -84,11 +84,13 @@ def test_a_part_shows_its_residual_window_by_window(
     assert after_error.mean() < 0.5 * error.mean()  # what the calibrations are for
 
 
+@pytest.mark.long
 def test_one_calibration_shows_no_part(experiment: Experiment, calibrations: dict[str, Calibration]) -> None:
     """The equation needs both sensors; a part with one sensor says what its expected wrench says."""
     assert _parts(experiment, dict(list(calibrations.items())[:1]))[0] == ()
 
 
+@pytest.mark.long
 def test_ignored_intervals_show_no_part(experiment: Experiment, calibrations: dict[str, Calibration]) -> None:
     """Nothing is added up where nothing is fitted or judged."""
     ignored = [

@@ -14,7 +14,7 @@ from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene, build_scene
 from tests.viewer.poses import link_poses
 
-pytestmark = pytest.mark.real_data
+pytestmark = [pytest.mark.real_data, pytest.mark.long]
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -28,6 +28,7 @@ from forcetorque.viewer.arrays import SceneDraft, read_array
 from forcetorque.viewer.scene import SkinContactFrames
 from forcetorque.viewer.scene_builder import BuiltScene, scene_of
 from forcetorque.viewer.skin import half_axes, scene_skin, scene_skin_events
+from tests.cases import some_cases
 from tests.scenes.experiments import edit
 from tests.scenes.skin_arm import EVENT, EVENT_S, EVENTS, LINK, PATCH, SKIN, write_skin_arm
 
@@ -126,6 +127,7 @@ def test_half_axes_square_to_the_covariance() -> None:
     assert not np.allclose(axes[:3] @ axes[:3], covariances[:3])  # the control: rows are no half axes
 
 
+@pytest.mark.long
 def test_long_recordings_are_bounded(
     skin_arm: tuple[Path, Sequence[ContactTruth]], shown: BuiltScene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -169,7 +171,7 @@ def test_contacts_on_another_clock_are_noted(skin_arm: tuple[Path, Sequence[Cont
 
 
 @pytest.mark.real_data
-@pytest.mark.parametrize(("name", "parts"), [("left", {2: 597, 5: 9}), ("rightleftforearmshands", {2: 1045, 5: 924})])
+@some_cases(("name", "parts"), [("left", {2: 597, 5: 9}), ("rightleftforearmshands", {2: 1045, 5: 924})])
 def test_contacts_of_a_real_robot(data_dir: Path, tmp_path: Path, name: str, parts: dict[int, int]) -> None:
     """All that the log has are drawn and reported, on the one clock of their sender, in no newtons."""
     for kind in ("data", "info"):

@@ -27,6 +27,7 @@ def _film(script: str) -> bytes:
         return film_page(server.url, FILM, browser=browser)
 
 
+@pytest.mark.long
 def test_the_page_is_asked_when_it_is_ready() -> None:
     """It gets the wishes as they are, after its promise is kept, and what it gives comes back as bytes."""
     script = """
@@ -38,6 +39,7 @@ def test_the_page_is_asked_when_it_is_ready() -> None:
     assert text == '[true,{"start":3,"end":9,"fps":10,"speed":2,"width":320,"height":200}]'
 
 
+@pytest.mark.long
 def test_a_page_that_fails_is_an_error() -> None:
     """What the page says is in the message."""
     with pytest.raises(ForceTorqueError, match="could not be filmed: .*the scene is empty"):
@@ -46,6 +48,7 @@ def test_a_page_that_fails_is_an_error() -> None:
         _film("window.ft = { ready: true, video: () => 'no film' };")
 
 
+@pytest.mark.long
 def test_the_page_reaches_nobody_else() -> None:
     """A request to another address fails, here one that would be answered: another server of this machine."""
     with ViewerServer(b"other", b"", None) as other:

@@ -117,6 +117,7 @@ def test_a_page_is_served_until_interrupted(run: Run, arm: Path, monkeypatch: py
         urllib.request.urlopen(result["url"], timeout=10)
 
 
+@pytest.mark.long
 def test_no_browser_is_opened_unless_wanted(run: Run, arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """With --no-browser nothing is opened; where nothing can be opened, the log says so."""
     opened: list[str] = []
@@ -129,6 +130,7 @@ def test_no_browser_is_opened_unless_wanted(run: Run, arm: Path, monkeypatch: py
     assert "WARNING: no browser could be opened; open the address yourself" in ended.log
 
 
+@pytest.mark.long
 def test_samples_of_an_earlier_session_are_kept(run: Run, arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What was saved before goes to another name; saving again in one session replaces only its own."""
     _visit(monkeypatch, lambda url: _save(url, SAMPLE))
@@ -216,6 +218,7 @@ def test_a_wrong_calibration_is_refused(run: Run, arm: Path) -> None:
     assert "SIM009" in run("view", PARQUET, "-c", "fitted.json", "-o", "view.html").error()
 
 
+@pytest.mark.long
 def test_a_real_process_stops_at_the_first_interrupt(arm: Path) -> None:
     """Ctrl-C ends the command in good order: exit code 0, nothing on standard error but the log."""
     if not all((ASSETS / name).is_file() for name in BUNDLE):
@@ -289,6 +292,7 @@ def _report(run: Run, **changes: object) -> Path:
     return path
 
 
+@pytest.mark.long
 def test_a_report_shows_its_experiment_with_its_calibrations(arm: Path, run: Run) -> None:
     """The same page as with both named."""
     named = run("view", PARQUET, "-c", "fitted.json", "-o", "named.html", "--format", "json").result()

@@ -18,6 +18,7 @@ from forcetorque.workbench.fit import fit_bench, fit_means
 from forcetorque.workbench.loads import BenchLoads, Weights
 from forcetorque.workbench.sensor_fit import held_out_errors, one_by_one, rms, whole_series
 from forcetorque.workbench.simulated_benches import simulate_bench
+from tests.cases import some_cases
 from tests.scenes.benches import PLACEMENT, thesis_loads
 
 NO_ERROR = Placement(angle_rad=0.0, position_m=0.0)
@@ -36,7 +37,7 @@ def test_the_true_matrix_is_found_without_errors() -> None:
         np.testing.assert_allclose(matrix @ specimen.response, np.eye(6), atol=2e-4)
 
 
-@pytest.mark.parametrize("with_prior", [True, False])
+@some_cases("with_prior", [True, False])
 def test_leaving_out_in_closed_form_is_fitting_again(with_prior: bool) -> None:
     """For single positions and for parts of five."""
     specimen = simulate_bench(thesis_loads(), PLACEMENT, np.random.default_rng(2), with_prior=with_prior)
@@ -157,7 +158,7 @@ PRIOR_ROWS = {
 
 
 @pytest.mark.parametrize("placement", [NO_ERROR, PLACEMENT], ids=["no errors", "placement"])
-@pytest.mark.parametrize("change", PRIOR_ROWS)
+@some_cases("change", PRIOR_ROWS)
 def test_a_prior_that_is_off_by_a_factor_does_not_turn_loads_into_noise(change: str, placement: Placement) -> None:
     """Loads of rank 6 determine the matrix: the fit is as good as with the prior as it is; it was 4 to 107 N wrong."""
     rng = np.random.default_rng(5)

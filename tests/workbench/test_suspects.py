@@ -14,6 +14,7 @@ from forcetorque.workbench.faults import FALSE_ALARMS, Fault, detect_faults, log
 from forcetorque.workbench.fit import ResidualSpace, Scatter, residual_scatter, scatter_of_sensors, specified_scatter
 from forcetorque.workbench.loads import BenchLoads
 from forcetorque.workbench.simulated_benches import BenchFaults, simulate_bench
+from tests.cases import some_cases
 from tests.scenes.benches import PLACEMENT, thesis_loads
 from tests.workbench.trials import (
     TRIALS,
@@ -33,7 +34,7 @@ FIRST_SEED, OTHER_SEED = 7100, 7200
 """Seeds that nothing was tuned on."""
 
 
-@pytest.mark.parametrize("name", ["two rows swapped", "weight wrong by 5 %", "0.2 kg of structure forgotten"])
+@some_cases("name", ["two rows swapped", "weight wrong by 5 %", "0.2 kg of structure forgotten"])
 def test_plain_faults_are_detected(name: str) -> None:
     """In nearly all of a few sensors; at most one is missed."""
     assert named_share(TRIALS[name], FEW, FIRST_SEED) >= 1.0 - 1.0 / FEW

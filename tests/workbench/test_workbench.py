@@ -19,6 +19,7 @@ from forcetorque.workbench.calibrate import workbench
 from forcetorque.workbench.recording import BenchRecording, read_bench
 from forcetorque.workbench.result import Workbench
 from forcetorque.workbench.simulated_benches import BenchFaults
+from tests.cases import some_cases
 from tests.scenes.benches import write_bench
 from tests.workbench.trials import simulated_benches
 
@@ -69,6 +70,7 @@ def plate(data_dir: Path, tmp_path: Path) -> Callable[..., Path]:
     return written
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_rows_of_the_plate_are_predicted_and_series_are_not(plate: Callable[..., Path]) -> None:
     """One row at a time, a fifth with its range over partitions, and no whole series."""
@@ -88,6 +90,7 @@ def test_rows_of_the_plate_are_predicted_and_series_are_not(plate: Callable[...,
     assert sum("do not predict" in message for message in result.warnings) >= 5
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_a_series_of_the_plate_is_not_determined_without_a_prior(plate: Callable[..., Path]) -> None:
     """The reason names the direction that it alone moves."""
@@ -97,6 +100,7 @@ def test_a_series_of_the_plate_is_not_determined_without_a_prior(plate: Callable
     assert any("not fz" in reason for reason in reasons)
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_swapped_lines_of_the_plate_are_named(plate: Callable[..., Path]) -> None:
     """Lines 17 and 18 in fy, first of all; line 61 lacks one moment."""
@@ -108,6 +112,7 @@ def test_swapped_lines_of_the_plate_are_named(plate: Callable[..., Path]) -> Non
     assert not any(row.fault == "swapped" for row in run_workbench(plate("")).faults)  # negative control
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_five_directions_of_the_plate_are_named(plate: Callable[..., Path]) -> None:
     """Without references in twenty lines fz is never loaded: the prior is kept there, and a full matrix refused."""
@@ -194,7 +199,7 @@ def test_the_guide_names_the_next_position(tmp_path: Path) -> None:
     assert (run_workbench(swapped, only_next=True).next or "").startswith("again: position 4 ")
 
 
-@pytest.mark.parametrize("factor", [2.0, 3.0, 0.1, -1.0])
+@some_cases("factor", [2.0, 3.0, 0.1, -1.0])
 def test_a_prior_that_no_sensor_differs_by_is_refused_or_warned_of(factor: float, tmp_path: Path) -> None:
     """As `calibrate` refuses it, in words of a workbench; twice the forces alone are messages, and fitted all right."""
     path, simulated = write_bench(tmp_path, positions=24)
@@ -218,7 +223,7 @@ def test_a_prior_that_no_sensor_differs_by_is_refused_or_warned_of(factor: float
         run_workbench(path, full_matrix=True)
 
 
-@pytest.mark.parametrize("positions", [2, 7])
+@some_cases("positions", [2, 7])
 def test_an_undamaged_sensor_raises_no_warning(positions: int, undamaged: Workbench, tmp_path: Path) -> None:
     """Negative control, of few positions and of all: sensors are up to a fifth off the nominal matrix."""
     for seed in range(3):
@@ -237,6 +242,7 @@ def test_readings_in_another_order_than_their_loads_are_refused(bench: Path, tmp
     assert "check that the readings are in the order of the loads" in row.reason
 
 
+@pytest.mark.long
 def test_five_directions_are_named_as_they_come(tmp_path: Path) -> None:
     """After seven positions the prior is kept in two directions; a full matrix is refused."""
     path, _ = write_bench(tmp_path, positions=7)
@@ -247,6 +253,7 @@ def test_five_directions_are_named_as_they_come(tmp_path: Path) -> None:
         run_workbench(path, full_matrix=True)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("unit", ["s", "iso8601"])
 def test_a_log_with_intervals_is_read_as_blocks(bench: Path, undamaged: Workbench, tmp_path: Path, unit: str) -> None:
     """The same samples as one log with time, in seconds or as dates."""
@@ -294,6 +301,7 @@ def test_thirty_sensors_separate_the_bench_from_the_sensor() -> None:
     assert "matrices compared with the others" in result.text()
 
 
+@pytest.mark.long
 def test_acceptance_is_by_the_criteria_of_accept(bench: Path, tmp_path: Path) -> None:
     """Of the matrix and of the bench; what needs a robot is refused, and `accept` refuses the bench."""
     spec = tmp_path / "limits.toml"

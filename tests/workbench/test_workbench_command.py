@@ -22,6 +22,7 @@ def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.long
 def test_it_writes_a_calibration_and_a_figure_and_reports_the_fault(run: Run, bench: Path) -> None:
     """Which export then takes as any other."""
     outcome = run("bench", "workbench", "SIM001.toml", "-o", "new.json", "--figure", "bench.png")
@@ -45,6 +46,7 @@ def test_it_names_the_next_position(run: Run, bench: Path) -> None:
     assert len(result["blocks_checked"]) == 2
 
 
+@pytest.mark.long
 def test_several_sensors_are_compared(run: Run, bench: Path) -> None:
     """A row each; one file holds one calibration."""
     write_bench(bench, serial="SIM003", seed=3)
@@ -56,6 +58,7 @@ def test_several_sensors_are_compared(run: Run, bench: Path) -> None:
     assert "a file holds one calibration" in refused.err
 
 
+@pytest.mark.long
 def test_a_limit_that_fails_is_exit_code_1(run: Run, bench: Path) -> None:
     """No fault is allowed, and one is detected."""
     (bench / "limits.toml").write_text(

@@ -12,6 +12,7 @@ from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.workbench.bench import Bench
 from forcetorque.workbench.loads import BenchLoads
 from forcetorque.workbench.sensor_fit import _fitted, _plausibility_doubts, least_squares_errors
+from tests.cases import some_cases
 
 PUSH = 10.0 * np.eye(6)[:3]
 NOISE_COUNTS = 5.0
@@ -56,7 +57,7 @@ def _unrefused(bench: Bench) -> tuple[Doubt, ...] | None:
         return None
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("rows", "factor"),
     [([0, 1, 2], 2.0), ([0, 1, 2], 3.0), ([0, 1, 2], 0.1), ([0], 1.5), ([2], 0.6), ([4], 1.5)],
     ids=["forces x2", "forces x3", "forces x0.1", "fx x1.5", "fz x0.6", "ty x1.5"],
@@ -79,6 +80,7 @@ def test_a_wrong_prior_is_left_out_or_refused(rows: list[int], factor: float) ->
             _fitted(few, _plausibility_doubts(few))
 
 
+@pytest.mark.long
 def test_a_prior_that_errs_by_five_percent_is_kept() -> None:
     """Negative control: nothing is said of it, and with 12 positions the fit is as good as least squares."""
     for seed in SEEDS:

@@ -35,6 +35,7 @@ from forcetorque.skin.commands import calibrate_skin
 from forcetorque.skin.taxels.calibrate import calibrate_skin as calibrate_skin_of_recordings
 from forcetorque.workbench.calibrate import workbench as workbench_of_recordings
 from tests.app.python.arrays import arrays_of
+from tests.cases import some_cases
 from tests.scenes.benches import write_bench
 from tests.scenes.experiment_folders import arm, intact
 from tests.scenes.experiments import PARQUET, snapshot
@@ -118,6 +119,7 @@ def test_contacts_are_estimated_without_a_file(experiment: Experiment, arm: Path
         experiment.estimate(contacts=["knee"])
 
 
+@pytest.mark.long
 def test_a_sensor_is_accepted_by_limits(experiment: Experiment, arm: Path, tmp_path: Path) -> None:
     """By a file or its content, as the command says it."""
     run, spec = experiment["arm_ft"], tmp_path / "limits.toml"
@@ -132,6 +134,7 @@ def test_a_sensor_is_accepted_by_limits(experiment: Experiment, arm: Path, tmp_p
     assert run.accept(read_acceptance(spec), calibration).criteria == acceptance.criteria
 
 
+@pytest.mark.long
 def test_head_room_and_spheres_are_asked_of_a_run(experiment: Experiment, arm: Path, tmp_path: Path) -> None:
     """As the commands say them."""
     run = experiment["arm_ft"]
@@ -169,6 +172,7 @@ def test_ways_to_fit_are_studied_with_a_folder_or_without(arm: Path, tmp_path: P
         study()
 
 
+@pytest.mark.long
 def test_a_robot_is_simulated_and_its_sensor_fitted_over_recordings(tmp_path: Path) -> None:
     """A bundled scenario by name; runs of two experiments are fitted together, and a file is no run."""
     said: list[str] = []
@@ -188,6 +192,7 @@ def test_a_robot_is_simulated_and_its_sensor_fitted_over_recordings(tmp_path: Pa
         evaluate(warm.experiment, {})  # type: ignore[arg-type]
 
 
+@pytest.mark.long
 def test_a_workbench_is_asked_by_its_file(tmp_path: Path) -> None:
     """Its content gives the same."""
     from forcetorque.workbench.recording import read_bench
@@ -198,6 +203,7 @@ def test_a_workbench_is_asked_by_its_file(tmp_path: Path) -> None:
     assert answer.calibrations[0].provenance.code_version
 
 
+@pytest.mark.long
 def test_a_log_and_trials_may_be_named_by_text(arm: Path) -> None:
     """One log needs no list; trials need no Path."""
     from forcetorque.evaluation.trials.comparison import compare
@@ -226,8 +232,8 @@ def test_a_page_of_posture_and_forces_is_written_from_what_a_script_holds(
         experiment.view(tmp_path / "leg.html", "arm.json")  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("force", [False, True])
-@pytest.mark.parametrize("name", ["recording/arm_ft.parquet", "arm.urdf", PARQUET, "matrix_SIM001.txt"])
+@some_cases("force", [True, False])
+@some_cases("name", ["recording/arm_ft.parquet", "arm.urdf", PARQUET, "matrix_SIM001.txt"])
 def test_no_method_writes_over_what_it_has_read(arm: Path, name: str, force: bool) -> None:
     """Not even by force, and not through a link."""
     from forcetorque.calibration.export.export import export_table

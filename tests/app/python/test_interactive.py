@@ -83,6 +83,7 @@ def test_the_robot_model_may_be_off_unless_it_is_said_to_be_exact(experiment: Ex
     assert made.fit_options.tolerance == EXACT
 
 
+@pytest.mark.long
 def test_arrays_may_come_in_frames_of_pandas(experiment: Experiment) -> None:
     """Readings, instants and joint positions: the columns of one frame, or of several."""
     arguments = arrays_of(experiment)
@@ -93,6 +94,7 @@ def test_arrays_may_come_in_frames_of_pandas(experiment: Experiment) -> None:
     np.testing.assert_array_equal(by_frames.matrix, experiment_of_arrays(**arguments)["arm_ft"].calibrate().matrix)
 
 
+@pytest.mark.long
 def test_several_spans_are_fitted_and_judged(experiment: Experiment) -> None:
     """Halves of a span hold its samples; intervals are numbered where there are several of a use."""
     arguments = arrays_of(experiment)
@@ -117,6 +119,7 @@ def test_several_spans_are_fitted_and_judged(experiment: Experiment) -> None:
     assert [interval.label for interval in listed.recording.intervals] == ["calibrate", "judge"]
 
 
+@pytest.mark.long
 def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experiment) -> None:
     """Or the identity with full scales; the calibration is then of the wrench."""
     prior = experiment.sensors[0].prior
@@ -205,6 +208,7 @@ def test_milliseconds_for_seconds_are_refused_with_the_likely_cause(experiment: 
         experiment_of_arrays(**arguments | times)["arm_ft"].calibrate()
 
 
+@pytest.mark.long
 def test_what_is_missing_is_no_reading(experiment: Experiment) -> None:
     """Samples that are masked, or NA of pandas, are left out as NaN is; the values below a mask were fitted."""
     arguments = arrays_of(experiment)
@@ -218,6 +222,7 @@ def test_what_is_missing_is_no_reading(experiment: Experiment) -> None:
         np.testing.assert_array_equal(calibration.matrix, expected.matrix)
 
 
+@pytest.mark.long
 def test_a_clock_among_the_counts_is_refused(experiment: Experiment) -> None:
     """Without a prior nothing else says how many channels there are: seven columns were fitted without a word."""
     arguments = arrays_of(experiment, prior=None, full_scale=[900.0] * 3 + [30.0] * 3)
@@ -296,6 +301,7 @@ def test_what_to_record_next_is_planned_fromarrays_of(experiment: Experiment) ->
     assert run.plan(run.calibrate(), **quick).advice != plan.advice
 
 
+@pytest.mark.long
 def test_without_a_span_to_judge_nothing_is_judged(experiment: Experiment) -> None:
     """A fit is had all the same, and may not be used yet."""
     run = experiment_of_arrays(**arrays_of(experiment, judge=None))["arm_ft"]
@@ -309,6 +315,7 @@ def test_without_a_span_to_judge_nothing_is_judged(experiment: Experiment) -> No
         run.calibrate(nonlinear=True, kind="generative")
 
 
+@pytest.mark.long
 def test_what_makes_a_fit_doubtful_is_said(arm: Path, caplog: pytest.LogCaptureFixture) -> None:
     """A channel that reaches its limit in fitted samples is logged, as `calibrate` of the command line warns of it."""
     experiment = load_experiment(arm / PARQUET)
@@ -372,6 +379,7 @@ def test_what_is_no_calibration_is_refused_in_a_line(experiment: Experiment, que
             ask({"mine": Path("arm.json")})
 
 
+@pytest.mark.long
 def test_verdicts_show_themselves_as_a_table(experiment: Experiment) -> None:
     """A row per calibration and load case; the tuple that they are stays one, and their records are flat."""
     run = experiment["arm_ft"]
@@ -388,6 +396,7 @@ def test_verdicts_show_themselves_as_a_table(experiment: Experiment) -> None:
     assert "LoadCaseVerdict(" not in text
 
 
+@pytest.mark.long
 def test_one_calibration_needs_no_name(experiment: Experiment) -> None:
     """The functions of `analysis` take it as the methods do."""
     run = experiment["arm_ft"]
@@ -410,6 +419,7 @@ def test_an_estimation_type_is_given_by_its_name(experiment: Experiment) -> None
         run.calibrate(regularisation="some")
 
 
+@pytest.mark.long
 def test_answers_and_calibrations_are_compared_by_their_numbers(experiment: Experiment, tmp_path: Path) -> None:
     """What was saved is what is read; another offset, another kind of thing and another name are not the same."""
     run = experiment["arm_ft"]
@@ -426,6 +436,7 @@ def test_answers_and_calibrations_are_compared_by_their_numbers(experiment: Expe
     assert run.evaluate({"other": read}) != run.evaluate(calibration)
 
 
+@pytest.mark.long
 def test_an_experiment_goes_to_another_process(experiment: Experiment) -> None:
     """Experiment and run, pickled or copied, before and after a question, fit as they do themselves."""
     run = experiment["arm_ft"]

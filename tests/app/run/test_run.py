@@ -42,6 +42,7 @@ def shifted(folder: Path, start_s: float, counts: float) -> None:
     write_recording(folder / "recording", replace(recording, streams={**recording.streams, "arm_ft": moved}))
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("folder")
 def test_a_good_log_goes_the_whole_way(run: Run) -> None:
     """Every stage is done in its order; the files are there, and the verdict is that of `evaluate`."""
@@ -75,6 +76,7 @@ def test_people_read_the_verdict_first(run: Run) -> None:
     assert "stage" in run("run", PARQUET, "-o", "results", "--no-report", "--force", "--details").out
 
 
+@pytest.mark.long
 def test_a_contact_in_the_fitted_interval_stops_it(folder: Path, run: Run) -> None:
     """Nothing is written and exit code 3 tells; a reason goes on, and stands in calibration and report."""
     shifted(folder, 6.0, 0.0)
@@ -183,6 +185,7 @@ def test_a_file_that_is_no_toml_is_one_line(folder: Path, run: Run, command: tup
         assert words in run(*command, file).error()
 
 
+@pytest.mark.long
 def test_known_loads_of_a_workbench(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """A sound bench gives a calibration; swapped weights stop it."""
     monkeypatch.chdir(tmp_path)
@@ -198,6 +201,7 @@ def test_known_loads_of_a_workbench(tmp_path: Path, run: Run, monkeypatch: pytes
     assert not Path("other").exists()
 
 
+@pytest.mark.long
 def test_recordings_of_one_use_each_go_together(folder: Path, run: Run) -> None:
     """One file is fitted and the other evaluates, in either order; without one to fit it is said."""
     text = (folder / PARQUET).read_text(encoding="utf-8")
@@ -248,6 +252,7 @@ def test_nothing_to_fit_is_said_before_anything_is_computed(folder: Path, run: R
     assert "INFO: inspect" not in outcome.log
 
 
+@pytest.mark.long
 def test_the_robot_s_file_is_written_only_of_a_sensor_that_may_be_used(folder: Path, run: Run) -> None:
     """By its load case: no file to load by mistake where the error may be larger than is allowed."""
     text = (folder / PARQUET).read_text(encoding="utf-8")
@@ -276,6 +281,7 @@ def test_sensors_of_a_standing_leg_are_fitted_all_at_once(run: Run, tmp_path: Pa
     assert result["stages"][3]["text"].count("no verdict") == 2
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("folder")
 def test_from_python() -> None:
     """One line, with the same result; an empty reason is refused."""

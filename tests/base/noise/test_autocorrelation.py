@@ -103,6 +103,7 @@ def test_white_noise_is_worth_its_samples_and_lies_in_its_band() -> None:
     assert walk.effective_count < 50
 
 
+@pytest.mark.long
 def test_the_effective_number_is_what_the_mean_scatters_by() -> None:
     """Over 400 recordings of three segments, the variance of the mean is the variance over the effective number."""
     time = _time(900) + 5.0 * np.repeat([0, 1, 2], 300)

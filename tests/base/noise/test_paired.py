@@ -15,6 +15,7 @@ from scipy.special import stdtrit
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.noise.paired_comparison import ErrorRatio, PairedErrors, compare_errors, ratio_over
+from tests.cases import some_cases
 
 EXACT = 1e-12
 """Ratios of some 1 by two ways."""
@@ -104,7 +105,7 @@ def _require_seldom_wrong(name: str, campaigns: int) -> None:
         assert shares.get(conclusion, 0.0) <= _most(0.05, campaigns), (name, shares)
 
 
-@pytest.mark.parametrize("name", QUICK)
+@some_cases("name", QUICK)
 def test_equal_candidates_are_seldom_called_better(name: str) -> None:
     """At most 5 % of campaigns, and as few worse, but for what 200 of them count by chance."""
     _require_seldom_wrong(name, 200)
@@ -133,6 +134,7 @@ def test_ten_stretches_taken_for_independent_err_far_more_often() -> None:
     assert wrong / 300 > 0.1
 
 
+@pytest.mark.long
 def test_an_improvement_by_a_third_is_mostly_found() -> None:
     """Ten stretches whose log ratio scatters by .4, given or as recordings, and errors that soon forget themselves."""
     rng = np.random.default_rng(3)
@@ -144,7 +146,7 @@ def test_an_improvement_by_a_third_is_mostly_found() -> None:
         assert _shares(_by(2.0 / 3.0, _alike(part)), 200)["better"] >= 0.85
 
 
-@pytest.mark.parametrize("stretches", [4, 5, 6])
+@some_cases("stretches", [4, 5, 6])
 def test_a_large_improvement_is_found_in_few_stretches(stretches: int) -> None:
     """By a factor of 3, with a scatter of .4; never the wrong way round."""
     rng = np.random.default_rng(stretches)
@@ -155,12 +157,14 @@ def test_a_large_improvement_is_found_in_few_stretches(stretches: int) -> None:
     assert _shares(_motions(1.0 / 3.0, stretches), 100)["better"] > 0.85
 
 
+@pytest.mark.long
 def test_slow_errors_that_are_much_smaller_are_found() -> None:
     """By a factor of 3, where errors last for a tenth and a fifth of the recording."""
     assert _shares(_by(1.0 / 3.0, _alike(0.1)), 200)["better"] > 0.85
     assert _shares(_by(1.0 / 3.0, _alike(0.2)), 200)["better"] > 0.6
 
 
+@pytest.mark.long
 def test_equal_candidates_that_are_known_well_are_no_different() -> None:
     """White errors are; of slow ones the recording does not tell; a third less is neither."""
     assert _shares(NULLS["white"], 100)["no difference"] > 0.9

@@ -167,6 +167,7 @@ def _holds(mass: float, means: FloatArray, time_s: FloatArray | None) -> bool:
     return bool(abs(weighed.guess.values[0] - mass) <= weighed.half_width[0])
 
 
+@pytest.mark.long
 def test_intervals_of_a_payload_hold_its_mass_under_drift() -> None:
     """Negative control: were the samples independent, they would seldom."""
     ours, plain = _payload_coverage(NOISES["random walk"], 60.0, 20, seed=5)

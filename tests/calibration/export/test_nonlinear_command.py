@@ -46,6 +46,7 @@ def test_a_linear_sensor_is_calibrated_linearly_with_a_warning(days: Path, run: 
     assert np.array_equal(linear.matrix, fitted.matrix)
 
 
+@pytest.mark.long
 def test_the_file_asks_for_it_and_the_command_line_rules_over_it(days: Path, run: Run) -> None:
     """All files alike; one that does not ask is fitted with others only where the command line says which."""
     two = CALIBRATION[2:]
@@ -59,6 +60,7 @@ def test_the_file_asks_for_it_and_the_command_line_rules_over_it(days: Path, run
     assert run("calibrate", *CALIBRATION[1:], "-o", "mixed.json", "--nonlinear").code == 0
 
 
+@pytest.mark.long
 def test_kept_moments_can_be_corrected_too(days: Path, run: Run) -> None:
     """Stored without the option, and fitted with it."""
     run("calibrate", *CALIBRATION[2:], "-o", "plain.json", "--moments", "kept")

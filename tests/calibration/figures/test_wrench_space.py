@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError
 from forcetorque.calibration.figures.excitation import space_figure
 from forcetorque.results.figures import DRAWN_POINTS, look, png_bytes
+from tests.cases import some_cases
 from tests.report.drawing import count_of, legend_of, panels, pixels
 
 PLANES = ((0, 1), (1, 2), (0, 2))
@@ -44,7 +45,7 @@ def test_the_components_are_where_their_labels_are(drawn: list[Figure]) -> None:
         np.testing.assert_array_equal(np.transpose(row[0].lines[0].get_data_3d()), wrenches[:, first : first + 3])
 
 
-@pytest.mark.parametrize("names", [("wide", "narrow"), ("narrow", "wide")])
+@some_cases("names", [("wide", "narrow"), ("narrow", "wide")])
 def test_a_large_cloud_does_not_hide_a_small_one(names: tuple[str, str]) -> None:
     """Fifty points in the middle of a hundred thousand show their colour, whichever comes first."""
     clouds = {"wide": _cloud(100_000, 10.0), "narrow": _cloud(50, 1.0, seed=2)}
@@ -92,6 +93,7 @@ def test_clouds_without_area_are_drawn(wrenches: np.ndarray, drawn: list[Figure]
     assert legend_of(drawn[0]) == ["thin", "grid"]
 
 
+@pytest.mark.long
 def test_a_missing_component_leaves_out_the_sample(drawn: list[Figure]) -> None:
     """The other samples are those of the cloud without it."""
     wrenches = _cloud(50, 1.0)

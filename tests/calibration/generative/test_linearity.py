@@ -10,6 +10,7 @@ from forcetorque.experiment.calibration.linearity import DECISIVE, LinearityTest
 from tests.calibration.generative.linear_sensors import CHANNELS, KINDS, LinearCase
 
 
+@pytest.mark.long
 def test_a_linear_sensor_reads_pushes_as_by_least_squares() -> None:
     """With six channels and without a prior; the default fit errs by half as much again."""
     case = LinearCase.of(501, 6, "white")

@@ -28,6 +28,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
+from tests.cases import some_cases
 from tests.page_scripts import unmarked
 
 SHANK = ("l_leg_ft_sensor", "l_foot_ft_sensor")
@@ -88,7 +89,7 @@ def _left(windows: PartWindows, fit: JointFit | None) -> FloatArray:
 
 
 @pytest.mark.real_data
-@pytest.mark.parametrize(("fitted", "judged", "share"), SPLITS)
+@some_cases(("fitted", "judged", "share"), SPLITS)
 def test_the_shank_of_a_robot_that_stands_on_it(
     data_dir: Path, tmp_path: Path, fitted: tuple[float, float], judged: tuple[float, float], share: float
 ) -> None:
@@ -259,6 +260,7 @@ def test_what_cannot_be_calibrated_together_is_refused(arm: Path) -> None:
         _calibrated([experiment], ["leg"])
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_a_sensor_of_which_only_weights_are_known_is_named_and_not_calibrated(data_dir: Path, tmp_path: Path) -> None:
     """The stance leg of the yoga bears a torso whose joints nobody logged, and its foot's sensor was not asked for."""

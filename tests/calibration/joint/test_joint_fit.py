@@ -112,6 +112,7 @@ def test_a_model_that_is_taken_for_exact_is_believed_too_much() -> None:
     assert np.sqrt(np.mean((error / spread) ** 2)) > 2.0
 
 
+@pytest.mark.long
 def test_a_touch_is_left_out_and_does_little_harm() -> None:
     """A push of 40 N for a second on a hand, which should be free: its arm leaves, for that time, and nothing else."""
     push = np.zeros((2000, 6))
@@ -129,6 +130,7 @@ def test_a_touch_is_left_out_and_does_little_harm() -> None:
     assert _errors(believing, other)[4].max() > 2.0 * _errors(result.fit, other)[4].max()
 
 
+@pytest.mark.long
 def test_a_body_that_is_heavier_than_its_file_says_is_found() -> None:
     """A mass is told where the sensors do not stand for it: the posterior is narrower than the prior."""
     terms = _of_wrong_model(11).model_errors()
@@ -137,6 +139,7 @@ def test_a_body_that_is_heavier_than_its_file_says_is_found() -> None:
     assert min(deviation / term.deviation for term, _, deviation in terms) < 0.5
 
 
+@pytest.mark.long
 def test_a_robot_that_hardly_moves_keeps_its_priors() -> None:
     """Nothing is learnt of what no load tells, and nothing gets worse."""
     fit = _fit(swaying(41, duration_s=0.6, **WRONG))
@@ -195,6 +198,7 @@ def test_a_fit_leaves_what_its_matrices_and_offsets_do() -> None:
         assert np.abs(residuals_by(one, factors, nothing) - left).max() > 0.5
 
 
+@pytest.mark.long
 def test_equations_are_made_linear_three_times() -> None:
     """About the model, and twice about the fit before."""
     stretch = swaying(1, duration_s=1.0).stretch
@@ -212,6 +216,7 @@ def test_a_recording_has_a_delay_where_one_may_be() -> None:
     assert delay_terms(["a", "b"], ModelTolerance(delay_s=0.0)) == ()
 
 
+@pytest.mark.long
 def test_evidence_widens_the_predicted_error_but_not_the_estimate(monkeypatch: pytest.MonkeyPatch) -> None:
     """Changes of 2.5 times the expected size: the estimate is that of the expected size, its error that of the true."""
     motion = swaying(51, duration_s=8.0, noise=0.3, error=0.15)

@@ -17,6 +17,7 @@ from forcetorque.calibration.thesis.regression import fit_matrix, solve
 from forcetorque.experiment.calibration.estimation_type import Estimation
 from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from tests.fuzzing import examples
 
 EXACT = 1e-9
 """Relative: rounding of double precision times the condition of the second moments, some 1e4."""
@@ -55,7 +56,7 @@ def test_noise_free_data_give_the_true_matrix() -> None:
     assert all(fit.excitation.excited)
 
 
-@settings(max_examples=50)
+@settings(max_examples=examples(50))
 @given(st.floats(0.0, 1e8), st.integers(0, 1000))
 def test_no_small_step_improves_the_objective(lam: float, seed: int) -> None:
     """The solution is the minimum of thesis (5.4) with the mean over samples: every step away is worse."""

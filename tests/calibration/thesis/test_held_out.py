@@ -152,6 +152,7 @@ def test_a_choice_below_the_floor_is_raised_to_it() -> None:
     assert calibrate(data, PRIOR, regularisation=unfloored).fit.regularisation == unfloored < 0.1 * curve.floor
 
 
+@pytest.mark.long
 def test_jackknife_covers_the_truth() -> None:
     """Over 60 simulated data sets, errors of the matrix are of the size that the jackknife says."""
     ratios = []

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError, UnitError
 from forcetorque.estimation.figures import contact_figure
 from forcetorque.results.figures import png_bytes
+from tests.cases import some_cases
 from tests.report.drawing import legend_of, panels
 
 COUNT = 600
@@ -49,6 +50,7 @@ def test_the_legend_states_the_mean_magnitude(drawn: list[Figure]) -> None:
     assert legend_of(drawn[0]) == ["a: mean |f| 5 N", "b: mean |f| 0 N"]
 
 
+@pytest.mark.long
 def test_sessions_of_two_days_are_drawn_end_to_end(drawn: list[Figure]) -> None:
     """A day between them, or clocks that start again, take no room; a line and a label part them."""
     forces = _forces()
@@ -74,6 +76,7 @@ def test_the_line_is_broken_between_sessions(drawn: list[Figure]) -> None:
     assert np.flatnonzero(np.isnan(values)).tolist() == [200, 601]
 
 
+@pytest.mark.long
 def test_every_peak_of_a_long_recording_stays(drawn: list[Figure]) -> None:
     """One sample among half a million, in a session among many short ones, in component and magnitude."""
     count = 500_000
@@ -127,7 +130,7 @@ def test_candidates_have_points_that_do_not_meet(drawn: list[Figure]) -> None:
     assert len({line.get_marker() for line in lines}) == 5
 
 
-@pytest.mark.parametrize("count", [1, 2])
+@some_cases("count", [1, 2])
 def test_a_few_samples_are_drawn(count: int) -> None:
     """The shortest recordings, and sessions of one sample, make a figure too."""
     spans = [(f"s{k}", k, k + 1) for k in range(count)]

@@ -133,6 +133,7 @@ def _held(fault: str | None) -> tuple[float, int]:
     return float(np.mean(inside)), named
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("fault", [None, "ft"])
 def test_intervals_hold_the_truth(fault: str | None) -> None:
     """60 recordings with two offsets that hardly change: 95 %, of which 2 % are the standard error."""
@@ -142,6 +143,7 @@ def test_intervals_hold_the_truth(fault: str | None) -> None:
     assert named >= 0.9 * len(SEEDS)
 
 
+@pytest.mark.long
 def test_the_rate_of_false_alarms_is_as_stated() -> None:
     """Lasting innovations are those of chi-squared, and conflicts are no more frequent than asked for."""
     squares, degrees, alarms = [], [], 0
@@ -210,6 +212,7 @@ def _with_model_error(seed: int, deviation: float, by_model: tuple[str, ...]) ->
     ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("deviation", [pytest.param(0.05, marks=pytest.mark.long), 1.0])
 @pytest.mark.parametrize("by_model", [pytest.param(("ft", "skin"), marks=pytest.mark.long), ("ft", "skin", "current")])
 def test_intervals_hold_where_sources_share_the_error_of_the_model(deviation: float, by_model: tuple[str, ...]) -> None:

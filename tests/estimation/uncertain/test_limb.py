@@ -20,6 +20,7 @@ from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.tree import build_tree
 from forcetorque.skin.contact.contacts import find_contacts
 from forcetorque.skin.wrench.patch import SkinPatch
+from tests.cases import some_cases
 from tests.estimation.uncertain.limb import FRICTION, Draws, Shin, cylinder
 from tests.estimation.uncertain.limb_trials import (
     CASES,
@@ -67,7 +68,8 @@ def with_stated_errors(touched: Draws, seed: int) -> Draws:
     return replace(touched, sources=tuple(sources))
 
 
-@pytest.mark.parametrize("name", [name for name in CASES if name.endswith("no friction")])
+@pytest.mark.long
+@some_cases("name", [name for name in reversed(CASES) if name.endswith("no friction")])
 def test_stated_errors_are_inside_their_intervals(name: str) -> None:
     """Errors as large as skin and sensor say leave 95 % intervals as often as they should: of all that is told."""
     touched = with_stated_errors(trial(name)[0], SEED)
@@ -81,6 +83,7 @@ def test_stated_errors_are_inside_their_intervals(name: str) -> None:
     assert worse["skin force"].inside < LEAST
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name in CASES if name.endswith("tangents free")])
 def test_free_tangents_at_true_places_leave_intervals_that_hold(name: str) -> None:
     """Stated errors of pushes where they truly act: the equations are not what makes such intervals too narrow."""
@@ -93,6 +96,7 @@ def test_free_tangents_at_true_places_leave_intervals_that_hold(name: str) -> No
     assert LEAST < told["skin force"].inside < MOST
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("contacts", ["two contacts, one on skin", "three contacts, two on skin"])
 def test_friction_is_covered_and_not_hidden(contacts: str) -> None:
     """With its coefficient intervals are wider and hold; as if there were none, they do not."""
@@ -107,6 +111,7 @@ def test_friction_is_covered_and_not_hidden(contacts: str) -> None:
     assert figures(blind, answered(blind, untold))["foot force"].inside < HIDDEN
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", list(CASES)[:2])
 def test_the_smallest_solution_without_skin_is_worse(name: str) -> None:
     """It shares the load out evenly, whoever bears it."""
@@ -115,6 +120,7 @@ def test_the_smallest_solution_without_skin_is_worse(name: str) -> None:
     assert smallest_error(touched, foot=True) > WORSE * max(told["skin force"].rmse, told["foot force"].rmse)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name in CASES if name.endswith("tangents free")])
 def test_tangents_on_different_faces_are_found(name: str) -> None:
     """One sensor settles the tangential forces of two or three contacts, and the slip of 3 N is no error any more."""
@@ -162,6 +168,7 @@ def flat_sources(number: int, *, friction: float | None) -> tuple[SkinSource, ..
     return skin_sources("plate", "shank", [contacts], np.zeros(DRAWS, dtype=np.int64), friction=friction)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("number", [2, 3])
 def test_tangents_on_one_face_are_refused_by_name(number: int) -> None:
     """However many they are, they span three directions: what two can do against each other is said."""
@@ -195,6 +202,7 @@ def test_there_are_as_many_sources_as_contacts_at_once() -> None:
         assert len(skin_sources("plate", "shank", [touched, free], frames, friction=0.5)) == count
 
 
+@pytest.mark.long
 def test_contacts_off_the_skin_are_refused() -> None:
     """Two wrenches have twelve unknowns; two forces trade off along the line between them, and that is said."""
     touched = trial("two contacts, one on skin, no friction")[0]
@@ -218,6 +226,7 @@ def test_contacts_off_the_skin_are_refused() -> None:
         estimate_with_covariance(asked(off(ContactType.FORCE)), *motion, measured=touched.measured)
 
 
+@pytest.mark.long
 def test_torques_come_from_skin_alone() -> None:
     """Without any sensor for forces, what the skin feels is what the joints bear; without skin they are off by it."""
     touched = trial("two contacts, all on skin, tangents free")[0]
@@ -236,6 +245,7 @@ def test_torques_come_from_skin_alone() -> None:
     assert len(touched.foot) == len(error)
 
 
+@pytest.mark.long
 def test_places_come_from_skin_alone() -> None:
     """Where each contact is, to a few millimetres."""
     touched = trial("three contacts, two on skin, no friction")[0]

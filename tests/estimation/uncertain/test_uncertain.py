@@ -73,6 +73,7 @@ def test_exact_input_gives_the_truth_and_no_spread() -> None:
     assert np.abs(answer.torque_covariance).max() == 0.0
 
 
+@pytest.mark.long
 def test_covariance_is_that_of_draws() -> None:
     """What readings and skin err by comes out as their covariance says, in every contact and torque."""
     robot, question, measured = _pushed(ALONE)

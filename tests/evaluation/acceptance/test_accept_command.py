@@ -80,6 +80,7 @@ def test_the_exit_code_turns_at_the_limit(arm: Path, run: Run) -> None:
     assert "unknown key 'force_error_mean_m'" in run(*words).error()
 
 
+@pytest.mark.long
 def test_one_failing_criterion_of_many_is_enough(arm: Path, run: Run) -> None:
     """All others hold, and each of them still has its line."""
     words = ("accept", PARQUET, "--spec", _write(), "-c", "fitted.json")
@@ -213,6 +214,7 @@ def test_files_fit_the_printed_schema(run: Run) -> None:
         assert faults({**content, **damage}, schema) != []
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_a_real_leg_sensor_passes_with_its_calibration_and_fails_with_the_factory_matrix(
     data_dir: Path, tmp_path: Path, run: Run

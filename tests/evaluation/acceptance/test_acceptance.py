@@ -148,6 +148,7 @@ def test_every_limit_holds_on_one_side_and_fails_on_the_other(drifting: Experime
     assert [name for name, each in broken.items() if each.passed] == []
 
 
+@pytest.mark.long
 def test_the_numbers_are_those_of_the_other_commands(drifting: Experiment) -> None:
     """Evaluation, contact forces, checks and the calibration give the same numbers by themselves."""
     name, calibration = _fitted(drifting)
@@ -199,6 +200,7 @@ def test_what_was_learnt_is_judged_of_generative_fits_alone(drifting: Experiment
         accept(_run(drifting), _spec(information_gain={"tz": 0.1}), by_thesis)
 
 
+@pytest.mark.long
 def test_a_calibration_may_be_called_prior(drifting: Experiment) -> None:
     """A file of that name is not mistaken for the prior."""
     name, calibration = _fitted(drifting)
@@ -234,6 +236,7 @@ def test_the_offset_is_that_which_is_asked_for(arm: Path) -> None:
     assert all(first != second for first, second in zip(*seen, strict=True))
 
 
+@pytest.mark.long
 def test_other_sensors_as_measured_count(arm: Path) -> None:
     """The error of the tool's prior is in the arm's contact force where the tool's own reading is used."""
     experiment = load_experiment(arm / TWO)
@@ -266,6 +269,7 @@ def test_a_prior_without_data_for_an_offset_is_judged_with_what_it_has(arm: Path
     assert forces[0].measured > 1.5 * forces[1].measured > 0.0
 
 
+@pytest.mark.long
 def test_a_choice_made_on_the_judged_interval_is_a_warning(drifting: Experiment) -> None:
     """Where errors are judged, in evaluation, improvement or validation; not where only the matrix is."""
     name, calibration = _fitted(drifting)
@@ -333,6 +337,7 @@ def test_together_every_sensor_must_pass(arm: Path) -> None:
     assert not Acceptance.model_validate({**dict(failing), "accepted": True}).accepted
 
 
+@pytest.mark.long
 def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
     """On a narrow page no number is folded; a notebook gets the table; the first words of it are few."""
     result = accept(_run(drifting), _spec(**LIMITS), _fitted(drifting), population=OTHERS)
@@ -371,6 +376,7 @@ def test_what_cannot_be_judged_is_an_error_that_names_it(arm: Path, table: str, 
     assert len(accept(_run(experiment), _spec(matrix={"condition": 5.0})).criteria) == 1
 
 
+@pytest.mark.long
 def test_missing_intervals_and_counts_are_errors(arm: Path) -> None:
     """No validation interval, one interval to compare offsets of, a stream without counts."""
     edit(arm / PARQUET, 'use = "validation"', 'use = "ignore"')

@@ -220,6 +220,7 @@ def test_the_sensor_itself_is_not_in_its_population(arm: Path) -> None:
     assert "expected at least 5 other sensors, got 4" in reason
 
 
+@pytest.mark.long
 def test_the_checks_are_one_line_of_numbers_and_say_themselves_in_short(arm: Path) -> None:
     """Components have their units in the keys, and what JSON cannot hold is null there but not in Python."""
     experiment = load_experiment(arm / PARQUET)

@@ -47,6 +47,7 @@ def test_a_point_for_every_trial_mean_and_pooled_fit() -> None:
     assert len(points) == 5
 
 
+@pytest.mark.long
 def test_the_smallest_index_is_on_top_and_what_is_unknown_below() -> None:
     """Names from top to bottom follow the pooled index; the caps come last, hollow and named in the legend."""
     groups = trial_groups(np.random.default_rng(2), sensors=5, caps=2, with_model=False)
@@ -90,6 +91,7 @@ def test_files_of_one_name_have_their_folders_in_the_figures() -> None:
         assert len(set(names)) == 2
 
 
+@pytest.mark.long
 def test_two_hundred_sensors_have_a_line_each() -> None:
     """Every name is there in letters of full size, one below the other, with the axis at both ends."""
     few = trial_groups(np.random.default_rng(4), sensors=2, trials=1)

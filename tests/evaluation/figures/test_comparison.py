@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.errors_and_matrices import comparison_figure
 from forcetorque.results.figures import REFERENCE_COLOUR, look, png_bytes
+from tests.cases import some_cases
 from tests.report.drawing import count_of, legend_of, panels, pixels
 
 COUNT = 500
@@ -44,6 +45,7 @@ def test_the_legend_states_the_difference(drawn: list[Figure]) -> None:
     ]
 
 
+@pytest.mark.long
 def test_agreement_hides_neither() -> None:
     """A candidate equal to the reference is seen between its dashes, and the reference is not covered."""
     image = pixels(comparison_figure(TIME, REFERENCE, {"in situ": REFERENCE.copy()}))
@@ -86,7 +88,7 @@ def test_missing_values_break_lines_and_count_in_no_difference(drawn: list[Figur
     assert np.count_nonzero(np.isnan(lines[1].get_ydata()[:COUNT])) == 100
 
 
-@pytest.mark.parametrize("count", [1, 2])
+@some_cases("count", [1, 2])
 def test_a_few_samples_are_drawn(count: int) -> None:
     """The shortest recordings make a figure too."""
     assert png_bytes(comparison_figure(TIME[:count], REFERENCE[:count], {"a": REFERENCE[:count]}))[:4] == b"\x89PNG"

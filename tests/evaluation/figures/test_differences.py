@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.errors_and_matrices import difference_figure
 from forcetorque.results.figures import png_bytes
+from tests.cases import some_cases
 from tests.report.drawing import panels, size_of, words
 
 NAMES = ("Workbench", "SnTdTO", "SwTdTO", "SwTrTO")
@@ -104,7 +105,7 @@ def test_what_is_missing_is_a_dash(drawn: list[Figure]) -> None:
     assert set(_cells(drawn[1]).values()) == {"–"}
 
 
-@pytest.mark.parametrize("count", [1, 22, 55])
+@some_cases("count", [1, 22, 55])
 def test_many_matrices_with_long_names_keep_apart(count: int, drawn: list[Figure]) -> None:
     """Numbers stay in their cells or are left out; names of rows do not touch."""
     names = [f"support leg, type {k}" for k in range(count)]

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.sphere import force_space_figure
 from forcetorque.results.figures import DRAWN_POINTS, look, png_bytes
+from tests.cases import some_cases
 from tests.report.drawing import legend_of, panels, words
 
 
@@ -31,7 +32,7 @@ def test_every_cloud_is_drawn_whatever_their_number(drawn: list[Figure]) -> None
         assert len({(line.get_color(), line.get_marker()) for line in points}) == 9
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("quantity", "labels"), [("force", ["fx, N", "fy, N", "fz, N"]), ("moment", ["tx, N m", "ty, N m", "tz, N m"])]
 )
 def test_axes_name_component_and_unit(quantity: str, labels: list[str], drawn: list[Figure]) -> None:
@@ -64,6 +65,7 @@ def test_a_thinned_cloud_keeps_its_extremes_in_the_outline(drawn: list[Figure]) 
     assert to_hex(hull.get_color()) == look(0).colour.lower()
 
 
+@pytest.mark.long
 def test_a_missing_component_leaves_out_the_sample() -> None:
     """The other samples are those of the cloud without it; the caller's array stays as it is."""
     cloud = _cloud(50)

@@ -114,6 +114,7 @@ def test_pauses_are_not_bridged(drawn: list[Figure]) -> None:
     assert paused < 0.8 * without
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_few_samples_are_drawn(count: int, drawn: list[Figure]) -> None:
     """A single one has no autocorrelation and says so."""

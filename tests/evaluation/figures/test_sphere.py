@@ -71,6 +71,7 @@ def test_what_is_not_known_is_dotted_or_left_out() -> None:
     assert "not identifiable" in text
 
 
+@pytest.mark.long
 def test_the_offset_is_taken_off() -> None:
     """The cloud lies about zero, where the weight's circle is, however large the offset."""
     force, reference = _clouds(600, 0.9)

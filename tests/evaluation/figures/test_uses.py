@@ -79,6 +79,7 @@ def test_rows_are_named_by_calibration_and_use_and_share_the_axis(drawn: list[Fi
     assert bottom > top
 
 
+@pytest.mark.long
 def test_words_stay_inside_their_panel(drawn: list[Figure]) -> None:
     """However far apart the errors are."""
     for scale in (1.0, 1e-3, 1e3):

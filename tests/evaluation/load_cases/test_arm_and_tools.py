@@ -76,6 +76,7 @@ def test_a_tool_on_an_arm_without_mass_beyond_its_sensor_says_what_the_sensor_is
     assert case.words.startswith("pushes of 21.6 N, the weight of the distal links")
 
 
+@pytest.mark.long
 def test_a_weighed_tool_weighs_the_other(weighed: WeighedLoad) -> None:
     """Mass and centre of mass lie in their intervals, which one recording by itself leaves twenty times as wide."""
     gripper, weight = weighed.loads
@@ -122,6 +123,7 @@ def test_a_stated_tool_is_a_reference_as_any_other(arm: tuple[Path, np.ndarray])
     assert new.force_error_mean_N < prior.force_error_mean_N < 3.0
 
 
+@pytest.mark.long
 def test_a_weighed_tool_is_named_by_its_result(
     arm: tuple[Path, np.ndarray], weighed: WeighedLoad, tmp_path: Path
 ) -> None:
@@ -139,6 +141,7 @@ def test_a_weighed_tool_is_named_by_its_result(
         load_experiment(file)
 
 
+@pytest.mark.long
 def test_a_tool_that_the_sensor_itself_weighed_is_named(
     arm: tuple[Path, np.ndarray], weighed: WeighedLoad, tmp_path: Path
 ) -> None:

@@ -29,6 +29,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.robot.tree import build_tree, outboard_bodies
+from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET, edit
 from tests.scenes.robots import joint_xml, link_xml
 
@@ -50,6 +51,7 @@ def _verdict(run: SensorRun, calibration: Calibration) -> LoadCaseVerdict:
     return verdict
 
 
+@pytest.mark.long
 def test_a_fit_of_an_arm_that_moves_may_be_used_for_pushes(arm: Path) -> None:
     """The sentence names loads, errors and what is allowed; the parts of the error are those of the matrix."""
     run = _run(arm)
@@ -65,13 +67,14 @@ def test_a_fit_of_an_arm_that_moves_may_be_used_for_pushes(arm: Path) -> None:
     assert np.linalg.norm(force.axes) == pytest.approx(force.after, rel=0.3)
 
 
-@pytest.mark.parametrize(("allowed", "decision"), [(1e-3, "do not use"), (1.0, "use")])
+@some_cases(("allowed", "decision"), [(1e-3, "do not use"), (1.0, "use")])
 def test_the_same_sensor_is_judged_by_what_is_allowed(arm: Path, allowed: float, decision: str) -> None:
     """An error that cannot be reached is refused, one that is allowed is not."""
     run = _run(arm, f"{PUSH}force_error_N = {allowed}\n")
     assert _verdict(run, _fit(run)).decision == decision
 
 
+@pytest.mark.long
 def test_between_the_two_there_are_not_enough_data(arm: Path) -> None:
     """A requirement at the median of the prediction has an even chance."""
     run = _run(arm)
@@ -84,6 +87,7 @@ def test_between_the_two_there_are_not_enough_data(arm: Path) -> None:
     assert "the chance that it is within that is" in verdict.message
 
 
+@pytest.mark.long
 def test_a_constant_error_is_red_unless_the_use_allows_it(arm: Path) -> None:
     """An offset that is 6 N off forbids readings with the fitted offset, and not those that are tared."""
     run = _run(arm, PUSH + PUSH.replace('"push"', '"kept"').replace("tared", "fitted"))
@@ -99,6 +103,7 @@ def test_a_constant_error_is_red_unless_the_use_allows_it(arm: Path) -> None:
     assert "do not use" not in [one.decision for one in use_verdicts(run, {"new": calibration})]
 
 
+@pytest.mark.long
 def test_a_sensor_that_was_turned_is_not_good(arm: Path) -> None:
     """Turned by a quarter after it was calibrated: where the judged data move, and where they stand still."""
     run = _run(arm)
@@ -119,6 +124,7 @@ def test_a_thesis_type_knows_no_error_at_other_loads(arm: Path) -> None:
     assert "fit it by the generative model" in verdict.message
 
 
+@pytest.mark.long
 def test_doubts_about_the_fitted_data_forbid_a_plain_use(arm: Path) -> None:
     """A calibration that carries a doubt is never called good."""
     run = _run(arm)
@@ -128,6 +134,7 @@ def test_doubts_about_the_fitted_data_forbid_a_plain_use(arm: Path) -> None:
     assert _verdict(run, doubted).decision == "not enough data"
 
 
+@pytest.mark.long
 def test_without_a_load_case_the_default_is_stated(arm: Path) -> None:
     """An arm is pushed as strongly as what hangs on it."""
     run = _run(arm, "")
@@ -228,6 +235,7 @@ def test_a_use_that_cannot_be_may_leave_the_others_to_be_judged(arm: Path) -> No
         assert [str(error).split("'")[1] for error in errors] == refused
 
 
+@pytest.mark.long
 def test_a_default_load_case_that_the_sensor_cannot_read_is_no_part_of_the_verdict(arm: Path) -> None:
     """The answer names it, and the verdict is about the loads of the data that were not fitted, which it could read."""
     edit(arm / PARQUET, 'prior = "', 'full_scale = [300.0, 300.0, 300.0, 7.5, 7.5, 7.5]\nprior = "')
@@ -313,6 +321,7 @@ def test_postures_of_one_session_move_and_show_a_sensor_that_is_turned() -> None
     assert _evidence(8.0, -8.0, sessions="aa").force.rest > 7.5
 
 
+@pytest.mark.long
 def test_a_trifle_worse_than_the_prior_is_no_reason(arm: Path) -> None:
     """Neither is a quantity that is not judged; an error by a half larger is one."""
     run = _run(arm, f"{PUSH}force_error_N = 5.0\n")
@@ -325,6 +334,7 @@ def test_a_trifle_worse_than_the_prior_is_no_reason(arm: Path) -> None:
         assert (decision == "do not use") is forbidden
 
 
+@pytest.mark.long
 def test_judged_data_of_a_moment_test_nothing(arm: Path) -> None:
     """Less than five seconds are said to be too short, and do not stop the evaluation."""
     edit(arm / PARQUET, "end_s = 23.5", "end_s = 14.8")

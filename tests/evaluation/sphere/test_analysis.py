@@ -12,6 +12,7 @@ from forcetorque.base.errors import FitError, ForceTorqueError, ShapeError, Unit
 from forcetorque.evaluation.sphere.cloud import share_of_directions
 from forcetorque.evaluation.sphere.fit_results import ellipsoid_of_map
 from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis, analyse_sphere
+from tests.cases import some_cases
 from tests.evaluation.sphere.clouds import grid, slow_noise, whole_sphere
 
 GRAVITY, MASS = 9.81, 4.733288
@@ -198,6 +199,7 @@ def test_a_reference_in_a_plane_gives_no_map() -> None:
     assert not found.free.identifiable
 
 
+@pytest.mark.long
 @settings(max_examples=10)
 @given(seed=st.integers(0, 2**16))
 def test_with_the_model_the_order_and_the_zero_do_not_matter(seed: int) -> None:
@@ -250,7 +252,7 @@ def test_what_cannot_be_forces_is_refused(damage: object, error: type[Exception]
         analyse_sphere(damage(wrench), gravity=GRAVITY)  # type: ignore[operator]
 
 
-@pytest.mark.parametrize("seed", range(5))
+@some_cases("seed", range(5))
 @pytest.mark.parametrize("noise", [1e-6, 0.01, 0.3, 3.0])
 def test_a_limb_that_stands_still_to_rounding_is_refused(noise: float, seed: int) -> None:
     """The force by the model moves in its last digits, which is one point as well; a ten-millionth of it is a cloud."""

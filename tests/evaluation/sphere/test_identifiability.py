@@ -10,6 +10,7 @@ from forcetorque.evaluation.sphere.affine_fit import fit_mapped
 from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, lowest_index
 from forcetorque.evaluation.sphere.model_free_fit import fit_ellipsoid, fit_radius, may_be_flat
 from forcetorque.evaluation.sphere.sensor_sphere import analyse_sphere
+from tests.cases import some_cases
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of, on, slow_noise, whole_sphere
 
 COUNT = 1500
@@ -43,7 +44,7 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize(("half", "noise", "memory", "expected"), CASES)
+@some_cases(("half", "noise", "memory", "expected"), CASES, quick=3)
 def test_intervals_hold_the_truth(half: float, noise: float, memory: float, expected: bool | None) -> None:
     """Where a cloud is believed the error is below the tolerance; in any case nine of ten intervals hold the truth."""
     rng = np.random.default_rng(7)
@@ -67,6 +68,7 @@ def test_intervals_hold_the_truth(half: float, noise: float, memory: float, expe
         assert believed == (count if expected else 0)
 
 
+@pytest.mark.long
 def test_a_naive_interval_does_not_hold_the_truth() -> None:
     """Negative control: on a cap, the fit and the tolerance around it miss the truth nearly always."""
     rng = np.random.default_rng(8)
@@ -198,6 +200,7 @@ def test_the_map_of_the_helper_is_right() -> None:
     assert np.linalg.det(map_of(DEFORMED)) > 0.0
 
 
+@pytest.mark.long
 def test_a_noisy_circle_is_reported_and_not_believed() -> None:
     """Noise of any size across one circle gives neither an error nor an ellipsoid to believe."""
     rng = np.random.default_rng(11)
@@ -244,8 +247,8 @@ def _extent(cloud: np.ndarray) -> float:
     return 2.0 * float(np.linalg.norm(cloud - cloud.mean(axis=0), axis=1).max())
 
 
-@pytest.mark.parametrize("memory", [0.0, 0.98])
-@pytest.mark.parametrize("half", [1e-2, 0.1, 1.0, 3.0])
+@some_cases("memory", [0.0, 0.98])
+@some_cases("half", [1e-2, 0.1, 1.0, 3.0])
 def test_a_limb_that_hardly_moves_has_no_ellipsoid_far_from_its_forces(half: float, memory: float) -> None:
     """Noise of any size, divided by what the reference moves, is none: neither with the model nor without."""
     rng = np.random.default_rng(23)
@@ -267,7 +270,7 @@ def test_a_limb_that_hardly_moves_has_no_ellipsoid_far_from_its_forces(half: flo
     assert none > 0
 
 
-@pytest.mark.parametrize("half", [10.0, 20.0, 30.0, 60.0])
+@some_cases("half", [10.0, 20.0, 30.0, 60.0])
 def test_ellipsoids_that_are_known_are_near_their_forces(half: float) -> None:
     """Negative control: of no size of noise does the limit on the size take an ellipsoid that the others leave."""
     rng = np.random.default_rng(24)
@@ -342,6 +345,7 @@ def test_the_rms_with_the_model_is_from_where_the_map_has_each_sample() -> None:
     assert mapped.fit.rms == pytest.approx(np.sqrt(3.0) * 0.3, rel=0.05)
 
 
+@pytest.mark.long
 def test_the_interval_of_a_perfect_sensors_index_holds_zero() -> None:
     """Noise only adds to an index, and masses that may be equal have an index that may be 0."""
     rng = np.random.default_rng(20)

@@ -13,6 +13,7 @@ from forcetorque.evaluation.sphere.affine_fit import fit_mapped
 from forcetorque.evaluation.sphere.fit_results import TOLERANCE, Ellipsoid, ellipsoid_of_map
 from forcetorque.evaluation.sphere.pooled_fit import PooledSphere, pool_trials
 from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis, analyse_sphere
+from tests.cases import some_cases
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of, whole_sphere
 
 OFFSETS = np.array([[12.0, -30.0, 55.0], [4.0, -22.0, 60.0], [-6.0, -35.0, 48.0]])
@@ -102,6 +103,7 @@ def test_pooling_as_they_stand_is_wrong() -> None:
     assert abs(same.free.index - TRUE_INDEX) > 0.5
 
 
+@pytest.mark.long
 def test_trials_that_cover_parts_are_known_together() -> None:
     """Without the model no cap determines an ellipsoid; the three do, and the truth lies in their interval."""
     held, errors = 0, []
@@ -119,6 +121,7 @@ def test_trials_that_cover_parts_are_known_together() -> None:
     assert pooled_error < 0.5 * mean_error
 
 
+@pytest.mark.long
 def test_the_mean_of_good_sensors_is_too_large() -> None:
     """An index is no less than zero, so noise only adds to it: the mean keeps that, the pooled fit has much less.
 
@@ -143,6 +146,7 @@ def test_the_mean_of_good_sensors_is_too_large() -> None:
     assert spread[0] == pytest.approx(spread[1], rel=0.2)
 
 
+@pytest.mark.long
 def test_intervals_hold_the_truth() -> None:
     """Of 30 intervals of lengths of short trials 28.5 are expected to, two standard deviations less do at least."""
     held = np.zeros(2)
@@ -164,6 +168,7 @@ def test_unknown_centres_cost_something() -> None:
     assert pooled.free.index_high - pooled.free.index_low > 1.2 * (known.free.index_high - known.free.index_low)
 
 
+@pytest.mark.long
 def test_the_order_of_trials_does_not_matter() -> None:
     """Every order gives the same numbers to the bit; centres go with their trials."""
     forces, references = _trials(np.random.default_rng(6), [grid(300, 100.0), grid(255, 90.0), grid(300, 80.0)])
@@ -214,7 +219,7 @@ def test_what_pools_cannot_tell() -> None:
     assert "no one size in a trial" in shaken.free.why[0]
 
 
-@pytest.mark.parametrize("noise", np.geomspace(1e-6, 3.0, 7))
+@some_cases("noise", np.geomspace(1e-6, 3.0, 7))
 def test_limbs_that_hardly_move_have_no_pooled_ellipsoid(noise: float) -> None:
     """What noise makes of references that move by a hundredth of a degree is not shown, nor are its centres."""
     forces, references = _trials(np.random.default_rng(12), [grid(700, 1e-2)] * 3, noise=noise)

@@ -77,6 +77,7 @@ def test_calibration_mends_the_index(experiment: Experiment, fitted: Calibration
     np.testing.assert_allclose(masses, ARM_MASS, atol=0.05)
 
 
+@pytest.mark.long
 def test_what_a_calibration_was_fitted_on_is_named(experiment: Experiment, fitted: Calibration) -> None:
     """It is not refused, since a grid is often all there is, but said."""
     assert [sphere.fitted_on for sphere in _analysed(experiment, None, new=fitted)] == [(), ("fit",)]

@@ -72,6 +72,7 @@ def test_calibration_is_seen_to_mend(arm: Path, run: Run) -> None:
     assert any("the force has no one size" in reason for reason in prior["without_model"]["why"])
 
 
+@pytest.mark.long
 def test_what_was_fitted_is_warned_of(arm: Path, run: Run) -> None:
     """All intervals are taken if none is named, and those that flatter are named."""
     ended = run("study", "sphere", PARQUET, "-c", "fitted.json", "--format", "json")
@@ -81,6 +82,7 @@ def test_what_was_fitted_is_warned_of(arm: Path, run: Run) -> None:
     assert not any("flatters" in line for line in quiet.log)
 
 
+@pytest.mark.long
 def test_a_line_per_sensor_and_candidate_as_csv(arm: Path, run: Run) -> None:
     """Triples become columns x, y and z, or 1 to 3 where they are no axes; reasons stay words."""
     words = ("study", "sphere", TWO, "-c", "fitted.json", "--interval", "judge", "--format")
@@ -122,6 +124,7 @@ def test_sensors_are_chosen(arm: Path, run: Run) -> None:
     assert "fitted.json: calibrates 'arm_ft', which --sensor leaves out" in refused
 
 
+@pytest.mark.long
 def test_a_figure_is_written_where_it_is_asked(arm: Path, run: Run) -> None:
     """A PNG, named in the result; everything else stays as it is."""
     before = snapshot(arm)
@@ -191,6 +194,7 @@ def test_two_calibrations_of_one_sensor_are_compared(arm: Path, run: Run) -> Non
     assert first == second
 
 
+@pytest.mark.long
 def test_files_of_one_name_are_told_apart(arm: Path, run: Run) -> None:
     """Calibrations of one name in two folders have the folders before them, in every table and line."""
     for folder in ("old", "new"):
@@ -210,6 +214,7 @@ def test_counts_are_refused_with_their_sensor(arm: Path, run: Run) -> None:
     assert "can only be counts; multiply them by the sensor's matrix" in error
 
 
+@pytest.mark.long
 def test_a_sensor_that_fails_is_named_and_does_not_take_the_others_with_it(arm: Path, run: Run) -> None:
     """One line in every form and on standard error; what is shown of the others is what they give alone."""
     alone = run("study", "sphere", TWO, "--sensor", "arm_ft", "--format", "json").result()
@@ -263,6 +268,7 @@ def test_where_every_sensor_fails_there_is_no_result(arm: Path, run: Run) -> Non
     assert snapshot(arm) == before
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_the_yoga_example(run: Run, data_dir: Path, tmp_path: Path) -> None:
     """As the example says: neither one mass of the arms nor three are known, and the leg moves in a plane."""

@@ -18,6 +18,7 @@ from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from tests.cases import some_cases
 from tests.scenes.axia import write_axia
 
 pytestmark = pytest.mark.real_data
@@ -67,8 +68,8 @@ def yoga(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Yoga:
 WINDOWS = [(25.0, 58.0), (25.0, 41.5), (15.0, 62.0), (0.0, 70.0)]
 
 
-@pytest.mark.parametrize("run", ["dumperLeftLegNoIMU", "dumperRightLegNoIMU"])
-@pytest.mark.parametrize(("start_s", "end_s"), WINDOWS)
+@some_cases("run", ["dumperLeftLegNoIMU", "dumperRightLegNoIMU"])
+@some_cases(("start_s", "end_s"), WINDOWS)
 def test_arms_are_caps_and_not_identifiable(yoga: Yoga, run: str, start_s: float, end_s: float) -> None:
     """Whatever the window, the mass of the model lies in the interval, and neither radius nor ellipsoid is believed."""
     for name in ARMS:
@@ -87,7 +88,7 @@ def test_arms_are_caps_and_not_identifiable(yoga: Yoga, run: str, start_s: float
         assert analysis.free.index_low == 0.0
 
 
-@pytest.mark.parametrize("run", ["dumperLeftLegNoIMU", "dumperRightLegNoIMU"])
+@some_cases("run", ["dumperLeftLegNoIMU", "dumperRightLegNoIMU"])
 def test_the_interval_of_the_arms_holds_the_scatter(yoga: Yoga, run: str) -> None:
     """Over the contact-free window: all that windows and methods give for one radius, 1.3 to 3.5 kg."""
     for name in ARMS:
@@ -99,6 +100,7 @@ def test_the_interval_of_the_arms_holds_the_scatter(yoga: Yoga, run: str) -> Non
 WINDOWS_APART = [(25.0, 58.0), (25.0, 36.0), (36.0, 47.0)]
 
 
+@pytest.mark.long
 def test_windows_and_methods_do_scatter(yoga: Yoga) -> None:
     """Negative control: single fits over windows that move range from below 1.2 to above 3.5 kg."""
     masses = []
@@ -152,6 +154,7 @@ def test_the_wrist_of_24_poses(data_dir: Path, tmp_path: Path) -> None:
     np.testing.assert_allclose(analysis.moment.error_Nm, 0.0, atol=0.005)
 
 
+@pytest.mark.long
 def test_the_wrist_of_100_poses(data_dir: Path, tmp_path: Path) -> None:
     """All on one side and drifting by 2 N: one mass is known to 5 %, and three are only with the model."""
     analysis = _analysed(load_experiment(write_axia(data_dir, tmp_path, "_100")), "wrist").analysis
@@ -165,6 +168,7 @@ def test_the_wrist_of_100_poses(data_dir: Path, tmp_path: Path) -> None:
     assert (analysis.free.high >= analysis.mapped.fit.high).all()
 
 
+@pytest.mark.long
 def test_seven_poses_are_too_few(data_dir: Path, tmp_path: Path) -> None:
     """An ellipsoid has nine unknowns."""
     experiment = load_experiment(write_axia(data_dir, tmp_path, ""))

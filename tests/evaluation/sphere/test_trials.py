@@ -108,6 +108,7 @@ def _mapped(rng: np.random.Generator) -> MappedFit:
     return fit
 
 
+@pytest.mark.long
 def test_equal_trials_seldom_seem_to_drift() -> None:
     """Of forty pairs that differ by noise alone, five per hundred at most seem to differ in an axis or the centre."""
     rng = np.random.default_rng(2)
@@ -123,6 +124,7 @@ def test_equal_trials_seldom_seem_to_drift() -> None:
     assert wrong.sum() <= 24
 
 
+@pytest.mark.long
 def test_nothing_drifts_that_is_not_known() -> None:
     """Between a cap and a sphere there is a difference, but none that exceeds anything."""
     rng = np.random.default_rng(3)
@@ -135,6 +137,7 @@ def test_nothing_drifts_that_is_not_known() -> None:
     assert not last.free.identifiable
 
 
+@pytest.mark.long
 def test_equal_trials_seldom_name_anything() -> None:
     """Seven numbers are judged at once: of sixty pairs that differ by noise alone, three are expected to name any."""
     rng = np.random.default_rng(4)

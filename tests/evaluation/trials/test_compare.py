@@ -78,6 +78,7 @@ def test_three_trials_of_which_one_drifts() -> None:
         assert {"centre x", "centre y", "centre z"} <= set(drift.exceeds)
 
 
+@pytest.mark.long
 def test_only_the_direction_of_drift_depends_on_the_order() -> None:
     """Turned round, means and pooled fits are the same, and the drift has the other sign."""
     rng = np.random.default_rng(2)
@@ -188,6 +189,7 @@ def test_the_file_says_condition_and_number(arm: Path) -> None:
             parse_experiment(file)
 
 
+@pytest.mark.long
 def test_trials_are_what_the_analysis_gives(arm: Path) -> None:
     """A file is a trial, or each interval is one; both read as `sphere` does."""
     (whole,), failures = read_trials([arm / PARQUET])
@@ -202,6 +204,7 @@ def test_trials_are_what_the_analysis_gives(arm: Path) -> None:
     assert [part.sphere.intervals for part in judged] == [("judge",)]
 
 
+@pytest.mark.long
 def test_a_calibration_goes_where_its_serial_number_is(arm: Path) -> None:
     """To every file with that sensor, to no other sensor of it; one that fits nowhere is a failure."""
     experiment = load_experiment(arm / PARQUET)
@@ -262,6 +265,7 @@ def test_names_are_checked_first(arm: Path) -> None:
     assert failure.message.startswith("--sensor: no file has a sensor 'arm_tf'; did you mean \"arm_ft\"?")
 
 
+@pytest.mark.long
 def test_the_comparison_shows_itself(arm: Path) -> None:
     """Every number whole in a narrow terminal, tables in a notebook, few words for `repr`; arrays in none."""
     result = compare([arm / PARQUET], by_interval=True)
@@ -282,6 +286,7 @@ def test_the_comparison_shows_itself(arm: Path) -> None:
     assert "analyses" not in Comparison.described()["properties"]
 
 
+@pytest.mark.long
 def test_what_failed_and_what_flatters_are_warnings_of_the_result(arm: Path) -> None:
     """A notebook gets both as the terminal does; where nothing is wrong there are none."""
     experiment = load_experiment(arm / PARQUET)

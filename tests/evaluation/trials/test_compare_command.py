@@ -106,6 +106,7 @@ def test_every_trial_is_what_sphere_finds(trials: Path, compared: Run, run: Run)
     assert (loose["trials"], loose["with_model"]["pooled"], loose["with_model"]["drift"]) == (1, None, None)
 
 
+@pytest.mark.long
 def test_ranks_are_of_intervals(compared: Run) -> None:
     """The calibrated sensor comes before its prior; what overlaps is in no order, and what is not known has no rank."""
     result = compared("-c", "fitted.json", "--format", "json").result()
@@ -133,6 +134,7 @@ def test_ranks_are_of_intervals(compared: Run) -> None:
     assert unknown["drift"] is None or unknown["drift"]["exceeds"] is None
 
 
+@pytest.mark.long
 def test_the_table_has_the_forms_of_the_thesis(compared: Run) -> None:
     """Errors and two indices for each trial; trials down, conditions across, and the mean apart from the pooled fit."""
     ended = compared("--details")
@@ -162,6 +164,7 @@ def test_a_condition_is_shown_as_it_was_written(trials: Path, run: Run) -> None:
     assert "3/2 turn" in every
 
 
+@pytest.mark.long
 def test_files_of_one_name_are_told_apart(trials: Path, run: Run) -> None:
     """Calibrations of one name in two folders have the folders before them, in every table."""
     for folder in ("old", "new"):
@@ -172,6 +175,7 @@ def test_files_of_one_name_are_told_apart(trials: Path, run: Run) -> None:
     assert out.count("leg.json") == 2 * out.count("old/leg.json")
 
 
+@pytest.mark.long
 def test_the_order_of_files_is_that_of_the_trials(trials: Path, run: Run) -> None:
     """Turned round, only the drift changes, by its sign; numbers in the files rule over their order."""
     there, back = (
@@ -192,6 +196,7 @@ def test_the_order_of_files_is_that_of_the_trials(trials: Path, run: Run) -> Non
     assert any("[trial] number is missing or double" in line for line in half.log)
 
 
+@pytest.mark.long
 def test_intervals_may_be_trials(arm: Path, run: Run) -> None:
     """A file with two intervals then has two trials, which have no condition."""
     result = run("study", "compare", PARQUET, "--trials", "intervals", "--format", "json").result()
@@ -201,6 +206,7 @@ def test_intervals_may_be_trials(arm: Path, run: Run) -> None:
     assert "no condition" in out
 
 
+@pytest.mark.long
 def test_a_bad_file_does_not_cost_the_table(trials: Path, run: Run) -> None:
     """It is told on standard error and in the result, the others are there, and the exit code is 1."""
     edit(trials / SECOND, 'path = "recording"', 'path = "nowhere"')
@@ -247,6 +253,7 @@ def test_lines_of_numbers(compared: Run) -> None:
     assert mapped[5]["exceeds"] == "; ".join(group["drift"]["exceeds"])
 
 
+@pytest.mark.long
 def test_a_figure_is_written_where_it_is_asked(trials: Path, run: Run) -> None:
     """A PNG, named in the result; everything else stays as it is."""
     before = snapshot(trials)
@@ -256,6 +263,7 @@ def test_a_figure_is_written_where_it_is_asked(trials: Path, run: Run) -> None:
     assert snapshot(trials).keys() - before.keys() == {"compare.png"}
 
 
+@pytest.mark.long
 def test_a_figure_that_could_not_be_drawn_is_not_named(trials: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """Nor is one that is there from before; what went wrong is a failure, and the numbers are there."""
 
@@ -313,6 +321,7 @@ def test_names_that_no_file_has_are_failures(arm: Path, run: Run, words: tuple[s
     assert message in result["failures"][0]["message"]
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_the_arms_and_the_leg_of_the_yoga(run: Run, data_dir: Path, tmp_path: Path) -> None:
     """Two intervals as trials: nothing is identifiable, so nothing is averaged, ranked, or said to have drifted."""
@@ -334,6 +343,7 @@ def test_the_arms_and_the_leg_of_the_yoga(run: Run, data_dir: Path, tmp_path: Pa
     assert fits == 4
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_a_wrist_of_100_poses_and_of_7(run: Run, data_dir: Path, tmp_path: Path) -> None:
     """Seven poses are too few and fail; the hundred stay, known with the model only."""
@@ -352,6 +362,7 @@ def test_a_wrist_of_100_poses_and_of_7(run: Run, data_dir: Path, tmp_path: Path)
     assert (group["with_model"]["rank"], group["without_model"]["rank"]) == (1, None)
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_halves_of_a_hundred_poses(run: Run, data_dir: Path, tmp_path: Path) -> None:
     """As two trials: one half is not known, so it is not averaged, and with an offset for each the pooled fit is not.

@@ -134,6 +134,7 @@ def test_it_is_reading_minus_expected_at_the_base_and_the_negative_at_an_outboar
         _require_same(found.of("bad"), -wanted, scale=scale)
 
 
+@pytest.mark.long
 def test_it_is_so_on_any_robot() -> None:
     """Sensors of either direction, in any frame, at either end of the sub-model, whatever carries the robot."""
     seen = {(direction, sign): 0 for direction in (1.0, -1.0) for sign in (1.0, -1.0)}

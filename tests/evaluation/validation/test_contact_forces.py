@@ -84,6 +84,7 @@ def test_the_new_calibration_is_best_and_the_prior_is_not(arm: Path) -> None:
         assert new.force_mean_N < 0.1 * prior.force_mean_N
 
 
+@pytest.mark.long
 def test_errors_of_other_sensors_count_only_as_measured(arm: Path) -> None:
     """A wrong matrix of the outer sensor is in the result of the mode `measured` only, a right one in neither."""
     experiment = load_experiment(arm / TWO)
@@ -178,6 +179,7 @@ def test_the_prior_has_the_offset_that_the_calibration_carries_for_it(arm: Path)
         assert torques[key].rmse == pytest.approx(torque.rmse, abs=EXACT)
 
 
+@pytest.mark.long
 def test_priors_are_called_as_evaluate_calls_them(arm: Path) -> None:
     """Two calibrations that share a prior, one with another, and one that is itself called `prior`."""
     experiment = load_experiment(arm / PARQUET)

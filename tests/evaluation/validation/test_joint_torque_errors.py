@@ -192,6 +192,7 @@ def test_without_error_the_torques_are_those_of_the_model(name: str) -> None:
     assert not robot.map.torques(none).any()
 
 
+@pytest.mark.long
 def test_it_is_what_the_estimator_makes_of_the_error_on_any_robot() -> None:
     """Rotary and prismatic joints that may mimic, sensors of either direction in any frame, a contact anywhere."""
     seen = {"borne": 0, "prismatic": 0, "negative": 0, "spared": 0}
@@ -253,6 +254,7 @@ def test_statistics_by_hand() -> None:
     assert torque_errors([0.0, 0.0], [0.0, 1.0]).rmse_error == 0.0
 
 
+@pytest.mark.long
 def test_standard_errors_are_those_of_repeated_noise() -> None:
     """White noise of deviation one: the mean scatters by 1 / sqrt(n), the root mean square by 1 / sqrt(2 n)."""
     rng, n = np.random.default_rng(1), 1000

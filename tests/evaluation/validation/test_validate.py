@@ -45,6 +45,7 @@ def test_it_joins_contact_forces_and_joint_torques(arm: Path) -> None:
     assert forces.warnings == torques.warnings == (f"left out: {words}",)
 
 
+@pytest.mark.long
 def test_nobody_is_best_among_equals(arm: Path) -> None:
     """Two of one kind are both better than the prior, and no different; alone there is nothing to be better than."""
     run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
@@ -60,6 +61,7 @@ def test_nobody_is_best_among_equals(arm: Path) -> None:
         assert (best.best, best.conclusion, best.comparisons) == (None, None, ())
 
 
+@pytest.mark.long
 def test_the_motion_of_an_interval_is_computed_once(arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """However many candidates; negative control: another sensor has instants of its own, and its own motion."""
     experiment = load_experiment(arm / TWO)
@@ -88,6 +90,7 @@ def test_several_sensors_are_put_together(arm: Path) -> None:
     assert [words.split(":")[0] for words in both.left_out] == ["arm_ft", "tool_ft"]
 
 
+@pytest.mark.long
 def test_it_shows_itself(arm: Path) -> None:
     """On a narrow screen no number is folded; a page has the tables, and one line says what it is."""
     run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")

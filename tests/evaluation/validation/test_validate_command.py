@@ -8,6 +8,7 @@ import io
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.loading import load_experiment
@@ -54,6 +55,7 @@ def test_the_best_candidate_is_named_in_every_form(arm: Path, run: Run) -> None:
     assert snapshot(arm) == before
 
 
+@pytest.mark.long
 def test_joint_torques_are_in_every_form(arm: Path, run: Run) -> None:
     """A row per candidate, offset and joint that depends on the sensor; the same numbers in JSON, CSV and table."""
     result = run("study", "validate", PARQUET, "-c", "fitted.json", "--format", "json").result()
@@ -106,6 +108,7 @@ def test_wrong_words_are_refused_in_one_line(arm: Path, run: Run) -> None:
     assert run("study", "validate", PARQUET, "--others", "both").code == 2
 
 
+@pytest.mark.long
 def test_what_is_left_out_is_warned_of_and_every_row_counts_its_own_samples(arm: Path, run: Run) -> None:
     """A short interval, and one whose first second is a gap: the title gives no count where rows differ."""
     assert "arm_ft; per axis" not in run("study", "validate", PARQUET, "--details").out
@@ -133,6 +136,7 @@ def test_what_is_left_out_is_warned_of_and_every_row_counts_its_own_samples(arm:
     assert [int(row[headings.index("samples")]) for row in rows] == list(counts.values())
 
 
+@pytest.mark.long
 def test_it_is_said_where_no_offset_was_removed(arm: Path, run: Run) -> None:
     """By the prior alone, in a file without an interval to fit; a calibration carries the offset of its prior."""
     assert "no offset removed" not in run("study", "validate", PARQUET, "--details").out

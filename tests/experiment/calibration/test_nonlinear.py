@@ -52,6 +52,7 @@ def test_hardly_any_linear_sensor_keeps_a_correction() -> None:
     assert sum(_kept(range(400, 420), CROSSTALK_COUNTS)) == 40
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seeds", [range(200, 202), pytest.param(range(200, 204), marks=pytest.mark.long)])
 def test_a_quadratic_sensor_is_corrected_and_reads_motions_better_that_were_not_fitted(seeds: range) -> None:
     """All keep it in force and moment; on other motions the error is a third, and at most half."""
@@ -74,6 +75,7 @@ def test_a_quadratic_sensor_is_corrected_and_reads_motions_better_that_were_not_
     assert np.median(ratios, axis=0).max() < 0.35
 
 
+@pytest.mark.long
 def test_a_refused_correction_leaves_the_linear_calibration() -> None:
     """The artefact has no terms, and the same matrix and offsets; it says by how much they lost."""
     sensor = Specimen(1, 0.0)
@@ -120,6 +122,7 @@ def test_only_the_half_that_wins_is_corrected() -> None:
     assert (halved.residual[3:] < 0.25 * fit.residual[3:]).all()
 
 
+@pytest.mark.long
 def test_fitted_loads_are_within_the_limits_and_larger_ones_are_not() -> None:
     """The limits are those of the means that were fitted, in their own principal directions."""
     sensor = Specimen(4, CROSSTALK_COUNTS)
@@ -131,6 +134,7 @@ def test_fitted_loads_are_within_the_limits_and_larger_ones_are_not() -> None:
     assert quadratic.beyond(sensor.recording(9, reach=0.3).reference).mean() > 0.5
 
 
+@pytest.mark.long
 def test_a_sensor_that_is_linear_is_not_corrected_for_loads_that_hide_its_gain() -> None:
     """Where a foot is in the air or bears the robot, a term passes for a gain; a fit without terms shows it.
 
@@ -173,6 +177,7 @@ def test_a_recording_that_the_fit_cannot_do_without_is_named() -> None:
         try_correction(means, None, ASSUMPTIONS)
 
 
+@pytest.mark.long
 def test_moments_say_whether_and_the_caller_rules_over_them() -> None:
     """As the experiment file and the command line do."""
     sensor = Specimen(8, CROSSTALK_COUNTS)

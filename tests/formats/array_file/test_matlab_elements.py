@@ -20,6 +20,7 @@ from forcetorque.base.errors import FormatError
 from forcetorque.formats.array_file.matlab import DEEPEST, matlab_contents, read_matlab
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.inspect import inspect_log
+from tests.fuzzing import examples
 
 KINDS = ["f8", "f4", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "?"]
 MIXED: dict[str, Any] = {
@@ -34,7 +35,7 @@ MIXED: dict[str, Any] = {
 }
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(data=st.data(), packed=st.booleans())
 def test_numbers_are_those_that_scipy_reads(
     data: st.DataObject, packed: bool, tmp_path_factory: pytest.TempPathFactory

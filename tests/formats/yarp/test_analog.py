@@ -153,6 +153,7 @@ def test_a_very_long_line_is_refused(tmp_path: Path) -> None:
         _read(tmp_path, f"{_GOOD}\n{'1 ' * 40_000}\n")
 
 
+@pytest.mark.long
 def test_a_long_log_is_read_whole(tmp_path: Path) -> None:
     """A hundred thousand messages of random numbers come back bit by bit."""
     rng = np.random.default_rng(5)

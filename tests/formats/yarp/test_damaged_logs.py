@@ -22,6 +22,7 @@ from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor, read
 from forcetorque.formats.yarp.plain_ports import read_analog, read_inertial, read_state
 from forcetorque.formats.yarp.state_ext import read_state_ext
 from forcetorque.recording.frames import ROLL_PITCH_YAW
+from tests.cases import some_cases
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, STATE_NAMES, parse_nested, parse_slowly, write_port
 from tests.fuzzing import examples
 
@@ -211,7 +212,7 @@ def test_the_comparison_notices_a_wrong_digit(tmp_path: Path, case: str) -> None
             check(folder, original.replace(old, new, 1).decode(), n_stamps)
 
 
-@pytest.mark.parametrize("case", _CASES)
+@some_cases("case", _CASES, quick=2)
 def test_damaged_logs_are_discovered(tmp_path: Path, case: str) -> None:
     """Whatever a log holds, it is listed; read without names, it is refused or gives samples."""
     original, info, _, _ = _CASES[case]

@@ -16,6 +16,7 @@ from forcetorque.formats.yarp import port_log
 from forcetorque.formats.yarp import port_log as port_folder
 from forcetorque.formats.yarp.plain_ports import read_analog
 from forcetorque.formats.yarp.state_ext import read_state_ext
+from tests.cases import some_cases
 from tests.formats.yarp.port_logs import INFO, write_port
 
 _TEXT = "".join(f"{i} {1e9 + i / 100:.6f} {i} 2 3 4.5 5 -6e-3\n" for i in range(200))
@@ -37,7 +38,7 @@ def test_a_packed_log_reads_like_a_plain_one(tmp_path: Path) -> None:
     assert _read(folder) == plain
 
 
-@pytest.mark.parametrize("size", [1, 10, 64, 1000])
+@some_cases("size", [1, 10, 64, 1000])
 def test_the_size_of_blocks_does_not_matter(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, size: int) -> None:
     """Lines that lie across blocks are read whole, and errors count lines from the start of the file."""
     folder = write_port(tmp_path, _TEXT)
@@ -157,6 +158,7 @@ def test_a_log_without_line_feeds_does_not_fill_the_memory(tmp_path: Path) -> No
     assert peak < 4 * port_folder.BLOCK_SIZE
 
 
+@pytest.mark.long
 def test_a_long_log_is_read_in_blocks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A packed log of 20 MB: besides its result, twice while that is put together, some blocks are held."""
     monkeypatch.setattr(port_folder, "BLOCK_SIZE", 1 << 18)

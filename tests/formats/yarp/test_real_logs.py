@@ -11,6 +11,7 @@ import pytest
 
 from forcetorque.formats.yarp.plain_ports import read_analog
 from forcetorque.formats.yarp.state_ext import read_state_ext
+from tests.cases import some_cases
 from tests.formats.yarp.port_logs import STATE_NAMES, parse_slowly, read_text
 
 pytestmark = pytest.mark.real_data
@@ -42,7 +43,7 @@ def test_force_torque_sensors(data_dir: Path, port: str) -> None:
     np.testing.assert_array_equal(reading.stream.signal("wrench").values, expected)
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("port", "joints", "zeros"),
     [
         ("dumperLeftLegNoIMU/icub/right_leg", _LEG, ["acceleration"]),
@@ -51,6 +52,7 @@ def test_force_torque_sensors(data_dir: Path, port: str) -> None:
         ("dumperRightLegNoIMU/icub/right_leg", _LEG, ["acceleration"]),
         ("dumperRightLegNoIMU/icub/head", _HEAD, ["velocity", "acceleration"]),
     ],
+    quick=2,
 )
 def test_control_boards(data_dir: Path, port: str, joints: tuple[str, ...], zeros: list[str]) -> None:
     """These boards flag no failure, none estimates accelerations and that of the head no velocities either."""

@@ -14,6 +14,7 @@ from forcetorque.formats.yarp.log_format import PortKind, discover_ports, read_f
 from forcetorque.formats.yarp.skin_ports import SkinPart, read_skin_events
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream
+from tests.cases import some_cases
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
 
 _CONTACT = "((7 4 4 5) (0.1 0.2 0.3) (-0.5 0.25 -0.125) (0.0 0.0 0.0) (0.11 0.21 0.31) (1.0 0.0 0.0) (43 44) 10.5)"
@@ -182,7 +183,7 @@ def test_the_port_is_recognised_by_its_first_contact(tmp_path: Path) -> None:
 
 
 @pytest.mark.real_data
-@pytest.mark.parametrize(
+@some_cases(
     ("name", "contacts", "ahead_s"),
     [
         ("left", {2: 597, 5: 9, 6: 17}, 169382481),
@@ -190,6 +191,7 @@ def test_the_port_is_recognised_by_its_first_contact(tmp_path: Path) -> None:
         ("both", {2: 439, 5: 384, 6: 29}, None),
         ("rightleftforearmshands", {1: 381, 2: 1045, 4: 277, 5: 924, 6: 8, 7: 127}, None),
     ],
+    quick=3,
 )
 def test_logs_of_a_real_robot(
     data_dir: Path, tmp_path: Path, name: str, contacts: dict[int, int], ahead_s: float | None

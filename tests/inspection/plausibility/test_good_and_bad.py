@@ -70,6 +70,7 @@ def _delay_ms(doubt: Doubt) -> float:
     return float(words[words.index("ms") - 1])
 
 
+@pytest.mark.long
 def test_two_specimens_of_four_sensors_pass_and_their_wrong_models_do_not() -> None:
     """Coefficients are off by 4 to 22 % of their row, so that forces are off by up to 50 % in single directions."""
     every = [*ALONE]

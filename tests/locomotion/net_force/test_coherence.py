@@ -157,6 +157,7 @@ def test_the_phase_that_gave_the_offset_is_no_evidence(switched: Switched) -> No
         assert summary.force_error_largest_N == pytest.approx(max(norms.values()))
 
 
+@pytest.mark.long
 def test_true_matrices_bear_the_weight(switched: Switched) -> None:
     """With nothing wrong but offsets, forces and moments of all phases on still feet add up to the weight."""
     experiment = replace(
@@ -198,6 +199,7 @@ def test_estimates_take_the_same_offsets_and_say_where_there_is_none(switched: S
     assert [words.partition(":")[0] for words in warnings if "no offset removed" in words] == list(FEET)
 
 
+@pytest.mark.long
 def test_the_first_phase_of_one_link_gives_the_offset_unless_told(switched: Switched) -> None:
     """Hanging with an IMU here; without it the left foot, whose gravity an IMU tells no longer."""
     intervals = switched.experiment.recording.intervals

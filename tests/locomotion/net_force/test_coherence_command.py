@@ -21,6 +21,9 @@ FEET = ("l_foot_ft", "r_foot_ft")
 DAY = "simulated/switching_day2.toml"
 
 
+pytestmark = pytest.mark.long
+
+
 @pytest.fixture(scope="module")
 def walked(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder with two simulated days and a folder of calibrations of the first."""

@@ -58,6 +58,7 @@ def tilted(standing: Standing) -> Standing:
     return moving(standing, balancing_movement(stand, "r_sole", rng=np.random.default_rng(4), postures=2))
 
 
+@pytest.mark.long
 def test_a_script_writes_forces_as_the_command_does(standing: Standing) -> None:
     """Touch, release and least load in newtons or shares; the other options are those of `BalanceOptions`."""
     asked = BalanceOptions(
@@ -68,6 +69,7 @@ def test_a_script_writes_forces_as_the_command_does(standing: Standing) -> None:
     assert said.json_text() == expected.json_text()
 
 
+@pytest.mark.long
 def test_points_are_those_of_the_ground_in_every_phase(standing: Standing) -> None:
     """Of each foot that is down, within 1e-9 m; a foot in the air has none, and phases are those that were planned."""
     result = balance([standing.experiment], [standing.corrections])
@@ -102,6 +104,7 @@ def test_points_are_those_of_the_ground_in_every_phase(standing: Standing) -> No
     assert np.isnan(hanging.zero_moment_point).all()
 
 
+@pytest.mark.long
 def test_the_net_force_is_the_weight_where_nothing_moves(standing: Standing) -> None:
     """In double support all joints are still: the two feet bear what the robot weighs."""
     result = balance([standing.experiment], [standing.corrections])
@@ -208,6 +211,7 @@ def test_a_wrong_offset_is_flagged_and_not_clipped(tilted: Standing) -> None:
     assert any("lie outside the outline, by up to" in warning for warning in result.warnings)
 
 
+@pytest.mark.long
 def test_feet_that_bear_another_weight_are_doubted(standing: Standing) -> None:
     """An offset of 100 N upwards that nobody removed: the robot seems a third heavier, and a warning says so."""
     sensor = "l_foot_ft"
@@ -253,6 +257,7 @@ def test_what_is_missing_is_named(standing: Standing, tilted: Standing) -> None:
     assert sum(row.samples for row in result.feet) > 0
 
 
+@pytest.mark.long
 def test_the_script_of_the_page_runs(
     standing: Standing, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

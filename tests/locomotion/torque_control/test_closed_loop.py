@@ -56,6 +56,7 @@ def pushed(
     return run_loop(biped, setting, still, errors, rng=np.random.default_rng(1), push_N=push_N)
 
 
+@pytest.mark.long
 def test_without_errors_it_changes_its_support_and_stands(biped: Biped, setting: LoopSetting) -> None:
     """On the left foot, on both, on the right: torques are tracked within 0.2 N m, the centre of mass within 10 mm."""
     reference = switching(biped, Timing(hold_s=0.1, shift_s=0.8, single_s=0.4, lift_m=0.02), PERIOD_S)
@@ -124,6 +125,7 @@ def test_the_linear_loop_says_from_which_size_on_it_swings(biped: Biped, setting
     assert above.mean() >= 0.8, above
 
 
+@pytest.mark.long
 def test_one_draw_swings_above_the_predicted_size_and_not_below(biped: Biped, setting: LoopSetting) -> None:
     """The quick one of the long test: at half of the size a push dies away, at twice it does not."""
     robot = linear_robot(biped, setting, standing(biped, Phase.LEFT, 2, LIFT_M, PERIOD_S), 0)

@@ -110,6 +110,7 @@ def test_the_integral_winds_back_from_the_limit() -> None:
     assert controller.limited[0]
 
 
+@pytest.mark.long
 def test_a_change_of_calibration_does_not_jump() -> None:
     """The step of the change gives what the old calibration would have given, and the new one wins in the end."""
     reading = {"old": lambda torque: 1.1 * torque + 2.0, "new": lambda torque: torque}

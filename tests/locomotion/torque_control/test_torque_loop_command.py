@@ -75,6 +75,7 @@ def test_a_wrong_file_is_one_line(tmp_path: Path, text: str, message: str) -> No
         read_torque_loop(path)
 
 
+@pytest.mark.long
 def test_gains_that_are_unstable_alone_are_refused() -> None:
     """By the linear loop, before anything is simulated."""
     with pytest.raises(ControlError, match="unstable without any sensor error"):

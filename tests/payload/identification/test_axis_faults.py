@@ -15,6 +15,7 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.payload.identification.estimation_problem import LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadSolution
 from forcetorque.payload.identification.loads_with_intervals import solve
+from tests.cases import some_cases
 from tests.payload.identification.payloads import SIZES, poses, problem_of, weight
 
 POSES = 24
@@ -54,12 +55,13 @@ def _named(fault: str, count: int) -> int:
     return sum(_is_named(solution, fault, words) for solution, words in solved)
 
 
-@pytest.mark.parametrize("fault", FAULTS)
+@some_cases("fault", FAULTS)
 def test_a_planted_fault_is_named(fault: str) -> None:
     """Four of five draws, with its axis or pose; a moment of a light load hides a gain of 5 %."""
     assert _named(fault, 5) >= 4
 
 
+@pytest.mark.long
 def test_fault_free_poses_have_no_name() -> None:
     """Negative control: neither an account nor a row."""
     for k in range(8):

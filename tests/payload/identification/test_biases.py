@@ -53,6 +53,7 @@ def _coverage(seeds: range, **options: int) -> dict[str, float]:
     return {name: float(np.concatenate(hits).mean()) for name, hits in counted.items() if np.concatenate(hits).size}
 
 
+@pytest.mark.long
 def test_intervals_hold_the_truth() -> None:
     """All parameters together, over a few seeds: less than a sixth miss."""
     coverage = _coverage(range(FEW), length=SHORT)
@@ -77,6 +78,7 @@ def _as_one(problem: LoadProblem) -> LoadProblem:
     return replace(problem, rows=rows, sessions=("all",))
 
 
+@pytest.mark.long
 def test_one_bias_for_all_power_ups_is_noticed() -> None:
     """By its test and by the mass that it would give; where the biases are one, it is not."""
     made = PowerUps(seed=1, length=SHORT)
@@ -124,6 +126,7 @@ def test_rows_that_were_held_out_choose_the_drift(drifts: bool) -> None:
         np.testing.assert_allclose(session.drift_per_s, slope, atol=3.0 * np.max(SIZES / 60.0))
 
 
+@pytest.mark.long
 def test_a_drift_can_be_stated() -> None:
     """Then it is taken or left, whatever the rows say."""
     made = PowerUps(seed=4, length=SHORT)

@@ -213,6 +213,7 @@ def test_a_bare_sensor_is_said_to_be_bare() -> None:
     assert swapped == {"swapped columns": 20}
 
 
+@pytest.mark.long
 def test_noisy_readings_under_an_unknown_tilt_are_no_error() -> None:
     """Other frames are tried without the tilt, which would need the orientation that they do not have."""
     noise = 10.0 * SIZES * np.random.default_rng(7).normal(size=(COUNT, 6))
@@ -224,6 +225,7 @@ def _is_of_another_size(problem: LoadProblem) -> bool:
     return any(scales(problem, plain_fit(problem, drift=False)[0], other_sizes=True))
 
 
+@pytest.mark.long
 def test_a_stated_load_is_of_the_size_that_is_read() -> None:
     """Of 100 sensors that err by 15 % under slow noise none is said to read another size; with moments in N mm 95 are.
 
@@ -299,6 +301,7 @@ def test_a_row_that_disagrees_is_named_and_counts_less() -> None:
     assert abs(solution.drift.plain_mass_without_kg[0] - MASS) > 2.0 * solution.loads[0].mass_half_width
 
 
+@pytest.mark.long
 def test_sound_rows_are_seldom_named() -> None:
     """In one of a hundred sound problems; one per problem would be a gate."""
     rng = np.random.default_rng(5)

@@ -65,6 +65,7 @@ def test_an_axis_has_at_least_a_tenth_of_the_noise_of_the_loudest() -> None:
     np.testing.assert_array_equal(noise_sizes(np.empty((0, 6))), np.ones(6))
 
 
+@pytest.mark.long
 def test_the_unit_of_time_does_not_change_what_slow_noise_makes_of_a_load() -> None:
     """Rows a second apart and rows an hour apart, in two power-ups, of which the second may be much later."""
     rng = np.random.default_rng(2)

@@ -125,6 +125,7 @@ def test_a_temperature_is_told_from_bias_and_load() -> None:
     assert (np.array(variable.half_width_95) < 0.1 * np.abs(slope).max()).all()
 
 
+@pytest.mark.long
 def test_a_mount_that_nobody_states_is_found() -> None:
     """A sensor that is turned by a quarter and three degrees; stated as not turned, the quarter is named."""
     rng = np.random.default_rng(5)
@@ -168,6 +169,7 @@ def test_an_unknown_tilt_leaves_the_mass_of_a_sensor_that_turns() -> None:
     assert np.abs(solution.tilt).max() < 1e-4
 
 
+@pytest.mark.long
 def test_a_matrix_that_is_known_in_part_widens_the_mass() -> None:
     """A gain of 2 % that nobody knows is 2 % of the mass; a stated mass then tells the gain."""
     rng = np.random.default_rng(7)

@@ -23,6 +23,7 @@ from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import read_mc_rtc
 from forcetorque.payload.robot_files.robot_load import RobotLoad
 from forcetorque.payload.robot_files.ros import read_ft_tools
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.scenes.wrist_postures import BIAS, CENTRE, HELD_S, MASS, SLOW, write_postures
 
 POSTURES = Rotation.random(8, random_state=4)
@@ -50,6 +51,7 @@ def test_payload_writes_what_a_robot_loads(weighed: Path, run: Run) -> None:
     assert "force_offset and torque_offset are the bias, and are taken off" in " ".join(outcome.err.split())
 
 
+@pytest.mark.long
 def test_the_file_may_go_to_standard_output(weighed: Path, run: Run) -> None:
     """The file in place of the table; not beside a result for programs."""
     told = run("payload", weighed, "--to", "mc-rtc", "-o", "-", "--sensor-pose", *POSE)
@@ -105,6 +107,7 @@ def test_a_robot_is_told_one_load_with_a_whole_bias(weighed: Path, run: Run, tmp
     assert not (tmp_path / "load").exists()
 
 
+@pytest.mark.long
 def test_a_robot_is_told_what_several_recordings_say_together(weighed: Path, run: Run, tmp_path: Path) -> None:
     """Not what the last of them says alone; the bias is that of the last, which is said."""
     other = write_postures(tmp_path, seed=7, postures=POSTURES, known=False)
@@ -122,7 +125,7 @@ _COLUMNS = 'columns = ["fx", "fy", "fz", "tx", "ty", "tz"]'
 _UNITS = 'units = ["N", "N", "N", "N m", "N m", "N m"]'
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("old", "new", "match"),
     [
         ("child_to_parent", "parent_to_child", "reversed direction: "),
@@ -132,7 +135,7 @@ _UNITS = 'units = ["N", "N", "N", "N m", "N m", "N m"]'
         (_UNITS, 'units = ["kgf", "kgf", "kgf", "N m", "N m", "N m"]', "check units of the wrench"),
     ],
 )
-@pytest.mark.parametrize("count", [1, 2])
+@some_cases("count", [1, 2])
 def test_no_file_is_written_of_a_load_that_the_readings_contradict(
     weighed: Path, run: Run, tmp_path: Path, count: int, old: str, new: str, match: str
 ) -> None:
@@ -152,6 +155,7 @@ def test_no_file_is_written_of_a_load_that_the_readings_contradict(
     assert not (tmp_path / "load").exists()
 
 
+@pytest.mark.long
 def test_a_tare_under_a_load_that_the_readings_contradict_writes_no_file(run: Run, tmp_path: Path) -> None:
     """The new offset would hold twice the weight; the answer itself is still shown."""
     path = write_postures(tmp_path, seed=8, postures=POSTURES)
@@ -168,6 +172,7 @@ def test_a_tare_under_a_load_that_the_readings_contradict_writes_no_file(run: Ru
     assert run(*words).code == 0
 
 
+@pytest.mark.long
 def test_a_jump_takes_a_reason_and_that_nothing_hangs_there_takes_none(run: Run, tmp_path: Path) -> None:
     """A jump makes the bias wrong; a stated mass of 0 is what the user wants. The reason stands beside the file."""
     jumped = write_postures(tmp_path, seed=9, postures=POSTURES)
@@ -255,6 +260,7 @@ def test_the_reason_beside_a_file_replaces_none_of_the_user_and_goes_with_the_do
         assert beside.exists() == (doubtful.override is not None)
 
 
+@pytest.mark.long
 def test_a_tare_under_a_load_that_moves_takes_a_reason(tmp_path: Path, run: Run) -> None:
     """Its offset has errors of the load in it."""
     path = write_postures(tmp_path, seed=6, postures=POSTURES)

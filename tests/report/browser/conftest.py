@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
 from contextlib import chdir
 from datetime import UTC, datetime
 from pathlib import Path
@@ -15,19 +14,7 @@ from forcetorque.experiment.calibration.artefact import write_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from tests.app.outcome import typed
-from tests.browser import _closed_at_the_end, chromium, close_after_folder, visit
 from tests.scenes.experiments import PARQUET, write_experiments
-
-__all__ = ["_closed_at_the_end", "chromium", "visit"]
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_teardown(nextitem: pytest.Item | None) -> Generator[None]:
-    """Leave no browser open to the tests of other folders."""
-    try:
-        yield
-    finally:
-        close_after_folder(nextitem, Path(__file__).parent)
 
 
 @pytest.fixture(scope="module")

@@ -18,7 +18,7 @@ from tests.browser import Visit
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.long]
 
 NARROW = {"width": 420, "height": 800}
 """Size of a telephone."""
@@ -37,18 +37,6 @@ def _open(visit: Visit, report: Path) -> Page:
 
 def _open_all(page: Page) -> None:
     page.evaluate("document.querySelectorAll('details').forEach(one => { one.open = true })")
-
-
-def test_the_verdict_is_on_the_first_screen(visit: Visit, report: Path) -> None:
-    """Title, then verdict, both without scrolling; every picture is drawn."""
-    page = _open(visit, report)
-    assert page.get_by_role("heading", level=1).is_visible()
-    verdict = page.locator(".verdict").first.bounding_box()
-    assert verdict is not None
-    assert verdict["y"] + verdict["height"] < page.viewport_size["height"]  # type: ignore[index]
-    widths = page.locator("img").evaluate_all("images => images.map(image => image.complete ? image.naturalWidth : 0)")
-    assert len(widths) == 7
-    assert min(widths) >= 1000
 
 
 def test_what_is_folded_opens_by_keyboard(visit: Visit, report: Path) -> None:

@@ -169,6 +169,7 @@ def test_numbers_stand_to_the_right() -> None:
         Table(caption="odd", headings=("a", "b"), rows=(("1",),))
 
 
+@pytest.mark.long
 def test_long_and_wide_tables_go_on() -> None:
     """Every row of a table of three pages is there, and every cell of one that is wider than the page."""
     text = _pdf_text(pdf_bytes(_document(rows=150)))
@@ -184,6 +185,7 @@ def test_long_and_wide_tables_go_on() -> None:
     assert all("".join(cell.split()) in found for cell in cells)
 
 
+@pytest.mark.long
 def test_the_same_document_gives_the_same_bytes() -> None:
     """Nothing depends on when it is written."""
     assert html_bytes(_document()) == html_bytes(_document())
@@ -255,6 +257,7 @@ def _tables(draw: st.DrawFn) -> Table:
     return Table(caption="c", headings=headings, rows=tuple(rows))
 
 
+@pytest.mark.long
 @settings(max_examples=15, deadline=None, derandomize=True)
 @given(_tables())
 def test_any_table_is_written_with_every_cell_inside_the_page(table: Table) -> None:
@@ -278,6 +281,7 @@ def _right_end_mm(pdf: bytes) -> float:
     return max(ends) * 25.4 / 72.0
 
 
+@pytest.mark.long
 def test_one_long_column_or_many_wide_ones_are_written() -> None:
     """Widths whose sum is beside the width of the page by rounding; each of these tables was refused once."""
     texts = [("stream", "x" * count, "words that wrap " * 9) for count in range(1, 30)]
@@ -291,6 +295,7 @@ def test_one_long_column_or_many_wide_ones_are_written() -> None:
     assert A4_MM - MARGIN_MM - 20.0 < _right_end_mm(pdf) <= A4_MM - MARGIN_MM + 0.01
 
 
+@pytest.mark.long
 def test_rows_may_be_taller_than_a_page() -> None:
     """A cell of three pages goes on, and headings stand on each page of a long table."""
     words = [f"w{k}" for k in range(3000)]
@@ -395,6 +400,7 @@ def test_lines_hold_every_letter_and_none_is_too_wide() -> None:
         assert max(map(len, lines)) <= width
 
 
+@pytest.mark.long
 def test_long_words_wrap_in_paragraphs() -> None:
     """A hash of a thousand letters is all there, and the style of the page lets it wrap."""
     document = _of(

@@ -15,6 +15,7 @@ from forcetorque.results.document.html import html_bytes
 from forcetorque.results.document.pdf import pdf_bytes
 from forcetorque.results.figures import DOTS_PER_INCH
 from forcetorque.results.table import Table
+from tests.cases import some_cases
 
 
 def _picture(width: int = 1200, height: int = 400) -> Picture:
@@ -49,8 +50,8 @@ def _pages(*sections: Section) -> list[PageObject]:
 REST = Section(title="the rest", blocks=(Text(text="of it"),), folded=True)
 
 
-@pytest.mark.parametrize("steps", [1, 4, 12])
-@pytest.mark.parametrize("height", [200, 1200, 4000])
+@some_cases("steps", [1, 4, 12])
+@some_cases("height", [200, 1200, 4000], quick=2)
 def test_sentence_figure_and_steps_share_one_page(steps: int, height: int) -> None:
     """However tall the picture, it gives way; however much room is left, the rest begins on the next page."""
     first, *others = _pages(_page("leg", steps=steps, height=height, spare=0), REST)
@@ -61,6 +62,7 @@ def test_sentence_figure_and_steps_share_one_page(steps: int, height: int) -> No
     assert not any(page.images for page in others)
 
 
+@pytest.mark.long
 def test_more_than_a_page_goes_on_and_loses_nothing() -> None:
     """The control: forty steps are no page, and all are there."""
     pages = _pages(_page("leg", steps=40, spare=0), REST)
@@ -69,6 +71,7 @@ def test_more_than_a_page_goes_on_and_loses_nothing() -> None:
     assert all(re.search(rf"(?m)(^|\s){k}\.", text) for k in range(1, 41))
 
 
+@pytest.mark.long
 def test_several_pages_to_decide_by_begin_a_page_each() -> None:
     """And come before all else, with what had no room behind them, under its own name."""
     pages = [page.extract_text() for page in _pages(_page("leg", spare=6), _page("arm", spare=6), REST)]
@@ -83,6 +86,7 @@ def test_several_pages_to_decide_by_begin_a_page_each() -> None:
     assert text.index("arm: spare") < text.index("the rest")
 
 
+@pytest.mark.long
 def test_spare_parts_fill_the_page() -> None:
     """As many as fit: the next would not, and none is cut."""
     (first, *_) = _pages(_page("leg", spare=8), REST)
@@ -124,6 +128,7 @@ def test_folded_sections_can_be_opened_by_keyboard_and_need_no_script() -> None:
     assert html.index("because of leg") < html.index("<details>")
 
 
+@pytest.mark.long
 def test_numbered_points_have_their_numbers() -> None:
     """In both forms; others have none."""
     numbered, plain = (Section(title="t", blocks=(List(points=("one", "two"), numbered=n),)) for n in (True, False))

@@ -18,13 +18,14 @@ from matplotlib.transforms import Bbox
 import forcetorque
 from forcetorque.base.errors import MissingExtraError
 from forcetorque.results.figures import png_bytes
+from tests.cases import some_cases
 from tests.report.drawing import FIGURES, panels, shown_texts, size_of
 
 every_figure = pytest.mark.parametrize("name", list(FIGURES))
-some_figures = pytest.mark.parametrize(
-    "name", [name if k % 4 == 0 else pytest.param(name, marks=pytest.mark.long) for k, name in enumerate(FIGURES)]
-)
-"""One of four, and in the long run all: what they have in common is written once, in the canvas."""
+FEW = ("comparison", "contact", "device")
+"""Of several capabilities."""
+some_figures = some_cases("name", [*FEW, *(name for name in FIGURES if name not in FEW)], quick=len(FEW))
+"""A few, and in the long run all: what they have in common is written once, in the canvas."""
 
 ROOT = Path(forcetorque.__file__).parent
 FILES = sorted(
@@ -61,7 +62,7 @@ def _drawn(name: str) -> tuple[bytes, Figure]:
     return png_bytes(figure), figure
 
 
-@every_figure
+@some_figures
 def test_a_whole_png_of_the_common_width(name: str) -> None:
     """Signature, width and end as the format has them."""
     png, _ = _drawn(name)
@@ -115,7 +116,7 @@ def _outside(figure: Figure) -> list[str]:
     return [text for text, box in boxes if not (page.contains(box.x0, box.y0) and page.contains(box.x1, box.y1))]
 
 
-@every_figure
+@some_figures
 def test_no_text_lies_over_another_or_beyond_the_edge(name: str) -> None:
     """Labels, numbers along axes, titles and legend each have their place."""
     _, figure = _drawn(name)
@@ -123,7 +124,7 @@ def test_no_text_lies_over_another_or_beyond_the_edge(name: str) -> None:
     assert _outside(figure) == []
 
 
-@every_figure
+@some_figures
 def test_the_legend_is_beside_the_data(name: str) -> None:
     """Legends of figures, and of panels, lie outside all panels."""
     _, figure = _drawn(name)
@@ -146,6 +147,7 @@ def test_an_overlap_is_noticed() -> None:
     assert _outside(figure) == ["moved"]
 
 
+@pytest.mark.long
 def test_figures_leave_the_program_as_it_is() -> None:
     """Matplotlib comes with the first figure and not before; pyplot, its windows and settings stay out of it."""
     code = """

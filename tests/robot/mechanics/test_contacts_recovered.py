@@ -104,6 +104,7 @@ def _free(model: RobotModel, seed: int) -> tuple[JointMotion, RootMotion]:
     return JointMotion(names=names, position=position, velocity=velocity, acceleration=acceleration), random_root(3, 5)
 
 
+@pytest.mark.long
 def test_what_touches_any_robot_is_found() -> None:
     """On random robots: where an equation determines all its unknowns they are found; net wrenches always."""
     seen = dict.fromkeys(ContactType, 0)

@@ -21,6 +21,7 @@ from forcetorque.robot.mechanics.question import Question, moving_joints
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
+from tests.cases import some_cases
 from tests.robot.mechanics.pinocchio_oracle import Pinocchio
 from tests.robot.mechanics.simulated import random_pose, random_root
 from tests.scenes.robots import example_robot, icub, random_motion, read_text
@@ -174,7 +175,7 @@ def test_every_kind_of_tag_equals_pinocchio(robot: str, root_link: str, evaluato
 
 
 @pytest.mark.parametrize("evaluator", Evaluator)
-@pytest.mark.parametrize(("robot", "root_link"), [(robot, link) for robot in UNTAGGED for link in UNTAGGED[robot][1]])
+@some_cases(("robot", "root_link"), [(robot, link) for robot in UNTAGGED for link in UNTAGGED[robot][1]])
 def test_declared_sensors_equal_pinocchio(robot: str, root_link: str, evaluator: Evaluator, tmp_path: Path) -> None:
     """Wrist sensors that are declared by their fixed joint read as in Pinocchio; so do torques of slides."""
     find, _ = UNTAGGED[robot]

@@ -16,6 +16,7 @@ from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.robot.mechanics.question import Question, moving_joints
 from forcetorque.robot.motion import JointMotion, RootMotion
+from tests.cases import some_cases
 from tests.robot.mechanics.touched import touched
 
 SAMPLES = 4096 + 150
@@ -32,7 +33,7 @@ def _mapped(values: FloatArray, file: Path) -> npt.NDArray[Any]:
     return np.load(file, mmap_mode="r")  # type: ignore[no-any-return]
 
 
-@pytest.mark.parametrize("evaluator", Evaluator)
+@some_cases("evaluator", [Evaluator.COMPILED, Evaluator.READABLE])
 def test_mapped_files_give_the_same(evaluator: Evaluator, tmp_path: Path) -> None:
     """All inputs and results in files give what arrays in memory give, to the last bit; the inputs are not copied."""
     contacts = (

@@ -17,6 +17,7 @@ from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree, sub_models
 from forcetorque.robot.urdf import read_urdf
+from tests.cases import some_cases
 from tests.robot.kinematics import link_poses
 from tests.robot.mechanics.simulated import Simulation, random_pose
 from tests.scenes.robots import example_robot, icub, random_motion
@@ -41,8 +42,8 @@ VISIBLE = 0.1
 GRAVITY = 9.80665 * np.array([2.0, -1.0, -2.0]) / 3.0
 
 ROBOTS: dict[str, tuple[Callable[[], Path], str]] = {
-    "gazebo_v2_7": (lambda: icub("iCubGazeboV2_7"), "root_link"),
     "genova03_on_a_foot": (lambda: icub("iCubGenova03"), "l_sole"),
+    "gazebo_v2_7": (lambda: icub("iCubGazeboV2_7"), "root_link"),
     "tiago_on_a_slide": (lambda: example_robot("tiago_description/robots/tiago.urdf"), "base_footprint"),
     "tiago_from_its_wrist": (lambda: example_robot("tiago_description/robots/tiago.urdf"), "arm_7_link"),
 }
@@ -65,7 +66,7 @@ def _energy(model: RobotModel, held: str, coordinates: dict[str, float]) -> floa
 
 
 @pytest.mark.parametrize("evaluator", Evaluator)
-@pytest.mark.parametrize("name", ROBOTS)
+@some_cases("name", ROBOTS)
 def test_torque_at_rest_is_the_slope_of_the_potential_energy(name: str, evaluator: Evaluator) -> None:
     """Virtual work: held at its root link, a robot at rest needs dU/dq at every joint, a force at a slide."""
     model, root_link = _robot(name)

@@ -57,6 +57,7 @@ def test_every_channel_is_drawn_before_and_after(gains: SensorGains) -> None:
     assert count_of(image, COLOURS[7]) == 0
 
 
+@pytest.mark.long
 def test_what_is_drawn_depends_on_the_gains(gains: SensorGains) -> None:
     """Factors of one draw the same lines on both sides; the recommended ones do not."""
     drawn = png_bytes(gain_figure([gains]))
@@ -81,6 +82,7 @@ def test_without_matplotlib_the_error_says_what_to_install(gains: SensorGains, m
         gain_figure([gains])
 
 
+@pytest.mark.long
 def test_drawing_leaves_the_program_as_it_is(experiment: Path) -> None:
     """Matplotlib comes with the first figure and not before; pyplot, its windows and settings stay out of it."""
     code = f"""

@@ -151,6 +151,7 @@ def test_the_printed_logarithm_is_another_function() -> None:
     assert abs(float(model.inverse(printed)) - 3.0) > 1.0
 
 
+@pytest.mark.long
 @given(st.floats(0.05, 0.95))
 def test_an_exponential_is_not_fitted_to_logarithms(part: float) -> None:
     """The fit weighs errors of the output: a wrong point at the small end hardly matters."""

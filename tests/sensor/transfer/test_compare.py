@@ -22,6 +22,7 @@ from forcetorque.sensor.transfer.parametric import (
     fit_power,
 )
 from forcetorque.sensor.transfer.transfer_function import TransferFunction
+from tests.cases import some_cases
 
 CLOSED = {
     "linear": fit_linear,
@@ -33,7 +34,7 @@ RNG = np.random.default_rng(1)
 SHUFFLED = RNG.permutation(np.linspace(1.0, 50.0, 60))
 
 
-@pytest.mark.parametrize(
+@some_cases(
     "truth",
     [
         Linear(lowest=1.0, highest=50.0, slope=-2.0, offset=240.0),

@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 
 from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.simulation.motions.joint_motions import random_movement
+from tests.fuzzing import examples
 from tests.simulation.motions.stands import arm, on_pole, require_inside_limits, times
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), slowest_hz=st.floats(1e-3, 100.0))
 def test_no_joint_is_too_fast_or_too_far(seed: int, slowest_hz: float) -> None:
     """Frequencies are lowered until every joint keeps its speed."""

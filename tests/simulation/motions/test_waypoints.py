@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.simulation.motions.trajectories import Waypoints
+from tests.fuzzing import examples
 from tests.simulation.motions.stands import require_exact_derivatives
 
 NAMES = ("a", "b")
@@ -34,7 +35,7 @@ def test_a_move_by_hand() -> None:
     assert np.abs(dense).max() == pytest.approx(10 / np.sqrt(3) / 3.75**2, rel=1e-6)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(
     seed=st.integers(0, 2**32 - 1),
     count=st.integers(1, 6),

@@ -80,6 +80,7 @@ def _errors(scenario: Scenario, loads: list[FloatArray]) -> FloatArray:
     return np.concatenate(parts)
 
 
+@pytest.mark.long
 def test_the_workbench_error_is_that_of_the_thesis_whatever_the_draw() -> None:
     """For 20 sensors each axis errs as set and the force norm lies in the range; as drawn some norms do not."""
     scenario = insitu()
@@ -109,6 +110,7 @@ def test_recordings_show_the_error_that_was_set() -> None:
     np.testing.assert_allclose(np.abs(np.concatenate(parts)).mean(axis=0), WANTED, rtol=2 * EVERY_TENTH)
 
 
+@pytest.mark.long
 def test_only_the_mounted_matrix_of_the_named_sensor_changes() -> None:
     """Workbench matrices, offsets and drifts in counts, and other sensors are as they are drawn without the table."""
     fixed = load_scenario(bundled_scenario("icub-insitu"))
@@ -169,6 +171,7 @@ def _left(scenario: Scenario) -> tuple[float, int]:
     return float(np.sqrt((residual**2).sum(axis=1).mean()) / floor), held
 
 
+@pytest.mark.long
 def test_a_linear_fit_of_linear_sensors_leaves_only_noise() -> None:
     """With every other effect on it leaves much more; the changes take all of them out, and nothing else."""
     spoilt = {"limit_counts": 9000, "gradient_counts_per_degC": 10.0, "hysteresis_counts_per_degC": 10.0}
@@ -192,6 +195,7 @@ def _raw(scenario: Scenario, *args: object) -> list[FloatArray]:
     return [made.recording.stream("arm_ft").signal("raw").values for made in simulate(scenario, *args)]  # type: ignore[arg-type]
 
 
+@pytest.mark.long
 def test_traces_serve_any_number_of_sensors() -> None:
     """With traces come the same recordings as without; another seed of the sensors changes counts and no load."""
     scenario = build_scenario(ARM)
@@ -212,6 +216,7 @@ def test_traces_serve_any_number_of_sensors() -> None:
     assert not np.array_equal(moved["fit"].loads["arm_ft"], traces["fit"].loads["arm_ft"])
 
 
+@pytest.mark.long
 def test_sensors_that_are_left_out_change_no_other() -> None:
     """A sensor keeps its matrix, serial number and offsets whichever others are simulated."""
     every = load_scenario(bundled_scenario("icub-insitu"))

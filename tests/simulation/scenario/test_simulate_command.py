@@ -109,6 +109,7 @@ def test_the_same_file_gives_the_same_bytes(scenario: Path, run: Run) -> None:
     assert third["fit/arm_ft.parquet"] != first["fit/arm_ft.parquet"]
 
 
+@pytest.mark.long
 def test_saturation_is_found_in_every_saturated_sample_and_nowhere_else(scenario: Path, run: Run) -> None:
     """`inspect` marks exactly the samples of the truth; none is fitted; a wide range has none."""
     edit(scenario, "noise_counts = 1.0", "noise_counts = 1.0\nlimit_counts = 12000")
@@ -207,6 +208,7 @@ def test_an_error_that_is_set_needs_recordings_to_take_it_over(scenario: Path, r
     assert 'sensors.workbench_error is taken over recordings with use = "validation"' in error
 
 
+@pytest.mark.long
 def test_the_workbench_matrix_errs_by_what_the_file_says(scenario: Path, run: Run) -> None:
     """`evaluate` finds the force error that was set: its mean norm lies between what the means of the axes allow."""
     scenario.write_text(SMALL.replace("[[recording]]", ERROR, 1), encoding="utf-8")

@@ -49,6 +49,7 @@ def test_the_bundled_scenario_has_two_days() -> None:
     assert count == 2 * 8
 
 
+@pytest.mark.long
 def test_perfect_channels_read_true_wrenches_with_error_and_bias() -> None:
     """Without noise the workbench matrix reads `(1 + E) w + bias`; with noise it does not."""
     scenario = exact()

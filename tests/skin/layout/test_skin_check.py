@@ -190,6 +190,7 @@ def _distances(places: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 CURVED = ("left_arm", "right_arm", "left_leg_lower", "right_leg_lower", "left_leg_upper", "right_leg_upper")
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_every_board_of_a_curved_patch_is_numbered_the_same_way_round(data_dir: Path) -> None:
     """What flat patches rely on: seen from the side that bulges, all 282 boards are the template, not its image."""

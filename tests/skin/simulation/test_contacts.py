@@ -91,6 +91,7 @@ def test_a_ball_presses_as_hertz_would_on_springs(leg: SkinBody) -> None:
     np.testing.assert_allclose(truth.peak_Pa, ball.stiffness * depth, rtol=0.15)  # the surface is not quite a cylinder
 
 
+@pytest.mark.long
 def test_contacts_are_drawn_alike_for_one_seed(leg: SkinBody) -> None:
     """All four kinds, from 0.2 to 3 kg, on the skin; another seed draws others."""
     drawn = [list(contacts(leg, np.random.default_rng(seed), 8)) for seed in (3, 3, 4)]

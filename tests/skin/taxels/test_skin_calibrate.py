@@ -51,6 +51,7 @@ def test_health_is_per_recording(answer: SkinCalibration) -> None:
     assert answer.taxels[50].inside_kPa is None
 
 
+@pytest.mark.long
 def test_no_fault_is_missed_or_made_up(tmp_path: Path) -> None:
     """Over twelve patches: both error rates are 0, so below 0.6 % of sound and 5 % of broken taxels at 95 %."""
     missed = false = 0

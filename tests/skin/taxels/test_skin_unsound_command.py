@@ -83,6 +83,7 @@ def test_a_contact_while_rest_is_taken_is_said(run: Run, shank: WarmShank, ahead
     assert int(said.split()[1]) > 5
 
 
+@pytest.mark.long
 def test_late_pads_are_said_and_made_up_for(run: Run, shank: WarmShank) -> None:
     """Through the commands: hardly a contact where nothing touches the patch; faster heat is said when it is read."""
     write_log(Path(), "late", late_pads(shank, WARM_UP, 15.0))

@@ -11,6 +11,7 @@ import pytest
 
 from forcetorque.skin.taxels.patch_calibration import read_patch_calibration
 from tests.app.outcome import Outcome, Run
+from tests.cases import some_cases
 from tests.scenes.warmed import MASS_KG, WARM_UP, WarmShank, counts_of, with_counts, write_log, write_warmed
 
 CALIBRATE = ("skin", "calibrate", "bag.toml", "-o", "shank.json", "--warm-up")
@@ -53,6 +54,7 @@ def test_the_calibration_carries_gains(calibrated: Outcome, shank: WarmShank) ->
     assert any(name.startswith("warm: ") for name in kept.provenance.inputs_sha256)
 
 
+@pytest.mark.long
 def test_rules_are_chosen_by_name(run: Run, shank: WarmShank) -> None:
     """As learned by default; the firmware's rule and none see contacts that are none, and have no limit."""
     learned = run(*HELD, "--format", "json").result()
@@ -68,6 +70,7 @@ def test_rules_are_chosen_by_name(run: Run, shank: WarmShank) -> None:
         assert any("no limit of drift is known" in line for line in other.log)
 
 
+@pytest.mark.long
 def test_a_re_tare_is_offered_on_release(run: Run, shank: WarmShank) -> None:
     """And done where that is asked for."""
     offered = run(*HAND, "--details")
@@ -79,6 +82,7 @@ def test_a_re_tare_is_offered_on_release(run: Run, shank: WarmShank) -> None:
     assert 0.0 < release["left_N"] <= release["drift_limit_N"]
 
 
+@pytest.mark.long
 def test_bad_warm_ups_are_refused_by_file(run: Run, shank: WarmShank) -> None:
     """A contact in it, pads that never warm, two intervals, another patch, no layout."""
     write_log(Path(), "pressed", shank.recorded(WARM_UP, touched=True, seed=3))
@@ -94,7 +98,8 @@ def test_bad_warm_ups_are_refused_by_file(run: Run, shank: WarmShank) -> None:
     assert "no.toml" in run(*CALIBRATE, "no.toml").error()
 
 
-@pytest.mark.parametrize("stated", [False, True])
+@pytest.mark.long
+@some_cases("stated", [False, True])
 def test_what_is_added_to_a_warm_up_is_said(run: Run, shank: WarmShank, stated: bool) -> None:
     """A rate of rows that have no time, once and by the name of the warm-up; of one as it was logged, nothing."""
     seconds, counts = counts_of(shank.recorded(WARM_UP))
@@ -117,6 +122,7 @@ signal = [{{ quantity = "taxel_counts", columns = [{first}, {counts.shape[1] + f
     assert [line.partition(": no time")[0] for line in said] == ["WARNING: warm-up 'timed': counts"] * stated
 
 
+@pytest.mark.long
 def test_dead_pads_are_named(run: Run, shank: WarmShank) -> None:
     """In the warm-up, where others are learned, and in a recording, where the other pad of the module is enough."""
     recording = shank.recorded(WARM_UP)
@@ -140,6 +146,7 @@ def test_dead_pads_are_named(run: Run, shank: WarmShank) -> None:
     )
 
 
+@pytest.mark.long
 def test_rules_that_lack_a_warm_up_are_refused(run: Run, shank: WarmShank) -> None:
     """By name, with what to do; without a rule the same calibration leaves heat in."""
     assert run("skin", "calibrate", "bag.toml", "-o", "bare.json").code == 0

@@ -134,6 +134,7 @@ def test_the_filter_makes_up_for_a_ramp(lag: float) -> None:
         np.testing.assert_allclose(told[-1], 0.1 * times[-1], atol=0.1 * passed)
 
 
+@pytest.mark.long
 def test_the_noise_of_the_filter_is_foretold() -> None:
     """Of what it makes of white noise; a pad without lag adds none that counts."""
     rng = np.random.default_rng(1)

@@ -107,6 +107,7 @@ def test_a_contact_where_the_offset_is_taken_is_warned_of(sound: Leg, patches: S
     assert any(line.startswith("fit: skin is touched in ") and OFFSET in line for line in warnings)
 
 
+@pytest.mark.long
 def test_hot_skin_is_named(run: Run, tmp_path: Path) -> None:
     """In the interval in which it is hot, and left out of it; others are used."""
     write_moving_leg(tmp_path, faults=Faults(hot_counts=HOT_COUNTS))

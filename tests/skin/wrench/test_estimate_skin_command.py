@@ -13,6 +13,7 @@ import pytest
 from forcetorque.skin.simulation.contact import ContactTruth
 from forcetorque.skin.simulation.recordings import Loading
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.skinned_leg import FILE, write_leg
 
@@ -53,7 +54,7 @@ WITHOUT_SENSOR = (
 )
 
 
-@pytest.mark.parametrize("changes", [(), WITHOUT_SENSOR], ids=["one sensor", "no sensor"])
+@some_cases("changes", [(), WITHOUT_SENSOR], ids=["one sensor", "no sensor"])
 def test_torques_are_told_with_and_without_a_sensor(
     changes: tuple[tuple[str, str], ...], run: Run, leg: Leg, tmp_path: Path
 ) -> None:
@@ -90,6 +91,7 @@ def test_torques_are_told_with_and_without_a_sensor(
     assert 0 < empty < len(table)
 
 
+@pytest.mark.long
 def test_friction_widens_what_is_told(run: Run, leg: Leg) -> None:
     """A coefficient gives wider intervals; without one, and something else at the foot, those cells are empty."""
     sharp = run("estimate", FILE, "-o", "sharp.parquet", "--format", "json").result()
@@ -132,6 +134,7 @@ def test_what_cannot_be_is_refused(old: str, new: str, words: str, run: Run, leg
     assert not Path("refused.parquet").exists()
 
 
+@pytest.mark.long
 def test_a_message_beyond_the_range_is_said(run: Run, leg: Leg) -> None:
     """A calibration up to a low pressure makes every contact doubtful."""
     assert run("skin", "calibrate", "bag.toml", "-o", "low.json", "--highest-kpa", "7").code == 0

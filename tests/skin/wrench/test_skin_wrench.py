@@ -14,6 +14,7 @@ from forcetorque.skin.commands import skin_wrench
 from forcetorque.skin.simulation.contact import ContactTruth
 from forcetorque.skin.simulation.recordings import Loading
 from forcetorque.skin.wrench.wrench import SkinWrench
+from tests.cases import some_cases
 from tests.scenes.touched import write_table, write_touched
 
 HYSTERESIS = 0.1
@@ -43,7 +44,7 @@ def held_wrench(answer: SkinWrench, number: int) -> np.ndarray:
     return np.sum([row.wrench for row in rows], axis=0) / len({row.time_s for row in rows})
 
 
-@pytest.mark.parametrize("method", ["kriging", "linear"])
+@some_cases("method", ["kriging", "linear"])
 def test_wrenches_are_those_of_the_objects(made: tuple[Path, Sequence[ContactTruth]], method: str) -> None:
     """Force and moment about the link's origin."""
     folder, truths = made
@@ -65,6 +66,7 @@ def test_centres_lie_where_objects_rest(made: tuple[Path, Sequence[ContactTruth]
     assert row.active == len(row.taxels)
 
 
+@pytest.mark.long
 def test_a_simple_sum_beside_another_is_drawn_only(made: tuple[Path, Sequence[ContactTruth]]) -> None:
     """It changes no number of the answer."""
     folder, _ = made
@@ -74,6 +76,7 @@ def test_a_simple_sum_beside_another_is_drawn_only(made: tuple[Path, Sequence[Co
     assert beside.picture.forces["simple, 15.2 mm2: norm of the force"].max() < beside.largest_force_N
 
 
+@pytest.mark.long
 def test_the_summary_is_that_of_the_rows(made: tuple[Path, Sequence[ContactTruth]]) -> None:
     """Touched frames, largest and mean force; all recordings end untouched."""
     folder, truths = made
@@ -85,6 +88,7 @@ def test_the_summary_is_that_of_the_rows(made: tuple[Path, Sequence[ContactTruth
     assert "touched in" in answer.text()
 
 
+@pytest.mark.long
 def test_the_written_normals_are_those_of_the_file(made: tuple[Path, Sequence[ContactTruth]]) -> None:
     """Those of this layout are true: the simple sum with rebuilt ones differs by little."""
     folder, _ = made

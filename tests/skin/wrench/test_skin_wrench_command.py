@@ -64,6 +64,7 @@ def test_rows_are_contacts(run: Run, truths: list[ContactTruth]) -> None:
     assert str(BROKEN) not in " ".join(row["taxels"] for row in rows).split()
 
 
+@pytest.mark.long
 def test_a_figure_is_drawn(run: Run, truths: list[ContactTruth], tmp_path: Path) -> None:
     """Field of pressure and forces over time."""
     png = tmp_path / "contacts.png"
@@ -73,6 +74,7 @@ def test_a_figure_is_drawn(run: Run, truths: list[ContactTruth], tmp_path: Path)
     assert size_of(png.read_bytes())[0] == 1200
 
 
+@pytest.mark.long
 def test_methods_are_chosen_by_name(run: Run, truths: list[ContactTruth]) -> None:
     """A simple sum with a small area reads less, and has no standard deviation."""
     result = run(*WRENCH, "--method", "simple", "--taxel-area-mm2", "15.2", "--format", "json").result()

@@ -13,7 +13,7 @@ from forcetorque.viewer.scene_builder import BuiltScene
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.long]
 
 
 def test_missing_mesh(visit: Visit, tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from tests.viewer.browser.press import picture
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.long]
 
 SERIES = ["expected", "logged", "calibration March", "calibration May"]
 

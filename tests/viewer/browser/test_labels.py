@@ -14,7 +14,7 @@ from tests.viewer.browser.arm_scene import Arm
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.long]
 
 CONTROLS = (
     "button",

@@ -32,6 +32,7 @@ def test_opens_without_a_network(visit: Visit, arm: Arm) -> None:
     assert page.evaluate("document.documentElement.scrollHeight") <= 650, "everything fits without scrolling"
 
 
+@pytest.mark.long
 def test_nothing_else_may_be_asked_for(page: Page, shared: tuple[Visit, Page]) -> None:
     """The policy of the page refuses what is not itself, so the absence of requests is no accident."""
     refused = page.evaluate("fetch('http://192.0.2.1/').then(() => 'answered', error => String(error))")

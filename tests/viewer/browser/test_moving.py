@@ -43,6 +43,7 @@ def test_slider_and_number_jump(page: Page, sample: Callable[[], int], arm: Arm)
     assert number.input_value() == str(SAMPLES - 1)
 
 
+@pytest.mark.long
 def test_click_on_a_plot_jumps_to_that_time(page: Page, sample: Callable[[], int], arm: Arm) -> None:
     """The clicked place along the time axis is the instant that is shown, and the cursor is drawn there."""
     for plot, share in enumerate((0.2, 0.45, 0.7)):
@@ -90,6 +91,7 @@ def _cursor_errors(page: Page, time_s: float, window: tuple[float, float]) -> li
     return errors
 
 
+@pytest.mark.long
 def test_the_cursor_stays_at_its_time_when_the_plots_are_zoomed(page: Page, arm: Arm) -> None:
     """It is where the sample is in the part that was dragged, and again in the whole, without another sample."""
     page.evaluate("window.ft.show(350)")
@@ -111,6 +113,7 @@ def test_the_cursor_stays_at_its_time_when_the_plots_are_zoomed(page: Page, arm:
     assert max(_cursor_errors(page, float(arm.time_s[350]), whole)) < 1.0
 
 
+@pytest.mark.long
 def test_the_cursor_stays_at_its_time_when_the_window_is_resized(visit: Visit, arm: Arm) -> None:
     """In a wider and in a narrower window, without another sample."""
     page = visit.open(arm.built)
@@ -125,6 +128,7 @@ def test_the_cursor_stays_at_its_time_when_the_window_is_resized(visit: Visit, a
         assert max(_cursor_errors(page, time_s, whole)) < 1.0, size
 
 
+@pytest.mark.long
 def test_click_on_a_point_jumps_to_a_sample_there(page: Page, sample: Callable[[], int], arm: Arm) -> None:
     """What is shown after a click in the force space or a plane lies under the pointer, in some series."""
     views = ("window.ft.spacePoint(", *(f"window.ft.planePoint({k}, " for k in range(3)))
@@ -138,6 +142,7 @@ def test_click_on_a_point_jumps_to_a_sample_there(page: Page, sample: Callable[[
         assert min(np.hypot(p["x"] - at["x"], p["y"] - at["y"]) for p in places) < 2.0
 
 
+@pytest.mark.long
 def test_play_moves_on_and_pause_stops(page: Page, sample: Callable[[], int]) -> None:
     """Playing shows later and later samples, and stops when told or at the end."""
     page.get_by_label("Speed", exact=True).select_option("2")
@@ -163,6 +168,7 @@ def test_finding_and_interval_lead_to_their_start(page: Page, sample: Callable[[
     assert sample() == 30
 
 
+@pytest.mark.long
 def test_everything_without_a_mouse(page: Page, sample: Callable[[], int]) -> None:
     """Steps, ends, playing, quantity and saving have keys; every control is reached by Tab."""
     for key, wanted in (
@@ -215,6 +221,7 @@ def test_everything_without_a_mouse(page: Page, sample: Callable[[], int]) -> No
     assert page.get_by_role("list", name="Saved samples").get_by_role("listitem").count() == 1, "a box keeps its keys"
 
 
+@pytest.mark.long
 def test_arrows_step_after_a_choice_by_mouse(page: Page, sample: Callable[[], int]) -> None:
     """A clicked radio button does not keep the arrows; one that was reached by keyboard does."""
     page.get_by_role("radiogroup", name="Quantity").get_by_text("Torque").click()

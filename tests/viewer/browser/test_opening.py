@@ -14,7 +14,7 @@ from forcetorque.viewer.scene_builder import BuiltScene
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.long]
 
 CALIBRATION, VALIDATION = 30, 300
 """First samples of the intervals of the arm's scene."""

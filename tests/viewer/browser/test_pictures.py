@@ -16,7 +16,7 @@ from tests.viewer.browser.press import picture
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.long]
 
 VIEWS = ("Robot", "Force space", "Plane x-y", "Plane y-z", "Plane x-z")
 FLOAT32 = 1e-6

@@ -19,7 +19,7 @@ from tests.viewer.browser.press import download
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.long]
 
 HALF_DIGIT = 0.51e-4
 """Degrees and metres are written to four digits or more."""

@@ -13,7 +13,7 @@ from forcetorque.viewer.page import ViewerServer, page_of
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.long]
 
 PIECE_BYTES = 4 * 1024 * 1024
 

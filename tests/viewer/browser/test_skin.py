@@ -24,7 +24,7 @@ from tests.viewer.browser.opened import as_opened
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.long]
 
 VERTICES = np.array([[0.0, -0.03, 0.026], [0.1, -0.03, 0.026], [0.1, 0.03, 0.026], [0.0, 0.03, 0.026]])
 PRESSURE = np.array([[0.0, 0, 0, 0], [4e3, 0, 2e3, 0], [1e4, 8e3, 2e3, 1e3]])

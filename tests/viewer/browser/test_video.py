@@ -16,7 +16,7 @@ from tests.viewer.browser.arm_scene import Arm
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.long]
 
 FRAMES, FPS = 6, 5
 WANTED = {"start": 100, "end": 200, "fps": FPS, "speed": 2, "width": 320, "height": 200}
