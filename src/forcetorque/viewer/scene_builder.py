@@ -27,6 +27,7 @@ from forcetorque.recording.stream import Stream
 from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
+from forcetorque.robot.installed import urdf_file
 from forcetorque.skin.experiment import BESIDE_M, PATCHES, is_skin_alone
 from forcetorque.viewer.arrays import Block, Priors, SceneDraft, differentiated
 from forcetorque.viewer.contacts import scene_contacts, scene_parts
@@ -227,7 +228,7 @@ def scene_of(
     return build_scene(
         experiment,
         calibrations,
-        urdf=None if robot is None else path.parent / robot.urdf,
+        urdf=None if robot is None else urdf_file(robot.urdf, path.parent),
         sensors=sensors,
         mesh_folders=mesh_folders or (),
         provenance=[f"{file} sha256 {hashlib.sha256(Path(file).read_bytes()).hexdigest()}" for file in calibrations],

@@ -26,6 +26,7 @@ from forcetorque.locomotion.standing.support_phases import ForceLimit
 from forcetorque.results.result import created_now
 from forcetorque.results.table import Table
 from forcetorque.results.table_rendering import html_table, html_warnings
+from forcetorque.robot.installed import urdf_file
 
 if TYPE_CHECKING:
     from forcetorque.app.run import run as _run
@@ -202,7 +203,7 @@ class Experiment(ExperimentContent):
 
         refuse_output(output, inputs_sha256=self.inputs_sha256.values(), force=force)
         robot = parse_experiment(self.file).robot if self.file.is_file() else None
-        urdf = None if robot is None else self.file.parent / robot.urdf
+        urdf = None if robot is None else urdf_file(robot.urdf, self.file.parent)
         built = build_scene(self, named(calibrations), urdf=urdf, sensors=sensors)
         written = write_page(Path(output), built)
         return View.of(built).model_copy(update={"file": str(output), "file_bytes": written})
