@@ -48,6 +48,8 @@ class BuiltScene:
     """The header."""
     block: bytes
     """The arrays."""
+    urdf: Path | None = None
+    """File of the robot; None for a load without one."""
 
 
 def build_scene(
@@ -133,7 +135,7 @@ def build_scene(
         provenance=tuple(draft.sources),
         annotations_url=None,
     )
-    return BuiltScene(scene=scene, block=draft.block.bytes())
+    return BuiltScene(scene=scene, block=draft.block.bytes(), urdf=urdf)
 
 
 def _robot(
@@ -235,6 +237,9 @@ def scene_of(
     )
 
 
+_FORMS = {".rrd": "recording of Rerun", ".mcap": "bag of ROS 2"}
+
+
 class View(Result):
     """An experiment as the viewer shows it."""
 
@@ -251,7 +256,7 @@ class View(Result):
     url: str | None
     """Address of the page while it is served; null otherwise."""
     file: str | None
-    """File of the page, where one was written."""
+    """File of the page, or for another viewer, where one was written."""
     file_bytes: int | None
     """Its size."""
     video: str | None
@@ -306,7 +311,8 @@ class View(Result):
         """
         yield f"{self.experiment}: {self.samples} samples of {', '.join((*self.sensors, *self.skin))}"
         if self.file is not None and self.file_bytes is not None:
-            yield f"page of {self.file_bytes / 1e6:.1f} MB written to {self.file}"
+            form = _FORMS.get(Path(self.file).suffix.lower(), "page")
+            yield f"{form} of {self.file_bytes / 1e6:.1f} MB written to {self.file}"
         if self.video is not None:
             yield f"video of {self.video_frames} frames written to {self.video}"
         if self.url is not None:
