@@ -211,6 +211,7 @@ DISTRIBUTIONS = {
     "fpdf": "fpdf2",
     "icub_models": "icub-models",
     "pydantic_core": "pydantic",
+    "rerun": "rerun-sdk",
     "sklearn": "scikit-learn",
 }
 """Distribution of an importable name, where they differ."""
