@@ -125,9 +125,8 @@ def _send_arrows(stream: Any, rerun: Any, log: ViewerLog) -> None:
         place = f"{FRAMES}/{_part(wrench.frame)}/{wrench.name.replace('/', '_')}"
         look = rerun.Arrows3D.from_fields(colors=_colour(wrench.kind, number), radii=[_RADIUS_M])
         stream.log(place, look, static=True)
-        known = np.isfinite(tips).all(axis=1)
         # of no length where there is no wrench, or the last arrow would stay
-        columns = rerun.Arrows3D.columns(vectors=np.where(known[:, None], tips, 0.0))
+        columns = rerun.Arrows3D.columns(vectors=np.nan_to_num(tips, nan=0.0))
         stream.send_columns(place, _times(rerun, log.pose_ns), columns)
 
 
