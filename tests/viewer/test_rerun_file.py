@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import MissingExtraError
-from forcetorque.viewer.rerun_file import write_rrd
+from forcetorque.viewer.rerun_file import frame_entities, write_rrd
 from forcetorque.viewer.scene_builder import BuiltScene
-from forcetorque.viewer.viewer_log import viewer_log, world_poses
+from forcetorque.viewer.viewer_log import viewer_log
 
 SINGLE = 1e-6
 """Rerun keeps poses and arrows in 24 bits."""
@@ -47,15 +47,17 @@ def test_the_file_reads_back(built: BuiltScene, tmp_path: Path) -> None:
             found = columns[f"/{wrench.name}/{half}"]
             assert found["time"] == log.stamp_ns[wrench.known].tolist()
             np.testing.assert_array_equal(found["Scalars:scalars"], wrench.values[wrench.known, part])
-    for name, poses in world_poses(log).items():
+    places = frame_entities(log)
+    for frame in log.frames:
+        poses = frame.poses
         if len(poses) > 1:
-            found = columns[f"/world/{name}"]
+            found = columns[f"/{places[frame.name]}"]
             assert found["time"] == log.pose_ns.tolist()
             np.testing.assert_allclose(np.squeeze(found["Transform3D:translation"]), poses[:, :3], atol=SINGLE)
             quat_xyzw = np.squeeze(found["Transform3D:quaternion"])
             np.testing.assert_allclose(quat_xyzw, poses[:, [4, 5, 6, 3]], atol=SINGLE)
     for wrench, tips in log.arrows():
-        found = columns[f"/world/{wrench.frame}/{wrench.name.replace('/', '_')}"]
+        found = columns[f"/{places[wrench.frame]}/{wrench.name.replace('/', '_')}"]
         assert found["time"] == log.pose_ns.tolist()
         np.testing.assert_allclose(np.squeeze(found["Arrows3D:vectors"]), np.nan_to_num(tips), atol=SINGLE)
     texts = [text for (text,) in columns["/events"]["TextLog:text"]]

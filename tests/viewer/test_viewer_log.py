@@ -15,7 +15,7 @@ from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene
-from forcetorque.viewer.viewer_log import POSES_HZ, ViewerLog, composed, viewer_log, world_poses
+from forcetorque.viewer.viewer_log import POSES_HZ, ViewerLog, composed, viewer_log
 
 SINGLE = 1e-6
 """Joint coordinates and poses of a scene have 24 bits; some ten of them in a row."""
@@ -34,18 +34,25 @@ def _matrices(poses: FloatArray) -> FloatArray:
     return matrices
 
 
+def _world_poses(log: ViewerLog) -> dict[str, FloatArray]:
+    poses: dict[str, FloatArray] = {}
+    for frame in log.frames:
+        poses[frame.name] = composed(poses[frame.parent], frame.poses) if frame.parent in poses else frame.poses
+    return poses
+
+
 def test_frames_have_the_poses_of_the_robot_model(log: ViewerLog, intact: Path) -> None:
     """Of all links seen from the root, against the dynamics of the library; a joint that is read wrongly is noticed."""
     tree = build_tree(read_urdf(intact / "arm.urdf"), "base")
     motion = JointMotion.at_rest(log.joints, log.positions[log.pose_samples])
-    poses = {name: _matrices(pose) for name, pose in world_poses(log).items()}
+    poses = {name: _matrices(pose) for name, pose in _world_poses(log).items()}
     root = np.linalg.inv(poses["base"])
     links = [link for link in log.robot.links if link != "base"]
     assert links
     for link in links:
         np.testing.assert_allclose(root @ poses[link], link_pose(tree, motion, link), atol=SINGLE)
     turned = replace(log, frames=tuple(replace(f, poses=f.poses * [1, 1, 1, 1, -1, 1, 1]) for f in log.frames))
-    assert np.abs(_matrices(world_poses(turned)["hand"]) - poses["hand"]).max() > 0.1
+    assert np.abs(_matrices(_world_poses(turned)["hand"]) - poses["hand"]).max() > 0.1
 
 
 def test_composed_poses_are_products_of_matrices() -> None:

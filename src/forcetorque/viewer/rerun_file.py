@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,7 @@ from forcetorque.base.run_files import refuse_input
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.mcap_file import colour_of
-from forcetorque.viewer.viewer_log import ViewerLog, world_poses
+from forcetorque.viewer.viewer_log import ViewerLog
 
 if TYPE_CHECKING:
     from forcetorque.viewer.scene import Shape
@@ -31,8 +32,9 @@ _HALVES = {"force": slice(0, 3), "torque": slice(3, 6)}
 def write_rrd(path: Path, log: ViewerLog) -> int:
     """Write a log as a recording of Rerun.
 
-    Entities: `world/FRAME` has the pose in the world, its shapes and the arrows of forces; `SENSOR/SERIES/force` and
-    `/torque` have three scalars, `SENSOR/SERIES/error` likewise; `events` has intervals and findings.
+    Entities: `world/.../FRAME`, below its parents, has the pose in its parent, its shapes and the arrows of forces;
+    `SENSOR/SERIES/force` and `/torque` have three scalars, `SENSOR/SERIES/error` likewise; `events` has intervals and
+    findings.
 
     Args:
         path: File to write or to replace.
@@ -49,9 +51,10 @@ def write_rrd(path: Path, log: ViewerLog) -> int:
         stream.save(temporary, default_blueprint=_layout(log))
         stream.send_recording_name(log.title)
         stream.log(FRAMES, rerun.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-        _send_frames(stream, rerun, log)
-        _send_shapes(stream, rerun, log)
-        _send_arrows(stream, rerun, log)
+        places = frame_entities(log)
+        _send_frames(stream, rerun, log, places)
+        _send_shapes(stream, rerun, log, places)
+        _send_arrows(stream, rerun, log, places)
         _send_wrenches(stream, rerun, log)
         for event in log.events:
             stream.set_time(TIMELINE, timestamp=np.datetime64(event.stamp_ns, "ns"))
@@ -87,9 +90,25 @@ def _times(rerun: Any, stamp_ns: IntArray) -> list[Any]:
     return [rerun.TimeColumn(TIMELINE, timestamp=stamp_ns.astype("datetime64[ns]"))]
 
 
-def _send_frames(stream: Any, rerun: Any, log: ViewerLog) -> None:
-    for name, poses in world_poses(log).items():
-        place, quat_xyzw = f"{FRAMES}/{_part(name)}", poses[:, [4, 5, 6, 3]]
+def frame_entities(log: ViewerLog) -> dict[str, str]:
+    """Name the entities of frames.
+
+    Args:
+        log: The log.
+
+    Returns:
+        Paths by frame, each below that of its parent.
+    """
+    places = {log.world: FRAMES}
+    for frame in log.frames:
+        places[frame.name] = f"{places[frame.parent]}/{_part(frame.name)}"
+    return places
+
+
+def _send_frames(stream: Any, rerun: Any, log: ViewerLog, places: Mapping[str, str]) -> None:
+    for frame in log.frames:
+        place, poses = places[frame.name], frame.poses
+        quat_xyzw = poses[:, [4, 5, 6, 3]]
         if len(poses) == 1:
             pose = rerun.Transform3D(translation=poses[0, :3], quaternion=rerun.Quaternion(xyzw=quat_xyzw[0]))
             stream.log(place, pose, static=True)
@@ -98,10 +117,10 @@ def _send_frames(stream: Any, rerun: Any, log: ViewerLog) -> None:
             stream.send_columns(place, _times(rerun, log.pose_ns), columns)
 
 
-def _send_shapes(stream: Any, rerun: Any, log: ViewerLog) -> None:
+def _send_shapes(stream: Any, rerun: Any, log: ViewerLog, places: Mapping[str, str]) -> None:
     for number, shape in enumerate(log.robot.shapes):
         pose = np.reshape(shape.link_H_shape, (4, 4))
-        place = f"{FRAMES}/{_part(shape.link)}/shape_{number}"
+        place = f"{places[shape.link]}/shape_{number}"
         scale = np.diag(shape.size) if shape.kind == "mesh" else np.eye(3)
         stream.log(place, rerun.Transform3D(translation=pose[:3, 3], mat3x3=pose[:3, :3] @ scale), static=True)
         stream.log(place, _drawn(rerun, shape, log), static=True)
@@ -120,9 +139,9 @@ def _drawn(rerun: Any, shape: Shape, log: ViewerLog) -> Any:
     return rerun.Ellipsoids3D(radii=[shape.size[0]], colors=[colour], fill_mode="solid")
 
 
-def _send_arrows(stream: Any, rerun: Any, log: ViewerLog) -> None:
+def _send_arrows(stream: Any, rerun: Any, log: ViewerLog, places: Mapping[str, str]) -> None:
     for number, (wrench, tips) in enumerate(log.arrows()):
-        place = f"{FRAMES}/{_part(wrench.frame)}/{wrench.name.replace('/', '_')}"
+        place = f"{places[wrench.frame]}/{wrench.name.replace('/', '_')}"
         look = rerun.Arrows3D.from_fields(colors=_colour(wrench.kind, number), radii=[_RADIUS_M])
         stream.log(place, look, static=True)
         # of no length where there is no wrench, or the last arrow would stay

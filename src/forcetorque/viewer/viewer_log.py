@@ -305,18 +305,3 @@ def composed(a_H_b: FloatArray, b_H_c: FloatArray) -> FloatArray:
     w = scalar * other_scalar - np.sum(vector * other_vector, axis=1, keepdims=True)
     xyz = scalar * other_vector + other_scalar * vector + np.cross(vector, other_vector)
     return np.hstack([moved, w, xyz])
-
-
-def world_poses(log: ViewerLog) -> dict[str, FloatArray]:
-    """Give the pose of every frame in the world.
-
-    Args:
-        log: The log.
-
-    Returns:
-        Poses at `pose_ns` by frame, or one where it stays; shape (m, 7) or (1, 7).
-    """
-    poses: dict[str, FloatArray] = {}
-    for frame in log.frames:
-        poses[frame.name] = composed(poses[frame.parent], frame.poses) if frame.parent in poses else frame.poses
-    return poses
