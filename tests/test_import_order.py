@@ -211,6 +211,7 @@ DISTRIBUTIONS = {
     "fpdf": "fpdf2",
     "icub_models": "icub-models",
     "pydantic_core": "pydantic",
+    "rerun": "rerun-sdk",
     "sklearn": "scikit-learn",
 }
 """Distribution of an importable name, where they differ."""
@@ -235,9 +236,11 @@ def _at_import(node: ast.AST) -> Iterator[ast.AST]:
 
 
 def _foreign(nodes: Iterable[ast.AST]) -> set[str]:
-    """Distributions that these nodes import."""
+    """Distributions that these nodes import, or find by name because they hold data and no module."""
     imported = set()
     for node in nodes:
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "distribution":
+            imported |= {argument.value for argument in node.args if isinstance(argument, ast.Constant)}
         names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
         names += [node.module] if isinstance(node, ast.ImportFrom) and node.module else []
         imported |= {name.split(".")[0] for name in names}

@@ -312,3 +312,21 @@ def test_a_report_that_cannot_be_shown_is_one_line(arm: Path, run: Run) -> None:
     other = run("view", "fitted.json", "-o", "page.html")
     assert "fitted.json: expected the numbers of a report: " in other.error()
     assert not Path("page.html").exists()
+
+
+def test_the_ending_chooses_the_viewer(run: Run, arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A bag of ROS 2, from which `init` begins again; a recording of Rerun; what is lacking is named first."""
+    pytest.importorskip("rosbags")
+    ended = run("view", PARQUET, "-c", "fitted.json", "-o", "view.mcap", "--details")
+    assert (
+        ended.out.splitlines()[-1]
+        == f"bag of ROS 2 of {(arm / 'view.mcap').stat().st_size / 1e6:.1f} MB written to view.mcap"
+    )
+    drafted = run("init", "view.mcap", "-o", "again.toml")
+    assert drafted.code == 0
+    assert (arm / "again.urdf").read_bytes() == (arm / "arm.urdf").read_bytes()
+    assert 'topic = "/arm_ft/fitted_json"' in (arm / "again.toml").read_text(encoding="utf-8")
+    monkeypatch.setitem(sys.modules, "rerun", None)
+    error = run("view", "gone.toml", "-o", "view.rrd").error()
+    assert "view.rrd: recordings of Rerun are written by rerun-sdk: pip install 'forcetorque[rerun]'" in error
+    assert not (arm / "view.rrd").exists()

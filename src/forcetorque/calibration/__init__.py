@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from forcetorque.calibration.export.export import (
         export_coefficients,
         export_icub_matrix,
+        export_numpy,
+        export_ros2_parameters,
         export_table,
         export_wholebodydynamics,
     )
@@ -36,6 +38,8 @@ __all__ = [
     "calibrate_sensor",
     "export_coefficients",
     "export_icub_matrix",
+    "export_numpy",
+    "export_ros2_parameters",
     "export_table",
     "export_wholebodydynamics",
     "information_figure",
@@ -51,6 +55,8 @@ __getattr__, __dir__ = lazy_names(
         "calibrate_sensor": "forcetorque.calibration.calibrate",
         "export_coefficients": "forcetorque.calibration.export.export",
         "export_icub_matrix": "forcetorque.calibration.export.export",
+        "export_numpy": "forcetorque.calibration.export.export",
+        "export_ros2_parameters": "forcetorque.calibration.export.export",
         "export_table": "forcetorque.calibration.export.export",
         "export_wholebodydynamics": "forcetorque.calibration.export.export",
         "information_figure": "forcetorque.calibration.summary",

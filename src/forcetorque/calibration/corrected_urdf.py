@@ -10,6 +10,7 @@ from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.experiment.calibration.robot_correction import read_model_errors, robot_errors
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.file import parse_experiment
+from forcetorque.robot.installed import urdf_file
 from forcetorque.robot.model_text import corrected_urdf_text
 from forcetorque.robot.urdf import read_urdf
 
@@ -37,7 +38,7 @@ def write_corrected_urdf(
     table = parse_experiment(experiment.file).robot
     if table is None:
         raise ExperimentError(f"{experiment.file}: expected [robot] with a URDF to correct, got none")
-    urdf = experiment.file.parent / table.urdf
+    urdf = urdf_file(table.urdf, experiment.file.parent)
     found = [read_model_errors(calibration)]
     if table.tolerance != "exact" and table.tolerance.found_by is not None:
         found.insert(0, read_model_errors(experiment.file.parent / table.tolerance.found_by))

@@ -100,7 +100,8 @@ class Robot(Table):
     """The robot model."""
 
     urdf: Path
-    """URDF file."""
+    """URDF file, or the name of an installed robot (extras `robots`, `icub`), such as `ur5`; a file that exists comes
+    first."""
     fixed: dict[Text, Finite] = {}
     """Joints that nobody logged and that stand still all along, by name: rad, or m where prismatic."""
     gravity: Positive = STANDARD_GRAVITY

@@ -14,6 +14,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, MissingFileError
 from forcetorque.base.input_file import accept_input
 from forcetorque.base.output_file import real_path
+from forcetorque.robot.installed import installed_robot, is_robot_name
 from forcetorque.robot.model import RobotModel
 
 
@@ -75,6 +76,24 @@ class Inputs:
         self._read[relative.as_posix()] = path
         return path
 
+    def robot(self, urdf: Path) -> Path:
+        """Resolve the file of a robot.
+
+        An installed robot is remembered by its name, with the package and its version.
+
+        Args:
+            urdf: Path as the experiment file has it, or the name of an installed robot.
+
+        Returns:
+            Path to open.
+        """
+        if not is_robot_name(urdf, self.folder):
+            return self.file(urdf)
+        robot = installed_robot(str(urdf))
+        accept_input(robot.urdf)
+        self._read[robot.source] = robot.urdf
+        return robot.urdf
+
     def below(self, relative: Path, *patterns: str) -> Path:
         """Resolve a folder of which some files are read.
 
@@ -107,7 +126,8 @@ class Inputs:
         """Hash everything that was resolved.
 
         Returns:
-            SHA-256 in hex by the path as the experiment file has it.
+            SHA-256 in hex by the path as the experiment file has it,
+            or by name, package and version of an installed robot.
         """
         return {name: sha256_of(path) for name, path in sorted(self._read.items())}
 

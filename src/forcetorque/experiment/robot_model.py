@@ -37,7 +37,12 @@ def read_robot(
         RobotError: If the correction is of another robot.
     """
     given = inputs.in_memory.robot
-    model = read_urdf(inputs.file(table.urdf)) if given is None else given
+    if given is None:
+        with stated_in(f"{file}: [robot] urdf"):
+            urdf = inputs.robot(table.urdf)
+        model = read_urdf(urdf)
+    else:
+        model = given
     with stated_in(f"{file}: robot: fixed"):
         model = fix_joints(model, table.fixed)
     model = declare_sensors(sensors, file, model)

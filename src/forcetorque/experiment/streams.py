@@ -124,7 +124,7 @@ def load_recorded(path: Path | str) -> RecordedLog:
     parsed = parse_experiment(file)
     inputs = Inputs(file.parent)
     # of a robot only its joints matter here, which are in rad or in m
-    model = None if parsed.robot is None else read_urdf(inputs.file(parsed.robot.urdf))
+    model = None if parsed.robot is None else read_urdf(inputs.robot(parsed.robot.urdf))
     recording = read_streams(parsed, file, model, inputs)
     return RecordedLog(name=parsed.name, recording=recording, intervals=read_spans(parsed, file, recording))
 

@@ -29,7 +29,10 @@ def init(
     ] = None,
     urdf: Annotated[
         Path | None,
-        typer.Option("--urdf", help="The robot. Default: the log's own description; without, a wrist sensor."),
+        typer.Option(
+            "--urdf",
+            help="URDF file or name of the robot. Default: the log's own description; without, a wrist sensor.",
+        ),
     ] = None,
     output: Annotated[
         Path | None,

@@ -7,12 +7,13 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from forcetorque.base.errors import ExperimentError, MissingFileError
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import InMemory
 from forcetorque.experiment.loading import load_tables
-from forcetorque.formats.log_format import ArmLoggingFormat, LogDescription
+from forcetorque.formats.log_format import ArmLoggingFormat, LogDescription, LogFormat, RobotLoggingFormat
 from forcetorque.formats.logged_wrist import LoggedWrist
 from forcetorque.formats.registry import LOG_FORMATS, format_name, not_recognised, recognised_format
 from forcetorque.inspection.draft.log import draft_of_description, recording_lines
@@ -93,7 +94,8 @@ def _description(path: Path, specified: Mapping[str, object]) -> tuple[LogDescri
         names = " or ".join(format_name(one) for one in LOG_FORMATS if isinstance(one, ArmLoggingFormat))
         raise ExperimentError(
             f"{path}: expected an experiment file, or a log whose format fixes frame and sign of a wrench ({names}), "
-            f"got a log of the format {format_name(known)}; `forcetorque init {path}` begins an experiment file"
+            f"got a log of the format {format_name(known)}{_open_questions(path, known)}; `forcetorque init {path}` "
+            "begins an experiment file"
         )
     description = known.describe_specified(path, specified)
     wrist = description.wrist
@@ -106,6 +108,21 @@ def _description(path: Path, specified: Mapping[str, object]) -> tuple[LogDescri
             f"{path}: expected what neither log nor format says: {wanted}; give each by --recording {example}=..."
         )
     return description, wrist
+
+
+def _open_questions(path: Path, known: LogFormat[Any]) -> str:
+    """What a log with frames, as a bag of ROS, does not say of the load; empty for other logs."""
+    if not isinstance(known, RobotLoggingFormat):
+        return ""
+    streams = known.describe(path).reading.streams
+    wrenches = [stream.name for stream in streams if "wrench" in stream.signals]
+    if not wrenches:
+        return ", which has no wrenches"
+    missing = [f"which of {', '.join(wrenches)} is the sensor's"] if len(wrenches) > 1 else []
+    missing.append(f"who acts on whom in {wrenches[0] if len(wrenches) == 1 else 'it'} (measure_direction)")
+    has_robot = known.robot(path).urdf is not None
+    missing.append("which link is the support, and where down is" if has_robot else "which frame has z up (world)")
+    return f", which does not say {'; '.join(missing)}"
 
 
 def _lines(path: Path, description: LogDescription, wrist: LoggedWrist, folder: Path) -> Sequence[str]:

@@ -41,7 +41,8 @@ def view(
         typer.Option(
             "--output",
             "-o",
-            help="File for the page, which then works offline; - for standard output. Default: it is served.",
+            help="File for the page, which then works offline, or by its ending for Rerun (.rrd) or Foxglove and ROS 2 "
+            "(.mcap); - for standard output. Default: the page is served.",
         ),
     ] = None,
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the address and open nothing.")] = False,
@@ -72,13 +73,13 @@ def view(
 
     Example: forcetorque view experiment.toml -c right_leg.json -o view.html
 
-    Python: `experiment.view("view.html", calibration)`
+    Python: `experiment.view("view.html", calibration)`, also `"view.rrd"` and `"view.mcap"`
     """
     from forcetorque.experiment.loading import Purpose
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment
-    from forcetorque.viewer.page import write_page
     from forcetorque.viewer.scene_builder import View, scene_of, view_source
     from forcetorque.viewer.video import Film, film_between, find_browser, frame_count, require_playwright, write_video
+    from forcetorque.viewer.view_file import require_writer, write_view
 
     log = start_logging()
     _refuse_contradictions(output, port, video, force=force)
@@ -88,6 +89,8 @@ def view(
         film = Film(start=0, end=0, fps=fps, speed=speed, width=size[0], height=size[1])
         require_playwright()
         program = find_browser(browser)
+    if output is not None:
+        require_writer(output)
     calibrations = read_calibrations(files, sensor)
     built = scene_of(
         path, read_experiment(path, log, Purpose.DISPLAY), calibrations, sensors=sensor, mesh_folders=mesh_dir
@@ -96,7 +99,7 @@ def view(
         log.info("%s", note)
     shown = View.of(built)
     if output is not None:
-        shown = shown.model_copy(update={"file": str(output), "file_bytes": write_page(output, built)})
+        shown = shown.model_copy(update={"file": str(output), "file_bytes": write_view(output, built)})
     if video is not None:
         film = film_between(film, built, start_s=start, end_s=end)
         frames = frame_count(film, built)

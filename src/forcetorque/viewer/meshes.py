@@ -18,6 +18,7 @@ import numpy.typing as npt
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, MissingExtraError, install_line
 from forcetorque.base.run_files import declare_input
+from forcetorque.robot.installed import package_roots
 
 FORMATS = (".stl", ".obj", ".ply", ".glb", ".dae")
 """Suffixes of the forms that are read."""
@@ -45,13 +46,13 @@ def package_folders(urdf: Path, given: Sequence[Path] = ()) -> tuple[Path, ...]:
 
     Returns:
         Folders that exist: those given, those around the file, those of ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and
-        CMAKE_PREFIX_PATH, and that of the installed package icub-models.
+        CMAKE_PREFIX_PATH, and those of installed robots.
     """
     around = urdf.resolve().parents
     listed = [Path(text) for text in os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if text]
     for variable in _PREFIXES:
         listed += [Path(text) / "share" for text in os.environ.get(variable, "").split(os.pathsep) if text]
-    candidates = [*given, *around[:4], *listed, *_icub_models()]
+    candidates = [*given, *around[:4], *listed, *_icub_models(), *package_roots()]
     return tuple(folder for folder in dict.fromkeys(candidates) if folder.is_dir())
 
 

@@ -28,6 +28,7 @@ from forcetorque.recording.stream import Stream
 from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
+from forcetorque.robot.installed import urdf_file
 from forcetorque.skin.experiment import BESIDE_M, PATCHES, is_skin_alone
 from forcetorque.viewer.arrays import Block, Priors, SceneDraft, differentiated
 from forcetorque.viewer.contacts import scene_contacts, scene_parts
@@ -48,6 +49,8 @@ class BuiltScene:
     """The header."""
     block: bytes
     """The arrays."""
+    urdf: Path | None = None
+    """File of the robot; None for a load without one."""
 
 
 def build_scene(
@@ -133,7 +136,7 @@ def build_scene(
         provenance=tuple(draft.sources),
         annotations_url=None,
     )
-    return BuiltScene(scene=scene, block=draft.block.bytes())
+    return BuiltScene(scene=scene, block=draft.block.bytes(), urdf=urdf)
 
 
 def _robot(
@@ -228,11 +231,14 @@ def scene_of(
     return build_scene(
         experiment,
         calibrations,
-        urdf=None if robot is None else path.parent / robot.urdf,
+        urdf=None if robot is None else urdf_file(robot.urdf, path.parent),
         sensors=sensors,
         mesh_folders=mesh_folders or (),
         provenance=[f"{file} sha256 {hashlib.sha256(Path(file).read_bytes()).hexdigest()}" for file in calibrations],
     )
+
+
+_FORMS = {".rrd": "recording of Rerun", ".mcap": "bag of ROS 2"}
 
 
 class View(Result):
@@ -251,7 +257,7 @@ class View(Result):
     url: str | None
     """Address of the page while it is served; null otherwise."""
     file: str | None
-    """File of the page, where one was written."""
+    """File of the page, or for another viewer, where one was written."""
     file_bytes: int | None
     """Its size."""
     video: str | None
@@ -306,7 +312,8 @@ class View(Result):
         """
         yield f"{self.experiment}: {self.samples} samples of {', '.join((*self.sensors, *self.skin))}"
         if self.file is not None and self.file_bytes is not None:
-            yield f"page of {self.file_bytes / 1e6:.1f} MB written to {self.file}"
+            form = _FORMS.get(Path(self.file).suffix.lower(), "page")
+            yield f"{form} of {self.file_bytes / 1e6:.1f} MB written to {self.file}"
         if self.video is not None:
             yield f"video of {self.video_frames} frames written to {self.video}"
         if self.url is not None:

@@ -302,7 +302,7 @@ def test_coefficients_that_a_matrix_file_cannot_hold_are_announced(
 @pytest.mark.parametrize(
     ("name", "to"),
     [(name, to) for name in ("leg", "warm") for to in ("icub-matrix", "wholebodydynamics", "csv")]
-    + [("warm", "coefficients")],
+    + [("warm", "coefficients"), ("leg", "numpy"), ("warm", "numpy")],
 )
 def test_the_result_has_three_forms(
     run: Run, request: pytest.FixtureRequest, tmp_path: Path, name: str, to: str
@@ -314,7 +314,7 @@ def test_the_result_has_three_forms(
     assert json.loads(Export.model_validate(result).json_text()) == result
     assert result["schema"] == "forcetorque/export/1"
     assert (result["format"], result["file"]) == (to, str(output))
-    again = ("--force",) if to == "icub-matrix" else ()  # which carries no mark of who wrote it
+    again = ("--force",) if to in ("icub-matrix", "numpy") else ()  # which carry no mark of who wrote them
     rows = list(csv.DictReader(io.StringIO(run(leg, "--to", to, "-o", output, *again, "--format", "csv").out)))
     (entry,) = result["calibrations"]
     assert [row["component"] for row in rows] == ["fx", "fy", "fz", "tx", "ty", "tz"]
@@ -422,3 +422,14 @@ def test_wrong_requests_are_one_line_and_write_nothing(
     assert len(errors) == 1
     assert message in errors[0]
     assert {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()} == before
+
+
+def test_parameters_of_ros2_need_a_frame(run: Run, leg: Path, tmp_path: Path) -> None:
+    """--frame-id is asked for, and belongs to no other form."""
+    output = tmp_path / "leg.yaml"
+    assert "--frame-id names it" in run(leg, "--to", "ros2", "-o", output).err
+    assert "--frame-id: only files of --to ros2" in run(leg, "--to", "csv", "-o", output, "--frame-id", "ft").err
+    assert not output.exists()
+    done = run(leg, "--to", "ros2", "-o", output, "--frame-id", "ft", "--sensor-name", "wrist", "--format", "json")
+    assert done.result()["calibrations"][0]["sensor"] == "wrist"
+    assert 'frame_id: "ft"' in output.read_text(encoding="utf-8")

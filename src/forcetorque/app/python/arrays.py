@@ -20,6 +20,7 @@ from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.toml_file import one_for_each
 from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.robot.installed import urdf_file
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.urdf import read_urdf
 
@@ -191,7 +192,7 @@ def _robot(robot: RobotModel | Path | str) -> RobotModel:
         raise ExperimentError(f"robot: expected a RobotModel or the path of a URDF file, got {brief(robot)}")
     if str(robot).lstrip().startswith("<"):
         raise ExperimentError("robot: expected the path of a URDF file, got its text; write that to a file first")
-    return read_urdf(robot)
+    return read_urdf(urdf_file(robot))
 
 
 def _full_scale(given: Any) -> FloatArray:

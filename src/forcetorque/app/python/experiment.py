@@ -26,6 +26,7 @@ from forcetorque.locomotion.standing.support_phases import ForceLimit
 from forcetorque.results.result import created_now
 from forcetorque.results.table import Table
 from forcetorque.results.table_rendering import html_table, html_warnings
+from forcetorque.robot.installed import urdf_file
 
 if TYPE_CHECKING:
     from forcetorque.app.run import run as _run
@@ -185,7 +186,8 @@ class Experiment(ExperimentContent):
         """Write robot pose and force space, linked in time, as a page: `experiment.view("view.html", calibration)`.
 
         Args:
-            output: File of the page, which works offline in any browser.
+            output: File of the page, which works offline in any browser; for Rerun it ends in `.rrd`, for Foxglove and
+                readers of ROS 2 bags in `.mcap`.
             calibrations: How sensors are read, beside their priors; of a sensor any number.
             sensors: Sensors to show; all if left out.
             force: As of `estimate`.
@@ -197,14 +199,15 @@ class Experiment(ExperimentContent):
             ForceTorqueError: If there are too many samples for one file; `forcetorque view` serves them.
             OutputError: As of `estimate`.
         """
-        from forcetorque.viewer.page import write_page
         from forcetorque.viewer.scene_builder import View, build_scene
+        from forcetorque.viewer.view_file import require_writer, write_view
 
         refuse_output(output, inputs_sha256=self.inputs_sha256.values(), force=force)
+        require_writer(Path(output))
         robot = parse_experiment(self.file).robot if self.file.is_file() else None
-        urdf = None if robot is None else self.file.parent / robot.urdf
+        urdf = None if robot is None else urdf_file(robot.urdf, self.file.parent)
         built = build_scene(self, named(calibrations), urdf=urdf, sensors=sensors)
-        written = write_page(Path(output), built)
+        written = write_view(Path(output), built)
         return View.of(built).model_copy(update={"file": str(output), "file_bytes": written})
 
     def _repr_html_(self) -> str:

@@ -34,7 +34,8 @@ def run(
     ] = Path("forcetorque_run"),
     sensor: SensorOption = None,
     urdf: Annotated[
-        Path | None, typer.Option("--urdf", help="The robot, for a log without an experiment file.")
+        Path | None,
+        typer.Option("--urdf", help="URDF file or name of the robot, for a log without an experiment file."),
     ] = None,
     matrices: Annotated[
         Path | None,

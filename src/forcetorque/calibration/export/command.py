@@ -26,13 +26,14 @@ if TYPE_CHECKING:
 
 
 def export(
-    calibration: Annotated[list[Path], typer.Argument(help="Calibration files; one for icub-matrix.")],
+    calibration: Annotated[list[Path], typer.Argument(help="Calibration files; one for icub-matrix and numpy.")],
     to: Annotated[
         ExportFormat,
         typer.Option(
             "--to",
-            help="Matrix file for the sensor's DSP, XML groups for wholebodydynamics, a plain table, or the "
-            "coefficients of temperature and other variables by themselves.",
+            help="Matrix file for the sensor's DSP, XML groups for wholebodydynamics, a plain table, the "
+            "coefficients of temperature and other variables by themselves, parameters of a ROS 2 node (YAML), or an "
+            "archive of NumPy.",
         ),
     ],
     output: Annotated[Path, typer.Option("--output", "-o", help="File to write; - for standard output.")],
@@ -44,7 +45,13 @@ def export(
     ] = None,
     sensor_name: Annotated[
         str | None,
-        typer.Option("--sensor-name", help="Name of the sensor in the robot's configuration, for wholebodydynamics."),
+        typer.Option(
+            "--sensor-name", help="Name of the sensor in the robot's configuration, for wholebodydynamics and ros2."
+        ),
+    ] = None,
+    frame_id: Annotated[
+        list[str] | None,
+        typer.Option("--frame-id", help="Frame of tf that the sensor reads in, for ros2; once for each calibration."),
     ] = None,
     stream: Annotated[
         Path | None,
@@ -62,11 +69,14 @@ def export(
 
     Python: `calibration.export_icub_matrix("arm", calibration, "matrix.txt")`,
     `calibration.export_wholebodydynamics({"arm": calibration}, "arm.xml")`, `calibration.export_table`,
-    `calibration.export_coefficients`
+    `calibration.export_coefficients`, `calibration.export_ros2_parameters({"arm": calibration}, "arm.yaml",
+    frame_ids=["tool0"])`, `calibration.export_numpy("arm", calibration, "arm.npz")`
     """
     from forcetorque.calibration.export.export import (
         export_coefficients,
         export_icub_matrix,
+        export_numpy,
+        export_ros2_parameters,
         export_table,
         export_wholebodydynamics,
     )
@@ -74,7 +84,9 @@ def export(
     from forcetorque.results.terminal.reading import read_calibrations
 
     log = start_logging()
-    _require_consistent(calibration, to=to, full_scale=full_scale, sensor_name=sensor_name, stream=stream)
+    _require_consistent(
+        calibration, to=to, full_scale=full_scale, sensor_name=sensor_name, stream=stream, frame_id=frame_id
+    )
     refuse_two_on_standard_output(output, output_format)
     declare_outputs(output, force=force)
     calibrations = read_calibrations(calibration)
@@ -88,6 +100,10 @@ def export(
         ),
         ExportFormat.CSV: lambda: export_table(calibrations, output),
         ExportFormat.COEFFICIENTS: lambda: export_coefficients(calibrations, output),
+        ExportFormat.ROS2: lambda: export_ros2_parameters(
+            calibrations, output, frame_ids=frame_id or (), sensor_name=sensor_name
+        ),
+        ExportFormat.NUMPY: lambda: export_numpy(*next(iter(calibrations.items())), output),
     }
     written = writers[to]()
     for entry in written.calibrations:
@@ -106,8 +122,11 @@ def _require_consistent(
     full_scale: Sequence[int] | None,
     sensor_name: str | None,
     stream: Path | None,
+    frame_id: Sequence[str] | None,
 ) -> None:
-    if to is ExportFormat.ICUB_MATRIX and len(paths) != 1:
+    if frame_id and to is not ExportFormat.ROS2:
+        raise ForceTorqueError(f"--frame-id: only files of --to {ExportFormat.ROS2} hold frames of tf, not {to}")
+    if to in (ExportFormat.ICUB_MATRIX, ExportFormat.NUMPY) and len(paths) != 1:
         raise ForceTorqueError(
             f"--to {to}: a file holds one matrix, got {len(paths)} calibrations; export each by itself"
         )
@@ -115,8 +134,9 @@ def _require_consistent(
         raise ForceTorqueError(
             f"--full-scale: only files of --to {ExportFormat.ICUB_MATRIX} hold full scales, not {to}"
         )
-    for_one = "--sensor-name" if sensor_name is not None else None if stream is None else "--stream"
-    if for_one is not None and (to is not ExportFormat.WHOLEBODYDYNAMICS or len(paths) != 1):
+    for_one = "--stream" if stream is not None else None if sensor_name is None else "--sensor-name"
+    named = to is ExportFormat.ROS2 and stream is None
+    if for_one is not None and not ((named or to is ExportFormat.WHOLEBODYDYNAMICS) and len(paths) == 1):
         raise ForceTorqueError(
             f"{for_one}: expected --to {ExportFormat.WHOLEBODYDYNAMICS} and one calibration, "
             f"got --to {to} and {len(paths)}"

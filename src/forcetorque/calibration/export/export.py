@@ -17,6 +17,7 @@ from forcetorque.base.errors import ExperimentError, FormatError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.calibration.export.formats import ExportFormat
+from forcetorque.calibration.export.ros2_parameters import raw_unit, ros2_parameters
 from forcetorque.calibration.export.wholebodydynamics import from_calibration, write_groups
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.input_files import stated_in
@@ -351,6 +352,88 @@ def export_coefficients(calibrations: Mapping[str, Calibration], output: Path | 
         for name, calibration in calibrations.items()
     ]
     return _export(ExportFormat.COEFFICIENTS, output, entries)
+
+
+def export_ros2_parameters(
+    calibrations: Mapping[str, Calibration],
+    output: Path | str,
+    *,
+    frame_ids: Sequence[str],
+    sensor_name: str | None = None,
+    force: bool = False,
+) -> Export:
+    """Write a file of parameters of a ROS 2 node.
+
+    Args:
+        calibrations: Calibrations of different sensors by name.
+        output: File to write or to replace.
+        frame_ids: Frame of tf that the reading of each is in, which a calibration does not know.
+        sensor_name: Name of the one sensor in the file; that of the calibration if None.
+        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+
+    Returns:
+        What the file holds.
+
+    Raises:
+        ExperimentError: If there is not one frame for each calibration.
+        FormatError: If two calibrations are of one name, or a name cannot be that of a parameter.
+    """
+    _refuse_output(output, calibrations.values(), force=force)
+    _require_linear(calibrations, ExportFormat.ROS2)
+    if len(frame_ids) != len(calibrations):
+        frames = ", ".join(f"{one.sensor.name}: its {one.sensor.frame} frame" for one in calibrations.values())
+        raise ExperimentError(
+            f"frame_ids: expected the frame of tf that each sensor reads in ({frames}), got {len(frame_ids)} for "
+            f"{len(calibrations)}; --frame-id names it, once for each calibration in their order"
+        )
+    by_sensor = {sensor_name or one.sensor.name: one for one in calibrations.values()}
+    if len(by_sensor) != len(calibrations):
+        raise FormatError(f"{output}: expected calibrations of different sensors, got a name twice; export each alone")
+    text = ros2_parameters(by_sensor, dict(zip(by_sensor, frame_ids, strict=True)))
+    write_bytes_atomically(Path(output), text.encode())
+    entries = [
+        _entry(name, one, matrix=one.matrix).model_copy(update={"sensor": sensor})
+        for (name, one), sensor in zip(calibrations.items(), by_sensor, strict=True)
+    ]
+    return _export(ExportFormat.ROS2, output, entries)
+
+
+def export_numpy(name: str, calibration: Calibration, output: Path | str, *, force: bool = False) -> Export:
+    """Write an archive of NumPy (`.npz`), which holds numbers and text and no pickled objects.
+
+    `sensor = np.load(output)`, then `raw @ sensor["matrix"].T + sensor["offset"]` is the wrench; with variables
+    `(values - sensor["reference_values"]) @ sensor["coefficients"].T` is added, values of shape (n, v).
+
+    Args:
+        name: Name of the calibration, for messages.
+        calibration: The calibration.
+        output: File to write or to replace.
+        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+
+    Returns:
+        What the file holds.
+    """
+    _refuse_output(output, [calibration], force=force)
+    _require_linear({name: calibration}, ExportFormat.NUMPY)
+    model, sensor, content = calibration.model, calibration.sensor, io.BytesIO()
+    np.savez(
+        content,
+        matrix=model.matrix,
+        offset=model.offset,
+        coefficients=model.coefficients,
+        reference_values=model.reference_values,
+        variables=np.array([variable.name for variable in calibration.variables], dtype=np.str_),
+        variable_units=np.array([variable.unit for variable in calibration.variables], dtype=np.str_),
+        components=np.array(WRENCH_COMPONENTS),
+        units=np.array(WRENCH_UNITS),
+        raw_unit=np.array(raw_unit(calibration)),
+        sensor=np.array(sensor.name),
+        serial=np.array(sensor.serial),
+        frame=np.array(sensor.frame),
+        measure_direction=np.array(sensor.measure_direction.value),
+    )
+    write_bytes_atomically(Path(output), content.getvalue())
+    return _export(ExportFormat.NUMPY, output, [_entry(name, calibration, matrix=calibration.matrix)])
 
 
 def _refuse_output(output: Path | str, calibrations: Iterable[Calibration], *, force: bool) -> None:

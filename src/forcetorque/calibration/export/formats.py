@@ -13,6 +13,8 @@ class ExportFormat(StrEnum):
     WHOLEBODYDYNAMICS = "wholebodydynamics"
     CSV = "csv"
     COEFFICIENTS = "coefficients"
+    ROS2 = "ros2"
+    NUMPY = "numpy"
 
     @property
     def offset_handling(self) -> str:
@@ -26,4 +28,6 @@ _OFFSET_HANDLING = {
     "usePreEstimatedOffset",
     ExportFormat.CSV: "stored: add it to the product of matrix and raw counts",
     ExportFormat.COEFFICIENTS: "not stored, the file is for the variables: store it with the matrix",
+    ExportFormat.ROS2: "stored: add it to the product of matrix and raw counts",
+    ExportFormat.NUMPY: "stored: wrench = raw @ matrix.T + offset",
 }

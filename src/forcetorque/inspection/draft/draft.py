@@ -50,6 +50,7 @@ from forcetorque.recording.recording import NO_MOTION, Recording
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
+from forcetorque.robot.installed import is_robot_name, urdf_file
 from forcetorque.robot.model import JointType, RobotModel
 from forcetorque.robot.urdf import read_urdf
 
@@ -227,7 +228,7 @@ def draft_experiment(
     kept = robot_file if robot_file is not None and _differs(robot_file, logged.urdf) else None
     if kept is not None:
         urdf, robot_file = kept, None
-    model = model_of(logged) if urdf is None else read_urdf(Path(urdf))
+    model = model_of(logged) if urdf is None else read_urdf(urdf_file(urdf))
     log = draft_log(paths, model, log_format, column_names)
     if robot_file is not None:
         refuse_output(robot_file, force=True)  # what is there is the same
@@ -267,7 +268,8 @@ def _robot_line(
 ) -> str | None:
     """The key of the robot; a question where the log's own description is not written."""
     if urdf is not None:
-        return line("urdf", relative(Path(urdf), folder), f"it differs from {logged.source}" if is_kept else "")
+        named = str(urdf) if is_robot_name(urdf, Path()) else relative(Path(urdf), folder)
+        return line("urdf", named, f"it differs from {logged.source}" if is_kept else "")
     if robot_file is not None:
         return line("urdf", relative(robot_file, folder), f"written from {logged.source}")
     if logged.urdf is None:

@@ -118,7 +118,7 @@ def load_foot_forces(path: Path | str) -> FootForces:
     if not table:
         raise ExperimentError(f"{file}: expected [[sole]], a foot with the stream of its vertical_force, got none")
     inputs = Inputs.of(file)
-    model = None if parsed.robot is None else read_urdf(inputs.file(parsed.robot.urdf))
+    model = None if parsed.robot is None else read_urdf(inputs.robot(parsed.robot.urdf))
     recording = read_streams(parsed, file, model, inputs)
     return FootForces(
         name=parsed.name,

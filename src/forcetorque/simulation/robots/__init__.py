@@ -4,7 +4,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from forcetorque.base.errors import MissingExtraError, RobotError, install_line, known_names
+from forcetorque.base.errors import MissingExtraError
+from forcetorque.robot.installed import installed_robot
 
 ARM_URDF = Path(__file__).parent / "arm.urdf"
 """A small arm; its sensor is `arm_ft`, its base stands level."""
@@ -20,25 +21,21 @@ def named_robot(names: Sequence[str]) -> Path:
     """Find the first robot of a list that is installed.
 
     Args:
-        names: `arm`, `biped`, or robots of the package icub-models.
+        names: `arm`, `biped`, or names of installed robots.
 
     Returns:
         Its URDF file.
 
     Raises:
-        RobotError: If a package is installed and has no robot of that name.
         MissingExtraError: If none is installed.
     """
     own = {"arm": ARM_URDF, "biped": BIPED_URDF}
+    missing = MissingExtraError("expected the name of a robot, got none")
     for name in names:
         if name in own:
             return own[name]
         try:
-            import icub_models
-        except ImportError:
-            continue
-        known = icub_models.get_robot_names()
-        if name not in known:
-            raise RobotError(f"no robot is called {name!r}; {known_names(name, [*own, *known])}")
-        return Path(icub_models.get_model_file(name))
-    raise MissingExtraError(f"robot {', '.join(names)}: expected the package icub-models: {install_line('icub')}")
+            return installed_robot(name, others=own).urdf
+        except MissingExtraError as error:
+            missing = error
+    raise missing

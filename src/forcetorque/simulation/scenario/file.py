@@ -145,9 +145,9 @@ class Robot(Table):
     """The robot."""
 
     urdf: Path | None = None
-    """URDF file."""
+    """URDF file, or the name of an installed robot."""
     model: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
-    """`arm`, `biped`, or a robot of the package icub-models (extra `icub`); the first that is installed."""
+    """`arm`, `biped`, or names of installed robots (extras `icub`, `robots`); the first that is installed."""
     gravity: Positive = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
 

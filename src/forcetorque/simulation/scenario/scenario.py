@@ -19,6 +19,7 @@ from forcetorque.experiment.validation_offset import OFFSET_S
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.installed import urdf_file
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.modified_robot import RobotErrors, with_load
 from forcetorque.robot.urdf import read_urdf
@@ -299,7 +300,7 @@ def build_scenario(content: ScenarioFile, *, folder: Path | str = ".") -> Scenar
         RobotError: If the robot has no force-torque sensor, or not those that are named.
     """
     robot = content.robot
-    urdf = Path(folder) / robot.urdf if robot.urdf is not None else named_robot(robot.model or ())
+    urdf = urdf_file(robot.urdf, folder) if robot.urdf is not None else named_robot(robot.model or ())
     model = read_urdf(urdf)
     if not model.sensors:
         raise RobotError(

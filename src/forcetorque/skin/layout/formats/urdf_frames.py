@@ -17,6 +17,7 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, SkinError
 from forcetorque.base.toml_file import Table, read_toml
+from forcetorque.robot.installed import urdf_file
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
@@ -75,7 +76,7 @@ class UrdfFrames:
             SkinError: If a module has no neighbours that show how it is turned.
         """
         stated = read_toml(path, ModuleFrames, what="module frames")
-        frames = _frames(path, stated, read_urdf(path.parent / stated.urdf))
+        frames = _frames(path, stated, read_urdf(urdf_file(stated.urdf, path.parent)))
         modules = sorted(frames)
         poses = np.array([frames[module] for module in modules])
         if stated.plan is not None:

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files that a scene is written to, by their ending: the page, or what another viewer opens."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from forcetorque.viewer.page import write_page
+from forcetorque.viewer.scene_builder import BuiltScene
+
+RRD, MCAP = ".rrd", ".mcap"
+"""Endings of recordings for Rerun, and of bags of ROS 2 for Foxglove and others."""
+
+
+def require_writer(path: Path) -> None:
+    """Check, before anything is computed, that what writes a file is installed.
+
+    Args:
+        path: The file.
+    """
+    if path.suffix.lower() == RRD:
+        from forcetorque.viewer.rerun_file import imported_rerun
+
+        imported_rerun(path)
+    elif path.suffix.lower() == MCAP:
+        from forcetorque.viewer.mcap_file import typestore
+
+        typestore(path)
+
+
+def write_view(path: Path, built: BuiltScene) -> int:
+    """Write a scene as the ending of the file says: `.rrd`, `.mcap`, else the page.
+
+    Args:
+        path: File to write or to replace.
+        built: The scene.
+
+    Returns:
+        Its size; bytes.
+    """
+    from forcetorque.viewer.viewer_log import viewer_log
+
+    if path.suffix.lower() == RRD:
+        from forcetorque.viewer.rerun_file import write_rrd
+
+        return write_rrd(path, viewer_log(built))
+    if path.suffix.lower() == MCAP:
+        from forcetorque.viewer.mcap_file import write_mcap
+
+        return write_mcap(path, viewer_log(built))
+    return write_page(path, built)

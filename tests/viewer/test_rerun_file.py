@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Recordings of Rerun, read back by its library: the same samples, stamps and frames, and a layout."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from forcetorque.base.errors import MissingExtraError
+from forcetorque.viewer.rerun_file import frame_entities, write_rrd
+from forcetorque.viewer.scene_builder import BuiltScene
+from forcetorque.viewer.viewer_log import viewer_log
+
+SINGLE = 1e-6
+"""Rerun keeps poses and arrows in 24 bits."""
+
+
+def _columns(file: Path) -> tuple[dict[str, dict[str, list[Any]]], list[str]]:
+    """Columns over time by entity, and the kinds of what the file holds."""
+    reader = pytest.importorskip("rerun.chunk").RrdReader(file)
+    found: dict[str, dict[str, list[Any]]] = {}
+    for chunk in reader.stream():
+        if not chunk.is_static and not chunk.entity_path.startswith("/__"):
+            batch = chunk.to_record_batch()
+            columns = found.setdefault(chunk.entity_path, {})
+            for name in batch.schema.names:
+                column = batch.column(name)
+                is_time = name == "time"
+                columns.setdefault(name, []).extend(column.cast("int64").to_pylist() if is_time else column.to_pylist())
+    return found, [entry.kind for entry in (*reader.recordings(), *reader.blueprints())]
+
+
+@pytest.mark.long
+def test_the_file_reads_back(built: BuiltScene, tmp_path: Path) -> None:
+    """Wrenches to the last bit with the stamps of the log, poses and arrows at theirs; events; and one layout."""
+    pytest.importorskip("rerun")
+    log, file = viewer_log(built), tmp_path / "view.rrd"
+    assert write_rrd(file, log) == file.stat().st_size
+    columns, kinds = _columns(file)
+    assert sorted(kinds) == ["blueprint", "recording"]
+    for wrench in log.wrenches:
+        for half, part in (("force", slice(3)), ("torque", slice(3, 6))):
+            found = columns[f"/{wrench.name}/{half}"]
+            assert found["time"] == log.stamp_ns[wrench.known].tolist()
+            np.testing.assert_array_equal(found["Scalars:scalars"], wrench.values[wrench.known, part])
+    places = frame_entities(log)
+    for frame in log.frames:
+        poses = frame.poses
+        if len(poses) > 1:
+            found = columns[f"/{places[frame.name]}"]
+            assert found["time"] == log.pose_ns.tolist()
+            np.testing.assert_allclose(np.squeeze(found["Transform3D:translation"]), poses[:, :3], atol=SINGLE)
+            quat_xyzw = np.squeeze(found["Transform3D:quaternion"])
+            np.testing.assert_allclose(quat_xyzw, poses[:, [4, 5, 6, 3]], atol=SINGLE)
+    for wrench, tips in log.arrows():
+        found = columns[f"/{places[wrench.frame]}/{wrench.name.replace('/', '_')}"]
+        assert found["time"] == log.pose_ns.tolist()
+        np.testing.assert_allclose(np.squeeze(found["Arrows3D:vectors"]), np.nan_to_num(tips), atol=SINGLE)
+    texts = [text for (text,) in columns["/events"]["TextLog:text"]]
+    assert sorted(texts) == sorted(event.text for event in log.events)
+
+
+def test_without_rerun_the_extra_is_named(built: BuiltScene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is written."""
+    monkeypatch.setitem(sys.modules, "rerun", None)
+    with pytest.raises(MissingExtraError, match=r"written by rerun-sdk: pip install 'forcetorque\[rerun\]'"):
+        write_rrd(tmp_path / "view.rrd", viewer_log(built))
+    assert list(tmp_path.iterdir()) == []
