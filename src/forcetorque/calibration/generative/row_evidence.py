@@ -61,7 +61,7 @@ class RowPrior:
         Returns:
             The prior distribution, with no more unknowns than columns.
         """
-        own = np.linalg.qr(basis.T, mode="r").T
+        own = np.asarray(np.linalg.qr(basis.T, mode="r"), dtype=np.float64).T
         a, b = own.shape
         root = np.zeros((a + len(terms), b + len(terms)))
         root[:a, :b], root[a:, b:] = own, np.diag(terms)
