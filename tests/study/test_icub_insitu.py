@@ -210,6 +210,7 @@ def test_linear_effects_are_taken_out_to_the_noise(seeds: range) -> None:
     assert 0.7 < pooled < 1.5
 
 
+@pytest.mark.long
 def test_the_true_error_of_a_workbench_matrix_is_no_noise() -> None:
     """Negative control of the floor: the workbench matrix is far above it, with linear effects only."""
     sensor = next(sensors(range(1, 2), **LINEAR_ONLY))
