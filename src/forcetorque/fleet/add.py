@@ -19,6 +19,7 @@ from forcetorque.fleet.dataset import Dataset, RecordFile, require_folder
 from forcetorque.fleet.sensor_record import AddOptions, path_digest, recording_digest, sensor_records
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.results.answer import Answer, typed
+from forcetorque.results.number_text import counted
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
 
@@ -57,7 +58,7 @@ class Added(Result):
         recordings = len({row.file for row in self.sensors})
         sensors = len({row.serial for row in self.sensors})
         yield Answer(
-            subject=f"{self.dataset}: {_count(recordings, 'recording')} of {_count(sensors, 'sensor')}",
+            subject=f"{self.dataset}: {counted(recordings, 'recording')} of {counted(sensors, 'sensor')}",
             verdict=f"{added} ADDED, {present} ALREADY THERE" if present else f"{added} ADDED",
             why=("nothing was changed; the same inputs, options and version were added before",) if not added else (),
             step="Show the sensors, the worst first:",
@@ -71,10 +72,6 @@ class Added(Result):
             A table.
         """
         yield table_of(self.sensors, f"{self.dataset}: recordings and sensors")
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'s' * (number != 1)}"
 
 
 def add_recordings(

@@ -13,7 +13,7 @@ from pydantic import Field
 
 from forcetorque.fleet.dataset import Dataset, RecordFile
 from forcetorque.results.answer import Answer, Concern, typed
-from forcetorque.results.number_text import amount
+from forcetorque.results.number_text import amount, counted
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
 
@@ -87,11 +87,11 @@ class FleetTable(Result):
                 subject=row.subject,
                 verdict=_error_text(row),
                 why=(
-                    f"errors of the prior matrix, mean removed, in {_count(row.recordings, 'recording')}; "
-                    f"{_count(row.findings, 'finding')}"
+                    f"errors of the prior matrix, mean removed, in {counted(row.recordings, 'recording')}; "
+                    f"{counted(row.findings, 'finding')}"
                     + (f", mostly {row.most_frequent_finding}" if row.most_frequent_finding else ""),
-                    f"{self.dataset} has {_count(len(self.sensors), 'sensor')} in "
-                    f"{_count(self.recordings, 'recording')}",
+                    f"{self.dataset} has {counted(len(self.sensors), 'sensor')} in "
+                    f"{counted(self.recordings, 'recording')}",
                 ),
                 step="Calibrate it from the dataset:",
                 command=typed("calibrate", self.dataset, "--sensor", row.serial, "-o", f"{row.serial}.json"),
@@ -112,10 +112,6 @@ def _error_text(row: FleetSensor) -> str:
         return "NO PRIOR"
     errors = f"{amount(row.prior_force_error_N, 'N')}, {amount(row.prior_moment_error_Nm, 'N m')}"
     return errors if row.times_median is None else f"{errors} ({row.times_median:.1f} x median)"
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'s' * (number != 1)}"
 
 
 def fleet_table_of(folder: Path) -> FleetTable:
