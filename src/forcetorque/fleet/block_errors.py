@@ -41,18 +41,16 @@ class BlockErrors:
         Returns:
             Its errors.
         """
-        sessions = {one.session: one.session_names for one in stored.sessions}
-        of_interval = {one.label: sessions[one.session] for one in stored.intervals}
-        means, variances = [], []
-        for block in stored.blocks:
-            moments = block.moments
-            rows, offset = _error_rows(stored, correction.in_session(of_interval[block.interval]))
-            means.append(rows @ moments.mean + offset)
-            variances.append(np.maximum(np.einsum("ij,jk,ik->i", rows, moments.second, rows), 0.0))
+        names = {one.session: one.session_names for one in stored.sessions}
+        sessions = {one.label: one.session for one in stored.intervals}
+        rows = {session: _error_rows(stored, correction.in_session(own)) for session, own in names.items()}
+        matrices, offsets = zip(*(rows[sessions[block.interval]] for block in stored.blocks), strict=True)
+        matrix, mean = np.array(matrices), np.array([block.mean for block in stored.blocks])
+        second = np.array([block.second_moment for block in stored.blocks])
         return cls(
             samples=np.array([block.samples for block in stored.blocks]),
-            mean=np.array(means),
-            variance=np.array(variances),
+            mean=np.einsum("bij,bj->bi", matrix, mean) + np.array(offsets),
+            variance=np.maximum(np.einsum("bij,bij->bi", matrix @ second, matrix), 0.0),
         )
 
     def without_mean(self) -> BlockErrors:

@@ -197,6 +197,11 @@ class Dataset:
         return [int(number) for number in re.findall(r"\d+", row["code_version"])], file
 
     @property
+    def recordings(self) -> int:
+        """Number of recordings."""
+        return len({file.recording for file in self.files})
+
+    @property
     def serials(self) -> dict[str, str]:
         """Serial number of every sensor, and its robot."""
         return {file.serial: file.robot for file in self.files}

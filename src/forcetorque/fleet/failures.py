@@ -79,3 +79,18 @@ class Failures:
         """
         for path in self.dataset.glob(f"failures/{path_digest(source.path)}-*.json"):
             path.unlink(missing_ok=True)
+
+
+def stored_failures(dataset: Path) -> list[StoredFailure]:
+    """List the failures of a dataset.
+
+    Args:
+        dataset: Its folder.
+
+    Returns:
+        The failures, sorted by file.
+    """
+    failures = [
+        read_stored_table(path, StoredFailure, expected="a failure") for path in dataset.glob("failures/*.json")
+    ]
+    return sorted(failures, key=lambda failure: (failure.file, failure.error))

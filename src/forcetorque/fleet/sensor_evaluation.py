@@ -18,6 +18,7 @@ from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
+    SecondMeans,
     evidence_of_means,
     moved_and_load,
 )
@@ -73,6 +74,8 @@ class StoredErrors(EvaluatedRow):
 class RecordingError(Row):
     """Error of one calibration in the validation intervals of one recording."""
 
+    serial: Annotated[str, Shown("serial")]
+    """Serial number of the sensor."""
     file: Annotated[str, Shown("recording", file=True)]
     """Experiment file or log."""
     start_ns: int
@@ -192,6 +195,17 @@ class SensorEvaluation:
         priors = len(self.candidates) - len(self.calibrations)
         return next(k for k, one in enumerate(self.candidates) if one.name == name and k >= priors)
 
+    def last_means(self, name: str) -> list[SecondMeans]:
+        """Give the errors of a calibration in the last recording.
+
+        Args:
+            name: Name of the calibration.
+
+        Returns:
+            Means over seconds of its sessions.
+        """
+        return self.means[self.place(name)][-len(self.stored[-1].sessions) :]
+
     def over_time(self, name: str) -> tuple[RecordingError, ...]:
         """Give the error of a calibration in every recording.
 
@@ -276,6 +290,7 @@ def _recording_error(record: SensorRecord, errors: BlockErrors) -> RecordingErro
     mean = np.average(errors.mean, axis=0, weights=errors.samples)
     square = errors.without_mean().squares.sum(axis=0) / errors.samples.sum()
     return RecordingError(
+        serial=record.identity.serial,
         file=record.file,
         start_ns=record.start_ns,
         date=record.date,

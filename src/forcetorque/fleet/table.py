@@ -121,9 +121,21 @@ def fleet_table_of(folder: Path) -> FleetTable:
         folder: Folder of the dataset.
 
     Returns:
-        The sensors, those first whose error is largest against the median of all; those without a prior last.
+        The sensors, as `fleet_sensors` sorts them.
     """
     dataset = Dataset.opened(folder)
+    return FleetTable(dataset=str(folder), recordings=dataset.recordings, sensors=tuple(fleet_sensors(dataset)))
+
+
+def fleet_sensors(dataset: Dataset) -> list[FleetSensor]:
+    """Sum up the sensors of a dataset.
+
+    Args:
+        dataset: The dataset.
+
+    Returns:
+        The sensors, those first whose error is largest against the median of all; those without a prior last.
+    """
     groups: dict[tuple[str, str], list[RecordFile]] = {}
     for file in dataset.files:
         groups.setdefault((file.robot, file.serial), []).append(file)
@@ -133,9 +145,7 @@ def fleet_table_of(folder: Path) -> FleetTable:
         for name in ("prior_force_error_N", "prior_moment_error_Nm")
     ]
     ranked = [row.model_copy(update={"times_median": _times(row, medians)}) for row in rows]
-    ranked.sort(key=lambda row: (-(row.times_median or 0.0), -row.findings, row.robot, row.serial))
-    recordings = len({file.recording for file in dataset.files})
-    return FleetTable(dataset=str(folder), recordings=recordings, sensors=tuple(ranked))
+    return sorted(ranked, key=lambda row: (-(row.times_median or 0.0), -row.findings, row.robot, row.serial))
 
 
 def _times(row: FleetSensor, medians: Sequence[float]) -> float | None:
