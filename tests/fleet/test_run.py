@@ -8,17 +8,15 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError
+from forcetorque.base.errors import ExperimentError, FormatError
 from forcetorque.fleet.dataset import Dataset
-from forcetorque.fleet.pool import Outcome, error_line
 from forcetorque.fleet.run import run_plan
 from tests.app.outcome import Run
+from tests.fleet.pools import InProcess
 
 PLAN = """
 schema = "forcetorque/fleet_plan/1"
@@ -27,18 +25,6 @@ calibrations = "calibrations"
 [[recordings]]
 experiments = "{pattern}"
 """
-
-
-class InProcess:
-    """A pool that runs everything in this process, the last argument first."""
-
-    def outcomes(self, function: Callable[[Any], Any], arguments: Sequence[Any]) -> Iterator[Outcome[Any]]:
-        """Run the function, as processes do."""
-        for index, argument in reversed(list(enumerate(arguments))):
-            try:
-                yield Outcome(index=index, value=function(argument))
-            except ForceTorqueError as error:
-                yield Outcome(index=index, error=error_line(error))
 
 
 def _plan(folder: Path, text: str) -> Path:

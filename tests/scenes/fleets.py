@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import hashlib
+import shutil
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
@@ -17,6 +18,9 @@ from forcetorque.experiment.calibration.artefact import Calibration, write_calib
 from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.evaluation_blocks import StoredEvaluation
 from forcetorque.fleet.sensor_record import AddOptions, SensorRecord
+from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.simulation.scenario.scenario import trace_recordings
+from tests.scenes.studies import SENSOR, SERIAL, scenario, write_days
 
 DAY_NS: Final = 86_400 * 10**9
 FIRST_NS: Final = 1_767_225_600 * 10**9
@@ -36,7 +40,9 @@ class Damage:
     drift_counts_per_s: float = 0.0
     """Drift of all channels."""
     noise_counts: float = 0.0
-    """Slow noise of all channels, white in means over a second."""
+    """Slow noise of all channels, white in means over a second; of records alone."""
+    clipped: bool = False
+    """Whether an amplifier clips readings at half of their deviations from the middle; of logs alone."""
 
     def matrix(self, channels: int) -> FloatArray:
         """What readings are multiplied with; shape (c, c)."""
@@ -45,6 +51,14 @@ class Damage:
             made[self.dead] = 0.0
         return made
 
+    def of_log(self, raw: FloatArray, seconds: FloatArray) -> FloatArray:
+        """Readings of a log, whole counts; shape (n, c)."""
+        made = raw @ self.matrix(raw.shape[1]).T + self.drift_counts_per_s * seconds[:, None]
+        if self.clipped:
+            low, high = made.min(axis=0), made.max(axis=0)
+            made = np.clip(made, 0.75 * low + 0.25 * high, 0.25 * low + 0.75 * high)
+        return np.rint(made)
+
 
 DAMAGES: Final[Mapping[str, Damage]] = {
     "gain": Damage(gain=1.1),
@@ -52,8 +66,9 @@ DAMAGES: Final[Mapping[str, Damage]] = {
     "drifting": Damage(drift_counts_per_s=60.0),
     "dead": Damage(dead=2),
     "noisy": Damage(noise_counts=400.0),
+    "clipped": Damage(clipped=True),
 }
-"""Five damages that an evaluation can see."""
+"""Damages that an evaluation can see."""
 
 
 def fleet_of(
@@ -135,3 +150,55 @@ def _damaged(stored: StoredEvaluation, serial: str, damage: Damage, rng: np.rand
             "sessions": tuple(sessions),
         }
     )
+
+
+PLAN: Final = """
+schema = "forcetorque/fleet_plan/1"
+dataset = "fleet"
+calibrations = "calibrations"
+"""
+LOAD_CASE: Final = """
+[[load_case]]
+name = "push"
+force_N = 40.0
+radius_m = 0.1
+offset = "tared"
+force_error_N = 2.0
+moment_error_Nm = 0.2
+"""
+
+
+def write_logs(robots: int, damaged: Mapping[int, str], folder: Path) -> Path:
+    """Write logs of robots, each with a sensor of its own: two to calibrate it, and two days to validate it.
+
+    Args:
+        robots: Number of robots.
+        damaged: Name of a damage by the number of its robot; it shows on the second day.
+        folder: Where they are written.
+
+    Returns:
+        Plan that adds and calibrates all of them.
+    """
+    traces, plan = trace_recordings(scenario()), [PLAN]
+    for k in range(robots):
+        robot = folder / f"robot_{k}"
+        write_days(robot, scenario().with_sensors(seed=100 + k), traces)
+        damage = DAMAGES[damaged[k]] if k in damaged else Damage()
+        log = read_recording(robot / "day_2")
+        stream = log.stream(SENSOR)
+        seconds = 1e-9 * (stream.stamp_ns - stream.stamp_ns[0])
+        raw = stream.signals["raw"]
+        signals = dict(stream.signals) | {"raw": replace(raw, values=damage.of_log(raw.values, seconds))}
+        streams = dict(log.streams) | {SENSOR: replace(stream, signals=signals)}
+        shutil.rmtree(robot / "day_2")
+        write_recording(robot / "day_2", replace(log, streams=streams))
+        (robot / f"matrix_{SERIAL}.txt").rename(robot / f"matrix_FT{k:03}.txt")
+        for file in robot.glob("*.toml"):
+            text = file.read_text(encoding="utf-8").replace(SERIAL, f"FT{k:03}")
+            file.write_text(text.replace('name = "arm ', f'name = "arm {k} ') + LOAD_CASE, encoding="utf-8")
+        for name in ("move_cold.toml", "grid_cold.toml"):
+            (robot / name).unlink()
+        plan.append(f'[[recordings]]\nexperiments = "robot_{k}/*.toml"\nrobot = "robot {k}"\n')
+    file = folder / "plan.toml"
+    file.write_text("".join(plan), encoding="utf-8")
+    return file

@@ -68,13 +68,7 @@ def page(report: FleetReport, *, created: str) -> Document:
 
 def _sections(report: FleetReport) -> Iterator[Section]:
     yield Section(title="Worst sensors first", blocks=(*_verdicts(report), *_ranking(report)))
-    steps = [
-        f"{row.subject}: {row.step}{f' `forcetorque {row.command}`' if row.command else ''}"
-        for row in (*report.ranked, *report.unranked)
-        if row.step
-    ]
-    nothing: Block = Text(text="Nothing is to be done.")
-    yield Section(title="What to do next", blocks=(List(points=tuple(steps), numbered=True) if steps else nothing,))
+    yield Section(title="What to do next", blocks=tuple(_steps(report)) or (Text(text="Nothing is to be done."),))
     if report.ranked:
         yield Section(title="Error and offset over time", blocks=tuple(_figures(report)))
     yield Section(title="Coverage by loads", blocks=tuple(_coverage(report)))
@@ -85,6 +79,18 @@ def _sections(report: FleetReport) -> Iterator[Section]:
     if report.failures:
         failed = table_of(report.failures, "Recordings that could not be added; `fleet run --retry-failed` tries again")
     yield Section(title="Recordings that failed", blocks=(failed,))
+
+
+def _steps(report: FleetReport) -> Iterator[Text | List]:
+    """Every step once, with the sensors that it is for and their commands."""
+    points: dict[str, list[str]] = {}
+    for row in (*report.ranked, *report.unranked):
+        if row.step:
+            command = f": `forcetorque {row.command}`" if row.command else ""
+            points.setdefault(row.step, []).append(f"{row.subject}{command}")
+    for step, own in points.items():
+        yield Text(text=step)
+        yield List(points=tuple(own))
 
 
 def _verdicts(report: FleetReport) -> Iterator[Verdict | Text]:
