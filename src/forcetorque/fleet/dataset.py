@@ -22,6 +22,7 @@ import pyarrow.parquet as pq
 from forcetorque.base.arrow import require_small_parquet
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError, OutputError, known_names
 from forcetorque.base.output_file import temporary_beside
+from forcetorque.base.run_files import declare_input
 from forcetorque.base.stored_model import validated_table
 from forcetorque.experiment.calibration.moment_blocks import joined
 from forcetorque.experiment.calibration.provenance import SensorIdentity
@@ -268,6 +269,7 @@ class Dataset:
         return [self._row(self.folder / file.path, columns) for file in files]
 
     def _row(self, path: Path, columns: Sequence[str]) -> dict[str, Any]:
+        declare_input(path)
         try:
             with pq.ParquetFile(path) as parquet:
                 _require_version(path, parquet.schema_arrow.metadata or {})

@@ -171,6 +171,8 @@ class FleetReport(Result):
     """Loads of every sensor, in the same order, then those without a rank."""
     failures: tuple[FailedRecording, ...]
     """Recordings that could not be added."""
+    file: str | None = None
+    """HTML page; null where none was written."""
 
     @property
     def robots(self) -> int:
@@ -227,7 +229,7 @@ def fleet_report_of(folder: Path, calibrations: Sequence[Path], progress: Progre
     Raises:
         ExperimentError: If two calibrations are of one sensor, or a folder has none.
     """
-    dataset, known = Dataset.opened(folder), _by_serial(calibrations)
+    known, dataset = _by_serial(calibrations), Dataset.opened(folder)
     sensors = fleet_sensors(dataset)
     left = TimeLeft(progress, f"{len(sensors)} sensors", len(sensors))
     ranked: list[RankedSensor] = []

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from forcetorque.evaluation.answers import CONCERN
@@ -38,7 +39,9 @@ def report_answers(report: FleetReport) -> Iterator[Answer]:
         verdict=", ".join(counts),
         why=tuple(_why(report)),
         step=f"{rows[0].subject}: {rows[0].step}" if rows else "",
-        command=rows[0].command if rows else "",
+        # files below the working folder as they are typed there
+        command=rows[0].command.replace(f"{Path.cwd()}/", "") if rows else "",
+        written=(report.file,),
         concern=worst,
     )
     for row in report.ranked[:_MOST]:
