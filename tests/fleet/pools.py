@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.fleet.pool import Outcome, error_line
+from forcetorque.fleet.pool import Outcome, failed
 
 
 class InProcess:
@@ -19,4 +19,4 @@ class InProcess:
             try:
                 yield Outcome(index=index, value=function(argument))
             except ForceTorqueError as error:
-                yield Outcome(index=index, error=error_line(error))
+                yield failed(index, error)

@@ -8,6 +8,7 @@ recording has the same name whoever adds it.
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -330,12 +331,26 @@ class Dataset:
 
         Returns:
             The file.
+
+        Raises:
+            OutputError: If it cannot be written, such as on a full disk; nothing is left of it then.
         """
         target = self.folder / RecordFile.of(record, options).path
-        target.parent.mkdir(parents=True, exist_ok=True)
-        with temporary_beside(target) as temporary:
-            pq.write_table(columns_of(SensorRecord, [record], _METADATA), temporary, compression="zstd")
-            temporary.replace(target)
+        columns = columns_of(SensorRecord, [record], _METADATA)
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            with temporary_beside(target) as temporary:
+                with temporary.open("wb") as stream:
+                    pq.write_table(columns, stream, compression="zstd")
+                    stream.flush()
+                    # otherwise a power cut after the rename can leave an empty file
+                    os.fsync(stream.fileno())
+                temporary.replace(target)
+        except OSError as error:
+            raise OutputError(
+                f"{target}: expected to write the file, got {error.strerror or error}; nothing was added; free space "
+                "there, and add the recording again"
+            ) from error
         return target
 
 
