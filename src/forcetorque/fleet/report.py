@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Final, Literal
 
 import numpy as np
 from pydantic import Field
@@ -30,8 +30,31 @@ from forcetorque.results.number_text import amount, finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
 
+DECISIONS: Final[Sequence[Decision]] = sorted(CONCERN, key=CONCERN.__getitem__, reverse=True)
+"""Verdicts, the one that asks most for attention first."""
 
-class RankedSensor(Row):
+
+class ReportedSensor(Row):
+    """Which sensor it is, and what to do next."""
+
+    robot: Annotated[str, Shown("robot")]
+    """Name of the robot in the dataset."""
+    sensor: Annotated[str, Shown("sensor")]
+    """Name of the sensor."""
+    serial: Annotated[str, Shown("serial")]
+    """Its serial number."""
+    step: str
+    """What to do next; empty where nothing is to be done."""
+    command: str
+    """Command that does it; empty where there is none."""
+
+    @property
+    def subject(self) -> str:
+        """Which sensor it is, for people."""
+        return f"{self.robot} {self.sensor} ({self.serial})"
+
+
+class RankedSensor(ReportedSensor):
     """A sensor that was evaluated: its error in the last recording, and the verdict on all of them.
 
     Of several load cases it is the one with the worst verdict.
@@ -39,12 +62,6 @@ class RankedSensor(Row):
 
     rank: Annotated[int, Shown("rank")]
     """Place among the evaluated sensors, the worst is 1."""
-    robot: Annotated[str, Shown("robot")]
-    """Name of the robot in the dataset."""
-    sensor: Annotated[str, Shown("sensor")]
-    """Name of the sensor."""
-    serial: Annotated[str, Shown("serial")]
-    """Its serial number."""
     calibration: str
     """File of the evaluated calibration."""
     decision: Annotated[Decision, Shown("verdict")]
@@ -86,39 +103,15 @@ class RankedSensor(Row):
     """Kind of finding that most recordings have; None without any."""
     reason: str
     """Most important reason of the decision."""
-    step: str
-    """What to do next; empty where nothing is to be done."""
-    command: str
-    """Command that does it; empty where there is none."""
-
-    @property
-    def subject(self) -> str:
-        """Which sensor it is, for people."""
-        return f"{self.robot} {self.sensor} ({self.serial})"
 
 
-class UnrankedSensor(Row):
+class UnrankedSensor(ReportedSensor):
     """A sensor that was not evaluated."""
 
-    robot: Annotated[str, Shown("robot")]
-    """Name of the robot in the dataset."""
-    sensor: Annotated[str, Shown("sensor")]
-    """Name of the sensor."""
-    serial: Annotated[str, Shown("serial")]
-    """Its serial number."""
     recordings: Annotated[int, Shown("recordings")]
     """Number of recordings."""
     reason: Annotated[str, Shown("why it has no rank")]
     """Why it was not evaluated."""
-    step: str
-    """What to do next."""
-    command: str
-    """Command that does it; empty where there is none."""
-
-    @property
-    def subject(self) -> str:
-        """Which sensor it is, for people."""
-        return f"{self.robot} {self.sensor} ({self.serial})"
 
 
 class LoadCoverage(Row):
@@ -175,9 +168,9 @@ class FleetReport(Result):
     """HTML page; null where none was written."""
 
     @property
-    def robots(self) -> int:
-        """Number of robots."""
-        return len({row.robot for row in (*self.ranked, *self.unranked)})
+    def sensors(self) -> tuple[ReportedSensor, ...]:
+        """All sensors, those with a rank first."""
+        return (*self.ranked, *self.unranked)
 
     def blocks(self) -> Iterator[Table | str]:
         """List sensors, loads and failures.
@@ -199,7 +192,7 @@ class FleetReport(Result):
         Returns:
             Records of the evaluated sensors, then those of the others.
         """
-        return [row.flat() for row in (*self.ranked, *self.unranked)]
+        return [row.flat() for row in self.sensors]
 
     def save(self, path: Path | str) -> None:
         """Write the report as one HTML page.
@@ -252,13 +245,14 @@ def fleet_report_of(folder: Path, calibrations: Sequence[Path], progress: Progre
         left.at(number)
     ranked.sort(key=lambda row: (-(row.times_allowed or 0.0), -CONCERN[row.decision], row.robot, row.serial))
     serials = {sensor.serial for sensor in sensors}
+    order: list[ReportedSensor] = [*ranked, *unranked]
     return FleetReport(
         dataset=str(folder),
         recordings=dataset.recordings,
         ranked=tuple(row.model_copy(update={"rank": rank}) for rank, row in enumerate(ranked, start=1)),
         unranked=tuple(unranked),
         over_time=tuple(row for sensor in ranked for row in over_time[sensor.serial]),
-        coverage=tuple(coverage[row.robot, row.serial] for row in (*ranked, *unranked)),
+        coverage=tuple(coverage[row.robot, row.serial] for row in order),
         failures=tuple(FailedRecording(file=one.file, error=one.error) for one in stored_failures(folder)),
         warnings=tuple(
             f"{file}: calibrates {one.sensor.name} ({serial}), which the dataset does not have"

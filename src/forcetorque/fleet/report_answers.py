@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from forcetorque.evaluation.answers import CONCERN
+from forcetorque.fleet.report import DECISIONS
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import amount, counted
 
@@ -29,13 +30,13 @@ def report_answers(report: FleetReport) -> Iterator[Answer]:
         One answer, then one for each of the worst sensors, at most three.
     """
     decisions = Counter(row.decision for row in report.ranked)
-    counts = [f"{decisions[one]} {one.upper()}" for one in reversed(CONCERN) if decisions[one]]
+    counts = [f"{decisions[one]} {one.upper()}" for one in DECISIONS if decisions[one]]
     if report.unranked:
         counts.append(f"{len(report.unranked)} NOT EVALUATED")
-    rows = [row for row in (*report.ranked, *report.unranked) if row.step]
+    rows = [row for row in report.sensors if row.step]
     worst = max((CONCERN[row.decision] for row in report.ranked), default=Concern.UNCERTAIN)
     yield Answer(
-        subject=f"{report.dataset}: {counted(len(report.ranked) + len(report.unranked), 'sensor')}",
+        subject=f"{report.dataset}: {counted(len(report.sensors), 'sensor')}",
         verdict=", ".join(counts),
         why=tuple(_why(report)),
         step=f"{rows[0].subject}: {rows[0].step}" if rows else "",

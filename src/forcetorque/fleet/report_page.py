@@ -10,9 +10,8 @@ from typing import Final
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import write_bytes_atomically
-from forcetorque.evaluation.answers import CONCERN
 from forcetorque.evaluation.load_cases.verdict import TONES
-from forcetorque.fleet.report import FleetReport, RankedSensor
+from forcetorque.fleet.report import DECISIONS, FleetReport, RankedSensor
 from forcetorque.fleet.report_figure import over_time_figure
 from forcetorque.fleet.sensor_evaluation import RecordingError
 from forcetorque.results.document.content import Block, Document, Figure, List, Picture, Section, Text, Tone, Verdict
@@ -54,12 +53,12 @@ def page(report: FleetReport, *, created: str) -> Document:
     Returns:
         The document; its pictures are drawn when it is written.
     """
-    sensors = len(report.ranked) + len(report.unranked)
     days = sorted(row.date for row in report.over_time)
     over = f"; validation recordings from {days[0]} to {days[-1]}" if days and days[0] > "1970-01-01" else ""
+    sensors, robots = len(report.sensors), len({row.robot for row in report.sensors})
     return Document(
         title="Force-torque sensors of a fleet",
-        subtitle=f"{report.dataset}: {counted(sensors, 'sensor')} of {counted(report.robots, 'robot')} in "
+        subtitle=f"{report.dataset}: {counted(sensors, 'sensor')} of {counted(robots, 'robot')} in "
         f"{counted(report.recordings, 'recording')}{over}; forcetorque {version('forcetorque')}",
         created=created,
         sections=tuple(_sections(report)),
@@ -84,7 +83,7 @@ def _sections(report: FleetReport) -> Iterator[Section]:
 def _steps(report: FleetReport) -> Iterator[Text | List]:
     """Every step once, with the sensors that it is for and their commands."""
     points: dict[str, list[str]] = {}
-    for row in (*report.ranked, *report.unranked):
+    for row in report.sensors:
         if row.step:
             command = f": `forcetorque {row.command}`" if row.command else ""
             points.setdefault(row.step, []).append(f"{row.subject}{command}")
@@ -94,17 +93,16 @@ def _steps(report: FleetReport) -> Iterator[Text | List]:
 
 
 def _verdicts(report: FleetReport) -> Iterator[Verdict | Text]:
-    for decision in reversed(CONCERN):
+    for decision in DECISIONS:
         rows = [row for row in report.ranked if row.decision == decision]
         if rows:
             yield Verdict(tone=Tone(TONES[decision]), word=decision, text=_names([row.subject for row in rows]))
     if report.unranked:
         names = _names([row.subject for row in report.unranked])
         yield Verdict(tone=Tone.UNKNOWN, word="not evaluated", text=names)
-    sensors = len(report.ranked) + len(report.unranked)
     yield Text(
-        text=f"Only sensors that were evaluated have a rank: {len(report.ranked)} of {sensors}. The order is that of "
-        "the error in the last recording against what is allowed."
+        text=f"Only sensors that were evaluated have a rank: {len(report.ranked)} of {len(report.sensors)}. "
+        "The order is that of the error in the last recording against what is allowed."
     )
 
 
