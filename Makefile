@@ -47,6 +47,7 @@ bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.simulation --json build/benchmarks/simulation.json
 	$(BIN)/python -m benchmarks.joint --json build/benchmarks/joint.json
 	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.long_recordings --json build/benchmarks/long_recordings.json
+	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.fleet --json build/benchmarks/fleet.json
 	$(BIN)/python -m benchmarks.real_logs --json build/benchmarks/real_logs.json
 	$(BIN)/python -m benchmarks.skin --json build/benchmarks/skin.json
 	$(BIN)/python -m benchmarks.sphere --json build/benchmarks/sphere.json

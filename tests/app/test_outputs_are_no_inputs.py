@@ -59,6 +59,7 @@ WORDS = {
     "estimate": f"{PARQUET} -o new.csv",
     "export": "fitted.json --to csv",
     "fleet add": f"{PARQUET}",
+    "fleet report": "fitted.json -c fitted.json",
     "bench gains": f"{PARQUET}",
     "init": f"{PARQUET}",
     "robot motion": f"{PARQUET}",
@@ -83,6 +84,7 @@ WORDS = {
 ENDINGS = {
     "robot balance": ".csv",
     "estimate": ".parquet",
+    "fleet report": ".html",
     "report": ".html",
     "skin calibrate": ".json",
     "calibrate": ".json",
@@ -148,7 +150,12 @@ def test_an_output_that_is_an_input_is_refused(arm: Path, run: Run, command: str
     words = _asked(command, option, name)
     forced = command in FORCED
     # a calibration is a result, which needs no force; the sensors name the files of `calibrate`, so it reads first
-    read_first = (command, option) in {("export", "--output"), ("calibrate", "--output"), ("calibrate", "--write-urdf")}
+    read_first = (command, option) in {
+        ("calibrate", "--output"),
+        ("calibrate", "--write-urdf"),
+        ("export", "--output"),
+        ("fleet report", "--output"),
+    }
     assert (IS_INPUT if read_first else IS_FOREIGN) in run(*words).error()
     if forced:
         assert IS_INPUT in run(*words, "--force").error()

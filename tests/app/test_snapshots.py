@@ -78,6 +78,7 @@ COMMANDS = _of_experiments() | {
     "evaluate": ("evaluate", PARQUET, "-c", "fitted.json"),
     "export": ("export", "fitted.json", "--to", "csv", "-o", "matrix.csv"),
     "fleet add": ("fleet", "add", PARQUET, "--into", "new_dataset"),
+    "fleet report": ("fleet", "report", "dataset", "-c", "fitted.json", "-o", "fleet.html"),
     "fleet table": ("fleet", "table", "dataset"),
     "bench gains": ("bench", "gains", PARQUET),
     "init": ("init", "begun/log.csv", "--urdf", "begun/robot.urdf", "-o", "begun.toml"),

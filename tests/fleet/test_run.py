@@ -8,17 +8,15 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError
+from forcetorque.base.errors import ExperimentError, FormatError
 from forcetorque.fleet.dataset import Dataset
-from forcetorque.fleet.pool import Outcome, error_line
 from forcetorque.fleet.run import run_plan
 from tests.app.outcome import Run
+from tests.fleet.pools import InProcess
 
 PLAN = """
 schema = "forcetorque/fleet_plan/1"
@@ -27,18 +25,6 @@ calibrations = "calibrations"
 [[recordings]]
 experiments = "{pattern}"
 """
-
-
-class InProcess:
-    """A pool that runs everything in this process, the last argument first."""
-
-    def outcomes(self, function: Callable[[Any], Any], arguments: Sequence[Any]) -> Iterator[Outcome[Any]]:
-        """Run the function, as processes do."""
-        for index, argument in reversed(list(enumerate(arguments))):
-            try:
-                yield Outcome(index=index, value=function(argument))
-            except ForceTorqueError as error:
-                yield Outcome(index=index, error=error_line(error))
 
 
 def _plan(folder: Path, text: str) -> Path:
@@ -52,7 +38,7 @@ def test_a_plan_is_worked_off_and_resumed(days: Path) -> None:
     """Added once, calibrated, evaluated; a recording that fails is a row, is not tried in vain, then tried again."""
     broken = days / "move_broken.toml"
     text = (days / "move_warm.toml").read_text(encoding="utf-8")
-    broken.write_text(text.replace("robot.urdf", "none.urdf"), encoding="utf-8")
+    broken.write_text(text.replace('support = "base"', 'support = "none"'), encoding="utf-8")
     (days / "day_2.toml").unlink()
     (days / "grid_cold.toml").unlink()
     (days / "grid_warm.toml").unlink()
@@ -60,7 +46,7 @@ def test_a_plan_is_worked_off_and_resumed(days: Path) -> None:
     first = run_plan(plan, InProcess())
     assert (first.recordings, first.added, first.present, first.passed) == (4, 3, 0, False)
     assert [(row.subject, row.earlier) for row in first.failures] == [(str(broken), False)]
-    assert "none.urdf" in first.failures[0].error
+    assert "'none'" in first.failures[0].error
     (sensor,) = first.sensors
     assert (sensor.recordings, Path(sensor.file).is_file()) == (2, True)
     assert sensor.decision in {"use", "do not use", "not enough data"}
@@ -69,8 +55,7 @@ def test_a_plan_is_worked_off_and_resumed(days: Path) -> None:
     assert sensor.force_error_rms_N < sensor.prior_force_error_rms_N
     second = run_plan(plan, InProcess())
     assert (second.added, second.present, second.failures[0].earlier) == (0, 3, True)
-    (days / "none.urdf").write_bytes((days / "robot.urdf").read_bytes())
-    broken.write_text(broken.read_text(encoding="utf-8").replace('"arm move_warm"', '"arm other"'), encoding="utf-8")
+    broken.write_text(text.replace('"arm move_warm"', '"arm other"'), encoding="utf-8")
     third = run_plan(plan, InProcess(), retry_failed=True)
     assert (third.added, third.present) == (1, 3)
     assert list((days / "fleet" / "failures").iterdir()) == []

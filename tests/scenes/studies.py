@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import shutil
 import tomllib
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.recording.storage import write_recording
 from forcetorque.simulation.scenario.file import ScenarioFile
 from forcetorque.simulation.scenario.scenario import Scenario, build_scenario, simulate
+from forcetorque.simulation.trace import Trace
 
 SENSOR, SERIAL = "arm_ft", "SIM001"
 
@@ -105,12 +107,19 @@ def scenario() -> Scenario:
     return build_scenario(ScenarioFile.model_validate(tomllib.loads(SCENARIO)))
 
 
-def write_days(folder: Path) -> None:
-    """Write robot, prior, recordings and experiment files."""
-    truth = scenario()
+def write_days(folder: Path, truth: Scenario | None = None, traces: Mapping[str, Trace] | None = None) -> None:
+    """Write robot, prior, recordings and experiment files.
+
+    Args:
+        folder: Where they are written.
+        truth: The scenario, with other sensors perhaps; that of `scenario` if left out.
+        traces: What `trace_recordings` gave for it; computed if left out.
+    """
+    truth = truth or scenario()
+    folder.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(truth.urdf, folder / "robot.urdf")
     write_matrix_file(folder / f"matrix_{SERIAL}.txt", encode_matrix(truth.specimens[SENSOR].workbench))
-    for made in simulate(truth):
+    for made in simulate(truth, traces):
         write_recording(folder / made.name, made.recording)
         text = _EXPERIMENT.format(
             label=made.name,

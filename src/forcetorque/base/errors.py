@@ -33,7 +33,11 @@ class MissingFileError(ForceTorqueError, FileNotFoundError):
 
 
 class OutputError(ForceTorqueError, FileExistsError):
-    """A file that is to be written is an input, or was made by another program."""
+    """A file that is to be written is an input, was made by another program, or cannot be written."""
+
+
+class ChangingFileError(ForceTorqueError, ValueError):
+    """A file was written to while it was read."""
 
 
 class RobotError(ForceTorqueError, ValueError):

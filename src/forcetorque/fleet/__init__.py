@@ -7,7 +7,7 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.fleet.commands import fleet_add, fleet_run, fleet_table
+    from forcetorque.fleet.commands import fleet_add, fleet_report, fleet_run, fleet_table
     from forcetorque.fleet.dataset import Dataset
 
 CAPABILITY = Capability(
@@ -19,6 +19,7 @@ CAPABILITY = Capability(
 __all__ = [
     "Dataset",
     "fleet_add",
+    "fleet_report",
     "fleet_run",
     "fleet_table",
 ]
@@ -28,6 +29,7 @@ __getattr__, __dir__ = lazy_names(
     {
         "Dataset": "forcetorque.fleet.dataset",
         "fleet_add": "forcetorque.fleet.commands",
+        "fleet_report": "forcetorque.fleet.commands",
         "fleet_run": "forcetorque.fleet.commands",
         "fleet_table": "forcetorque.fleet.commands",
     },

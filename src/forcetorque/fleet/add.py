@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from forcetorque.base.errors import ExperimentError
+from forcetorque.base.errors import ChangingFileError, ExperimentError, MissingFileError
 from forcetorque.base.output_file import real_path
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.experiment.experiment import Experiment
@@ -19,6 +20,7 @@ from forcetorque.fleet.dataset import Dataset, RecordFile, require_folder
 from forcetorque.fleet.sensor_record import AddOptions, path_digest, recording_digest, sensor_records
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.results.answer import Answer, typed
+from forcetorque.results.number_text import counted
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
 
@@ -57,7 +59,7 @@ class Added(Result):
         recordings = len({row.file for row in self.sensors})
         sensors = len({row.serial for row in self.sensors})
         yield Answer(
-            subject=f"{self.dataset}: {_count(recordings, 'recording')} of {_count(sensors, 'sensor')}",
+            subject=f"{self.dataset}: {counted(recordings, 'recording')} of {counted(sensors, 'sensor')}",
             verdict=f"{added} ADDED, {present} ALREADY THERE" if present else f"{added} ADDED",
             why=("nothing was changed; the same inputs, options and version were added before",) if not added else (),
             step="Show the sensors, the worst first:",
@@ -71,10 +73,6 @@ class Added(Result):
             A table.
         """
         yield table_of(self.sensors, f"{self.dataset}: recordings and sensors")
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'s' * (number != 1)}"
 
 
 def add_recordings(
@@ -142,15 +140,20 @@ def add_recording(
         serial: any((one.recording, one.options) == (digest, wanted) for one in files)
         for serial, files in there.items()
     }
-    if not all(present.values()):
-        for record in sensor_records(experiment, options, code_version):
-            if not present[record.identity.serial]:
-                dataset.write(record, options)
     # what the recording gave before, and results of other options or versions, which the new ones replace
     earlier = {*changed, *(one for files in there.values() for one in files if one.recording == digest), *own}
-    for one in earlier:
-        if (one.recording, one.options) != (digest, wanted):
-            (folder / one.path).unlink(missing_ok=True)
+    replaced = [one for one in sorted(earlier) if (one.recording, one.options) != (digest, wanted)]
+    for one in replaced:
+        with suppress(MissingFileError):  # another process replaced it meanwhile
+            dataset.rows([one], ["code_version"])  # refuses one of a newer form, which this version cannot replace
+    if not all(present.values()):
+        records = sensor_records(experiment, options, code_version)
+        _refuse_changing(experiment, source)
+        for record in records:
+            if not present[record.identity.serial]:
+                dataset.write(record, options)
+    for one in replaced:
+        (folder / one.path).unlink(missing_ok=True)
     return [
         AddedSensor(
             file=str(source.path),
@@ -181,6 +184,18 @@ def _unchanged(source: RecordingSource, dataset: Dataset, wanted: str) -> list[A
         AddedSensor(file=str(source.path), sensor=name, serial=serial, state="present")
         for name, serial in ((row["identity"]["name"], row["identity"]["serial"]) for row in rows)
     ]
+
+
+def _refuse_changing(experiment: Experiment, source: RecordingSource) -> None:
+    """Refuse a recording that was written to while it was read."""
+    folder = real_path(source.experiment).parent
+    for name, digest in experiment.inputs_sha256.items():
+        path = folder / name
+        if not path.is_file() or sha256_of(path) != digest:
+            raise ChangingFileError(
+                f"{source.path}: expected inputs that do not change while they are read, got {name}, which did; add "
+                "the recording when its log is complete"
+            )
 
 
 def _refuse_other_robot(

@@ -14,7 +14,8 @@ from forcetorque.results.number_text import amount
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
-    from forcetorque.fleet.evaluate import DatasetEvaluation, StoredErrors
+    from forcetorque.fleet.evaluate import DatasetEvaluation
+    from forcetorque.fleet.sensor_evaluation import StoredErrors
 
 
 def evaluation_answers(evaluation: DatasetEvaluation) -> Iterator[Answer]:

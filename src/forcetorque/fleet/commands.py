@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque fleet`: recordings of many robots in one dataset."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.results.command import Option, command
+from forcetorque.results.command import Option, Saved, command
 from forcetorque.results.terminal.command import command_function
 from forcetorque.results.terminal.help import WholeSentences
 
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress
     from forcetorque.fleet.add import Added
+    from forcetorque.fleet.report import FleetReport
     from forcetorque.fleet.run import FleetRun
     from forcetorque.fleet.table import FleetTable
 
@@ -71,6 +73,42 @@ def fleet_table(
     return fleet_table_of(Path(dataset))
 
 
+@command(
+    None,
+    Saved(flags=("--output", "-o"), help="HTML page to write.", required=True),
+)
+def fleet_report(
+    dataset: Annotated["Path | str", Option("Folder of a dataset; see docs/fleet.md.")],
+    *,
+    calibrations: Annotated[
+        "Sequence[Path | str]",
+        Option(
+            "Calibration file in use, or folder of them such as fleet run writes. Default: none, no sensor is ranked.",
+            "--calibration",
+            "-c",
+            typed=list[Path],
+        ),
+    ] = (),
+    progress: Annotated["Progress", Option("Called with a line for people.")] = lambda _: None,
+) -> "FleetReport":
+    """Write one page on the sensors of a dataset, the worst first.
+
+    Example: forcetorque fleet report fleet -c calibrations -o fleet.html
+
+    Python: `fleet.fleet_report("fleet", calibrations=["calibrations"]).save("fleet.html")`
+
+    Returns:
+        Evaluated sensors, the worst first, their errors over time, loads, what to do next, and failed recordings.
+
+    Raises:
+        MissingFileError: If there is no dataset.
+        ExperimentError: If two calibrations are of one sensor.
+    """
+    from forcetorque.fleet.report import fleet_report_of
+
+    return fleet_report_of(Path(dataset), [Path(file) for file in calibrations], progress)
+
+
 @command()
 def fleet_run(
     plan: Annotated["Path | str", Option("Plan (TOML); see docs/fleet.md.")],
@@ -118,5 +156,5 @@ fleet = typer.Typer(
     rich_markup_mode=None,
 )
 
-for _name, _analysis in (("add", fleet_add), ("run", fleet_run), ("table", fleet_table)):
+for _name, _analysis in (("add", fleet_add), ("report", fleet_report), ("run", fleet_run), ("table", fleet_table)):
     fleet.command(_name)(command_function(_analysis))

@@ -8,6 +8,7 @@ recording has the same name whoever adds it.
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -22,6 +23,7 @@ import pyarrow.parquet as pq
 from forcetorque.base.arrow import require_small_parquet
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError, OutputError, known_names
 from forcetorque.base.output_file import temporary_beside
+from forcetorque.base.run_files import declare_input
 from forcetorque.base.stored_model import validated_table
 from forcetorque.experiment.calibration.moment_blocks import joined
 from forcetorque.experiment.calibration.provenance import SensorIdentity
@@ -197,6 +199,11 @@ class Dataset:
         return [int(number) for number in re.findall(r"\d+", row["code_version"])], file
 
     @property
+    def recordings(self) -> int:
+        """Number of recordings."""
+        return len({file.recording for file in self.files})
+
+    @property
     def serials(self) -> dict[str, str]:
         """Serial number of every sensor, and its robot."""
         return {file.serial: file.robot for file in self.files}
@@ -263,6 +270,7 @@ class Dataset:
         return [self._row(self.folder / file.path, columns) for file in files]
 
     def _row(self, path: Path, columns: Sequence[str]) -> dict[str, Any]:
+        declare_input(path)
         try:
             with pq.ParquetFile(path) as parquet:
                 _require_version(path, parquet.schema_arrow.metadata or {})
@@ -323,12 +331,26 @@ class Dataset:
 
         Returns:
             The file.
+
+        Raises:
+            OutputError: If it cannot be written, such as on a full disk; nothing is left of it then.
         """
         target = self.folder / RecordFile.of(record, options).path
-        target.parent.mkdir(parents=True, exist_ok=True)
-        with temporary_beside(target) as temporary:
-            pq.write_table(columns_of(SensorRecord, [record], _METADATA), temporary, compression="zstd")
-            temporary.replace(target)
+        columns = columns_of(SensorRecord, [record], _METADATA)
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            with temporary_beside(target) as temporary:
+                with temporary.open("wb") as stream:
+                    pq.write_table(columns, stream, compression="zstd")
+                    stream.flush()
+                    # otherwise a power cut after the rename can leave an empty file
+                    os.fsync(stream.fileno())
+                temporary.replace(target)
+        except OSError as error:
+            raise OutputError(
+                f"{target}: expected to write the file, got {error.strerror or error}; nothing was added; free space "
+                "there, and add the recording again"
+            ) from error
         return target
 
 

@@ -43,12 +43,13 @@ class Failures:
             content = source.experiment.read_bytes()
         except OSError:
             content = b""
-        digest = hashlib.sha256(content).hexdigest()[:20]
+        # a log that was cut off may be whole in a later run
+        digest = hashlib.sha256(content + repr(source.log_state()).encode()).hexdigest()[:20]
         name = f"{path_digest(source.path)}-{digest}-{self.options.digest(self.code_version)}.json"
         return self.dataset / "failures" / name
 
     def of(self, source: RecordingSource) -> StoredFailure | None:
-        """Find the failure of an earlier run, of the same experiment file, options and version.
+        """Find the failure of an earlier run, of the same experiment file, log, options and version.
 
         Args:
             source: The recording.
@@ -79,3 +80,18 @@ class Failures:
         """
         for path in self.dataset.glob(f"failures/{path_digest(source.path)}-*.json"):
             path.unlink(missing_ok=True)
+
+
+def stored_failures(dataset: Path) -> list[StoredFailure]:
+    """List the failures of a dataset.
+
+    Args:
+        dataset: Its folder.
+
+    Returns:
+        The failures, sorted by file.
+    """
+    failures = [
+        read_stored_table(path, StoredFailure, expected="a failure") for path in dataset.glob("failures/*.json")
+    ]
+    return sorted(failures, key=lambda failure: (failure.file, failure.error))

@@ -13,7 +13,7 @@ from forcetorque.evaluation.answers import CONCERN
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.fleet.add import AddedSensor, add_recording
 from forcetorque.fleet.dataset import Dataset
-from forcetorque.fleet.evaluate import evaluate_dataset
+from forcetorque.fleet.evaluate import evaluate_records
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.results.table import Row, Shown
@@ -101,7 +101,7 @@ def run_calibrate(job: CalibrateJob) -> CalibratedSensor:
     made.save()
     decision, calibrated, prior = None, None, None
     if any(record.evaluation is not None for record in records):
-        result = evaluate_dataset(dataset, {str(file): made.calibrations[0].calibration})
+        result = evaluate_records(dataset.folder, job.serial, records, {str(file): made.calibrations[0].calibration})
         worst = max(result.load_cases, key=lambda use: CONCERN[use.decision], default=None)
         decision = None if worst is None else worst.decision
         rows = {row.prior is None: row for row in result.errors if row.offset is not Offset.JUDGED_MEAN}

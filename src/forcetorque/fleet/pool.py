@@ -6,13 +6,20 @@ from __future__ import annotations
 import multiprocessing
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, as_completed, wait
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Final, Generic, Protocol, TypeVar
 
-from forcetorque.base.errors import ForceTorqueError, MissingExtraError, MissingFileError, OutputError, install_line
+from forcetorque.base.errors import (
+    ChangingFileError,
+    ForceTorqueError,
+    MissingExtraError,
+    MissingFileError,
+    OutputError,
+    install_line,
+)
 
 _Argument = TypeVar("_Argument")
 _Value = TypeVar("_Value")
@@ -20,7 +27,12 @@ _Value = TypeVar("_Value")
 _THREADS: Final[Mapping[str, str]] = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 _WAIT_S: Final = 10.0
 """How long a scheduler may take to answer; s."""
+_LOOK_S: Final = 1.0
+"""How often a cluster is looked after that gives no result; s."""
+_LOOKS: Final = 60
+"""How often in a row it may have no worker until what is left of the jobs is given up."""
 _DIED: Final = "its process ended without a result: killed, or out of memory"
+_LOST: Final = "the cluster lost the job: its scheduler was restarted, or all workers ended; run the plan again"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,25 +66,29 @@ class Pool(Protocol):
         """
 
 
-def error_line(error: BaseException) -> str:
-    """Write an error in one line.
+def failed(index: int, error: BaseException) -> Outcome[Any]:
+    """Give the outcome of an argument whose function raised an error.
 
     Args:
+        index: Place of the argument.
         error: The error.
 
     Returns:
-        The message; with its type where it is none of this library.
+        The error in one line; with its type where it is none of this library.
     """
+    if type(error).__name__ == "KilledWorker":  # of distributed, an extra
+        return Outcome(index=index, error=_DIED)
     text = " ".join(str(error).split())
-    return text if isinstance(error, ForceTorqueError | OSError) else f"{type(error).__name__}: {text}"
+    line = text if isinstance(error, ForceTorqueError | OSError) else f"{type(error).__name__}: {text}"
+    passing = isinstance(error, ChangingFileError | MissingFileError | OutputError)
+    return Outcome(index=index, error=line, is_of_data=isinstance(error, ForceTorqueError) and not passing)
 
 
 def _outcome(index: int, future: Future[_Value]) -> Outcome[_Value]:
+    if future.cancelled():  # by a cluster
+        return Outcome(index=index, error=_LOST)
     error = future.exception()
-    if error is None:
-        return Outcome(index=index, value=future.result())
-    of_data = isinstance(error, ForceTorqueError) and not isinstance(error, MissingFileError | OutputError)
-    return Outcome(index=index, error=error_line(error), is_of_data=of_data)
+    return Outcome(index=index, value=future.result()) if error is None else failed(index, error)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -173,15 +189,23 @@ class DaskPool:
             arguments: As of `Pool`.
 
         Yields:
-            As of `Pool`.
+            As of `Pool`; jobs of a worker that ended run on another one.
         """
-        with self._executor() as executor:
-            futures = {executor.submit(function, argument): index for index, argument in enumerate(arguments)}
-            for future in as_completed(futures):
-                yield _outcome(futures[future], future)
+        with self._client() as client:
+            executor = client.get_executor(pure=False)
+            pending = {executor.submit(function, argument): index for index, argument in enumerate(arguments)}
+            in_vain = 0
+            while pending:
+                done, _ = wait(pending, timeout=_LOOK_S, return_when=FIRST_COMPLETED)
+                for future in done:
+                    yield _outcome(pending.pop(future), future)
+                in_vain = 0 if done or _has_worker(client) else in_vain + 1
+                if in_vain == _LOOKS:
+                    yield from (Outcome(index=index, error=_LOST) for index in pending.values())
+                    return
 
     @contextmanager
-    def _executor(self) -> Iterator[Executor]:
+    def _client(self) -> Iterator[Any]:
         try:
             from distributed import Client
         except ImportError:
@@ -194,4 +218,14 @@ class DaskPool:
                 f"({type(error).__name__}); start one with `dask scheduler`, or leave --dask out"
             ) from error
         with client:
-            yield client.get_executor(pure=False)
+            yield client
+
+
+def _has_worker(client: Any) -> bool:
+    """Whether a cluster answers and has a worker."""
+    if client.status != "running":
+        return False
+    try:
+        return bool(client.nthreads())
+    except (OSError, TimeoutError):
+        return False

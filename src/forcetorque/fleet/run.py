@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, Literal
@@ -148,7 +149,8 @@ def run_plan(file: Path, pool: Pool, *, retry_failed: bool = False, progress: Pr
         if outcome.value is None:
             error = outcome.error or ""
             if outcome.is_of_data:
-                kept.keep(one.source, error)
+                with suppress(OSError):  # on a full disk the row alone has it
+                    kept.keep(one.source, error)
             failures.append(FailedJob(job="add", subject=str(one.source.path), error=error, earlier=False))
             continue
         kept.forget(one.source)

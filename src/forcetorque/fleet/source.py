@@ -39,17 +39,39 @@ class RecordingSource:
             self, experiment=real_path(self.experiment), log=None if self.log is None else real_path(self.log)
         )
 
+    def logs(self) -> list[Path]:
+        """List the logs.
+
+        Returns:
+            Files and folders, there or not; none where the experiment file cannot be read.
+        """
+        try:
+            recording = toml_content(self.experiment)[1].get("recording")
+        except (OSError, ValueError):
+            recording = None
+        if not isinstance(recording, dict):
+            return [] if self.log is None else [self.log]
+        named = [recording.get("path") if self.log is None else self.log, *recording.get("continued_in", ())]
+        folder = real_path(self.experiment).parent
+        return [folder / name for name in named if name is not None]
+
     def log_folders(self) -> list[Path]:
         """List the folders that the log consists of.
 
         Returns:
             The log and the folders in it; none where it is a file.
         """
-        recording = toml_content(self.experiment)[1].get("recording", {})
-        named = [recording.get("path") if self.log is None else self.log, *recording.get("continued_in", ())]
-        folder = real_path(self.experiment).parent
-        logs = [path for name in named if name is not None and (path := folder / name).is_dir()]
+        logs = [path for path in self.logs() if path.is_dir()]
         return [one for log in logs for one in (log, *(path for path in log.rglob("*") if path.is_dir()))]
+
+    def log_state(self) -> list[tuple[str, int, int]]:
+        """Tell the state of the log without reading it.
+
+        Returns:
+            Path, size in bytes and instant of the last change in ns of every file of it, sorted.
+        """
+        files = [one for log in self.logs() for one in (log.rglob("*") if log.is_dir() else (log,)) if one.is_file()]
+        return sorted((str(file), file.stat().st_size, file.stat().st_mtime_ns) for file in files)
 
     def load(self) -> Experiment:
         """Read the recording.

@@ -13,7 +13,7 @@ from pydantic import Field
 
 from forcetorque.fleet.dataset import Dataset, RecordFile
 from forcetorque.results.answer import Answer, Concern, typed
-from forcetorque.results.number_text import amount
+from forcetorque.results.number_text import amount, counted
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
 
@@ -87,11 +87,11 @@ class FleetTable(Result):
                 subject=row.subject,
                 verdict=_error_text(row),
                 why=(
-                    f"errors of the prior matrix, mean removed, in {_count(row.recordings, 'recording')}; "
-                    f"{_count(row.findings, 'finding')}"
+                    f"errors of the prior matrix, mean removed, in {counted(row.recordings, 'recording')}; "
+                    f"{counted(row.findings, 'finding')}"
                     + (f", mostly {row.most_frequent_finding}" if row.most_frequent_finding else ""),
-                    f"{self.dataset} has {_count(len(self.sensors), 'sensor')} in "
-                    f"{_count(self.recordings, 'recording')}",
+                    f"{self.dataset} has {counted(len(self.sensors), 'sensor')} in "
+                    f"{counted(self.recordings, 'recording')}",
                 ),
                 step="Calibrate it from the dataset:",
                 command=typed("calibrate", self.dataset, "--sensor", row.serial, "-o", f"{row.serial}.json"),
@@ -114,10 +114,6 @@ def _error_text(row: FleetSensor) -> str:
     return errors if row.times_median is None else f"{errors} ({row.times_median:.1f} x median)"
 
 
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'s' * (number != 1)}"
-
-
 def fleet_table_of(folder: Path) -> FleetTable:
     """Sum up the sensors of a dataset.
 
@@ -125,9 +121,21 @@ def fleet_table_of(folder: Path) -> FleetTable:
         folder: Folder of the dataset.
 
     Returns:
-        The sensors, those first whose error is largest against the median of all; those without a prior last.
+        The sensors, as `fleet_sensors` sorts them.
     """
     dataset = Dataset.opened(folder)
+    return FleetTable(dataset=str(folder), recordings=dataset.recordings, sensors=tuple(fleet_sensors(dataset)))
+
+
+def fleet_sensors(dataset: Dataset) -> list[FleetSensor]:
+    """Sum up the sensors of a dataset.
+
+    Args:
+        dataset: The dataset.
+
+    Returns:
+        The sensors, those first whose error is largest against the median of all; those without a prior last.
+    """
     groups: dict[tuple[str, str], list[RecordFile]] = {}
     for file in dataset.files:
         groups.setdefault((file.robot, file.serial), []).append(file)
@@ -137,9 +145,7 @@ def fleet_table_of(folder: Path) -> FleetTable:
         for name in ("prior_force_error_N", "prior_moment_error_Nm")
     ]
     ranked = [row.model_copy(update={"times_median": _times(row, medians)}) for row in rows]
-    ranked.sort(key=lambda row: (-(row.times_median or 0.0), -row.findings, row.robot, row.serial))
-    recordings = len({file.recording for file in dataset.files})
-    return FleetTable(dataset=str(folder), recordings=recordings, sensors=tuple(ranked))
+    return sorted(ranked, key=lambda row: (-(row.times_median or 0.0), -row.findings, row.robot, row.serial))
 
 
 def _times(row: FleetSensor, medians: Sequence[float]) -> float | None:

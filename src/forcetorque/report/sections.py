@@ -32,6 +32,7 @@ from forcetorque.report.assessment import Assessment
 from forcetorque.report.decision_page import prior_comparison_section
 from forcetorque.report.experiment_assessment import ExperimentAssessment
 from forcetorque.results.document.content import Block, Document, Figure, List, Page, Picture, Section, Text
+from forcetorque.results.number_text import counted
 from forcetorque.results.table import Table, short_names, table_of, without_vague
 from forcetorque.sensor.bandwidth.bandwidth import Response
 from forcetorque.sensor.figures import response_figure
@@ -203,8 +204,8 @@ def report_document(
     robots = ", ".join(dict.fromkeys(experiment.robot for experiment in experiments))
     patches = {patch.patch for experiment in experiments for patch in experiment.skin}
     patches |= {row.stream for experiment in experiments for row in experiment.skin_events}
-    what = ", ".join(_counted(len(some), noun) for some, noun in ((sensors, "sensor"), (patches, "patch")) if some)
-    counts = f"{what or 'no sensor'} in {_counted(len(experiments), 'recording')}"
+    what = ", ".join(counted(len(some), noun) for some, noun in ((sensors, "sensor"), (patches, "patch")) if some)
+    counts = f"{what or 'no sensor'} in {counted(len(experiments), 'recording')}"
     return Document(
         title=title,
         subtitle=f"{robots}; {counts}; forcetorque {code_version}",
@@ -236,11 +237,6 @@ def result_figures(content: Mapping[str, Any]) -> Iterator[Block]:
             caption="Gain, phase and coherence with 95 % intervals where a force was measured, and decays of events.",
             description="Plots over frequency, and a plot over time for each of the first events.",
         )
-
-
-def _counted(count: int, noun: str) -> str:
-    several = f"{noun}es" if noun.endswith("ch") else f"{noun}s"
-    return f"{count} {noun if count == 1 else several}"
 
 
 def _over_sensors(

@@ -23,6 +23,20 @@ def number(value: float | None, digits: int) -> str:
     return "-" if value is None else f"{value:.{digits}f}"
 
 
+def counted(count: int, noun: str) -> str:
+    """Count items, with a noun.
+
+    Args:
+        count: How many.
+        noun: Of what, in the singular.
+
+    Returns:
+        Such as `1 hole`, `3 holes` or `2 patches`.
+    """
+    several = f"{noun}es" if noun.endswith("ch") else f"{noun}s"
+    return f"{count} {noun if count == 1 else several}"
+
+
 def with_error(value: float | None, error: float | None, *, digits: int) -> str:
     """Write a number with its error: a standard error, or half a 95 % interval, as the table says.
 

@@ -9,6 +9,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.results.number_text import counted
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table
 from forcetorque.skin.layout.defects import (
@@ -20,7 +21,7 @@ from forcetorque.skin.layout.defects import (
     overlaps,
     representatives,
 )
-from forcetorque.skin.layout.finding import LayoutFindingRow, PatchShape, counted, shape_of
+from forcetorque.skin.layout.finding import LayoutFindingRow, PatchShape, shape_of
 from forcetorque.skin.layout.layout import PatchDescription
 
 _CHECKS: tuple[Callable[[PatchShape], Iterator[LayoutFindingRow]], ...] = (

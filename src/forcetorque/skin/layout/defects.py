@@ -8,7 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.skin.layout.finding import Defect, LayoutFindingRow, PatchShape, Side, counted, finding_of
+from forcetorque.results.number_text import counted
+from forcetorque.skin.layout.finding import Defect, LayoutFindingRow, PatchShape, Side, finding_of
 from forcetorque.skin.layout.layout import UNIT_DIGITS, PatchDescription
 from forcetorque.skin.layout.modules import (
     MODULE_CENTRE,

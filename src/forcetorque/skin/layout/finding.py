@@ -71,19 +71,6 @@ class LayoutFindingRow(Row):
         return {"defect": self.defect, **lists, "message": self.message, "remedy": self.remedy}
 
 
-def counted(count: int, noun: str) -> str:
-    """Count items, with a noun.
-
-    Args:
-        count: How many.
-        noun: Of what, in the singular.
-
-    Returns:
-        Such as `1 hole` or `3 holes`.
-    """
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
-
-
 def finding_of(
     patch: PatchDescription, columns: IntArray, *, defect: Defect, message: str, remedy: str
 ) -> LayoutFindingRow:

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The report on a fleet: damaged sensors come first, those that were not evaluated have no rank, failures are there."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.fleet.add import add_recordings
+from forcetorque.fleet.commands import fleet_report
+from forcetorque.fleet.dataset import Dataset
+from forcetorque.fleet.report import FleetReport
+from forcetorque.fleet.report_page import page
+from forcetorque.fleet.run import run_plan
+from forcetorque.fleet.sensor_record import AddOptions
+from forcetorque.results.answer import MOST_LINES, answer_text
+from forcetorque.results.document.content import Section, Verdict
+from tests.app.outcome import Run
+from tests.fleet.pools import InProcess
+from tests.scenes.fleets import fleet_of, write_logs
+
+DAMAGED: Mapping[int, str] = {1: "gain", 3: "reversed", 4: "drifting", 6: "dead", 7: "noisy"}
+SAME = 1e-12
+"""Rounding of sums in another order, over sizes."""
+
+
+@pytest.fixture(scope="module")
+def base(recorded: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder with the dataset `fleet` of one recording to calibrate and one to validate; nobody changes it."""
+    folder = tmp_path_factory.mktemp("base")
+    files = [recorded / name for name in ("grid_cold.toml", "move_warm.toml", "day_2.toml")]
+    add_recordings(files, folder / "fleet", AddOptions())
+    return folder
+
+
+def _fleet(base: Path, robots: int, folder: Path, damaged: Mapping[int, str] = DAMAGED) -> list[str]:
+    """Write a fleet whose sensors have one calibration."""
+    dataset = Dataset(base / "fleet")
+    records = dataset.records(dataset.files)
+    calibration = calibrate_sensor(
+        None, code_version="1", created="2020-01-01T00:00:00+00:00", moments=dataset.moments(records)
+    )
+    (validated,) = (record for record in records if record.evaluation is not None)
+    return fleet_of(robots, damaged, validated, calibration, folder)
+
+
+def _report(folder: Path) -> FleetReport:
+    return fleet_report(folder / "fleet", calibrations=[folder / "calibrations"])
+
+
+def _assert_damaged_first(report: FleetReport, serials: list[str], damaged: Mapping[int, str]) -> None:
+    """Damaged sensors are the first, beyond what is allowed and not to be used; the others are within it."""
+    first, others = report.ranked[: len(damaged)], report.ranked[len(damaged) :]
+    assert {row.serial for row in first} == {serials[k] for k in damaged}
+    assert len(others) == len(serials) - len(damaged)
+    assert all(row.times_allowed is not None and row.times_allowed > 1.0 for row in first)
+    assert all(row.decision != "use" and row.step and row.command for row in first)
+    assert all(row.times_allowed is not None and row.times_allowed < 1.0 for row in others)
+    assert [row.rank for row in report.ranked] == list(range(1, len(serials) + 1))
+
+
+def _texts(section: Section) -> str:
+    return " ".join(str(block) for block in section.blocks)
+
+
+def test_damaged_sensors_come_first(base: Path, tmp_path: Path) -> None:
+    """Although the first day of each was without damage; a sensor without calibration or validation has no rank."""
+    serials = _fleet(base, 8, tmp_path)
+    (tmp_path / "calibrations" / f"{serials[0]}.json").unlink()
+    failures = tmp_path / "fleet" / "failures"
+    failures.mkdir()
+    failure = {"schema": "forcetorque/failure/1", "file": "/logs/x.toml", "error": "/logs/x.toml: expected a log"}
+    (failures / "x.json").write_text(json.dumps(failure), encoding="utf-8")
+    report = _report(tmp_path)
+    _assert_damaged_first(report, serials[1:], {k - 1: name for k, name in DAMAGED.items()})
+    (unranked,) = report.unranked
+    assert (unranked.serial, unranked.reason) == (serials[0], "no calibration of it was given")
+    assert [row.file for row in report.over_time if row.serial == serials[1]] == [
+        f"/logs/{serials[1]}/day_{day}.toml" for day in range(2)
+    ]
+    healthy, damaged = (one for one in report.over_time if one.serial == serials[3])
+    assert damaged.force_error_rms_N > 10.0 * healthy.force_error_rms_N
+    assert answer_text(tuple(report.answers()), 80).count("\n") <= MOST_LINES
+    document = page(report, created="2026-01-01T00:00:00+00:00")
+    titles = [section.title for section in document.sections]
+    assert titles[0] == "Worst sensors first"
+    assert [block.word for block in document.sections[0].blocks if isinstance(block, Verdict)][0] == "do not use"
+    assert "7 of 8" in _texts(document.sections[0])
+    assert serials[0] in _texts(document.sections[titles.index("Sensors without a rank")])
+    assert "expected a log" in _texts(document.sections[titles.index("Recordings that failed")])
+
+
+@pytest.mark.usefixtures("blank_pictures")
+def test_the_page_is_written(base: Path, tmp_path: Path, run: Run) -> None:
+    """As HTML alone; a sensor without validation, and no calibration at all, give a page without ranks."""
+    dataset, file = base / "fleet", tmp_path / "fleet.html"
+    answer = run("fleet", "report", str(dataset), "-o", str(file), "--format", "json").result()
+    assert answer["ranked"] == []
+    assert "calibrate" in answer["unranked"][0]["command"]
+    assert "Only sensors that were evaluated have a rank: 0 of 1" in file.read_text(encoding="utf-8")
+    with pytest.raises(ForceTorqueError, match=r"expected a name that ends in .html"):
+        fleet_report(dataset).save(tmp_path / "fleet.txt")
+
+
+def test_two_calibrations_of_a_sensor_are_refused(base: Path, tmp_path: Path) -> None:
+    """Only one is in use; a calibration of another fleet is a warning; an empty folder is refused."""
+    _fleet(base, 1, tmp_path)
+    own = tmp_path / "calibrations" / "FT000.json"
+    (tmp_path / "other.json").write_bytes(own.read_bytes())
+    with pytest.raises(ExperimentError, match=r"expected one calibration of every sensor, got .*FT000.json of 'FT000'"):
+        fleet_report(base / "fleet", calibrations=[own, tmp_path / "other.json"])
+    (warning,) = fleet_report(base / "fleet", calibrations=[own]).warnings
+    assert "(FT000), which the dataset does not have" in warning
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(ExperimentError, match=r"expected calibrations, \*.json, in the folder, got none"):
+        fleet_report(base / "fleet", calibrations=[tmp_path / "empty"])
+
+
+@pytest.mark.long
+def test_two_hundred_robots(base: Path, tmp_path: Path) -> None:
+    """Five damaged sensors among 200 are the first five."""
+    damaged = {13: "gain", 42: "reversed", 77: "drifting", 123: "dead", 199: "noisy"}
+    serials = _fleet(base, 200, tmp_path, damaged)
+    _assert_damaged_first(_report(tmp_path), serials, damaged)
+
+
+@pytest.mark.long
+def test_logs_of_twelve_robots(tmp_path: Path) -> None:
+    """From logs to the page: five damaged sensors are the first five, calibrations are those of the logs."""
+    damaged = {1: "gain", 3: "reversed", 4: "drifting", 7: "dead", 10: "clipped"}
+    plan = write_logs(12, damaged, tmp_path)
+    done = run_plan(plan, InProcess())
+    assert (done.added, done.failures) == (48, ())
+    report = _report(tmp_path)
+    _assert_damaged_first(report, [f"FT{k:03}" for k in range(12)], damaged)
+    assert [row.fitted_recordings for row in report.coverage] == [2] * 12
+    for row in report.ranked:
+        records = Dataset(tmp_path / "fleet").records(Dataset(tmp_path / "fleet").of_sensor(row.serial))
+        runs = [SensorRun(load_experiment(one.file), "arm_ft") for one in records if one.moments is not None]
+        expected = calibrate_sensor(runs, code_version="1", created="2020")
+        made = read_calibration(row.calibration)
+        assert np.abs(made.matrix - expected.matrix).max() <= SAME * np.abs(expected.matrix).max()
+        assert np.abs(made.offset - expected.offset).max() <= SAME * np.abs(expected.offset).max()
+    report.save(tmp_path / "fleet.html")
+    assert (tmp_path / "fleet.html").stat().st_size > 20_000
