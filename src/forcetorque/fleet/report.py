@@ -26,6 +26,7 @@ from forcetorque.fleet.sensor_evaluation import RecordingError, SensorEvaluation
 from forcetorque.fleet.sensor_record import SensorRecord
 from forcetorque.fleet.table import FleetSensor, fleet_sensors
 from forcetorque.results.answer import typed
+from forcetorque.results.capability import named
 from forcetorque.results.number_text import amount, finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
@@ -203,9 +204,7 @@ class FleetReport(Result):
         Raises:
             ForceTorqueError: If it has another ending, or the extra `report` is not installed.
         """
-        from forcetorque.fleet.report_page import write_page
-
-        write_page(self, Path(path))
+        named("forcetorque.fleet.report_page:write_page")(self, Path(path))
 
 
 def fleet_report_of(folder: Path, calibrations: Sequence[Path], progress: Progress = lambda _: None) -> FleetReport:
