@@ -178,7 +178,7 @@ def _contents(path: Path, content: bytes, reader: Any) -> C3dFile:
     words = _words(path, content, reader, frames, 4 * points + channels * per_frame)
     is_float = header.scale_factor < 0.0
     markers = _markers(words[:, : 4 * points].reshape(frames, points, 4), 1.0 if is_float else header.scale_factor)
-    analog = words[:, 4 * points :].reshape(frames * per_frame, channels)
+    analog = words[:, 4 * points :].astype(np.float64).reshape(frames * per_frame, channels)
     if not is_float and _text(parameters, "ANALOG:FORMAT").upper() == "UNSIGNED":
         analog = analog % 65536.0
     labels, units = (_texts(parameters, f"ANALOG:{key}", channels) for key in ("LABELS", "UNITS"))
@@ -264,8 +264,8 @@ def _frame_count(path: Path, parameters: Mapping[str, Any], header: Any) -> int:
     return count
 
 
-def _words(path: Path, content: bytes, reader: Any, frames: int, per_frame: int) -> FloatArray:
-    """All numbers of the frames; shape (frames, per_frame)."""
+def _words(path: Path, content: bytes, reader: Any, frames: int, per_frame: int) -> Any:
+    """All numbers of the frames in their own type; shape (frames, per_frame)."""
     is_float = reader.header.scale_factor < 0.0
     order = "<" if reader.proc_type != "MIPS" else ">"
     size, start = (4 if is_float else 2), _BLOCK * (int(reader.header.data_block) - 1)
@@ -276,17 +276,17 @@ def _words(path: Path, content: bytes, reader: Any, frames: int, per_frame: int)
     if is_float and _is_dec(reader):
         words = _of_dec(np.frombuffer(content, "<u2", 2 * count, start))
     else:
-        words = np.frombuffer(content, f"{order}{'f4' if is_float else 'i2'}", count, start).astype(np.float64)
+        words = np.frombuffer(content, f"{order}{'f4' if is_float else 'i2'}", count, start)
     return words.reshape(frames, per_frame)
 
 
-def _markers(words: FloatArray, scale: float) -> FloatArray:
+def _markers(words: Any, scale: float) -> FloatArray:
     """Positions, NaN where the residual is negative; shape (f, p, 3)."""
-    return np.where(words[:, :, 3:] < 0.0, np.nan, words[:, :, :3] * scale)
+    return np.where(words[:, :, 3:] < 0, np.nan, words[:, :, :3].astype(np.float64) * scale)
 
 
 def _scaled(path: Path, analog: FloatArray, parameters: Mapping[str, Any]) -> FloatArray:
-    """(raw - OFFSET) x SCALE x GEN_SCALE, of files of floats too; shape (n, c)."""
+    """(raw - OFFSET) x SCALE x GEN_SCALE, of files of floats too, in place; shape (n, c)."""
     channels = analog.shape[1]
     scale, offset = (np.ravel(parameters.get(f"ANALOG:{key}", ())) for key in ("SCALE", "OFFSET"))
     general = np.ravel(parameters.get("ANALOG:GEN_SCALE", 1.0))
@@ -296,4 +296,6 @@ def _scaled(path: Path, analog: FloatArray, parameters: Mapping[str, Any]) -> Fl
         if values.dtype.kind != "f" or (channels and len(values) < wanted) or not np.isfinite(values).all():
             raise FormatError(f"{path}: ANALOG:{key}: expected {wanted} finite numbers, got {len(values)}")
     with np.errstate(over="ignore", invalid="ignore"):  # damaged files hold huge numbers
-        return np.asarray((analog - offset[:channels]) * scale[:channels] * general[:1], dtype=np.float64)
+        analog -= offset[:channels]
+        analog *= scale[:channels] * general[:1]
+    return analog

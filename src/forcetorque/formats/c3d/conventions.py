@@ -42,8 +42,8 @@ class C3dLog(LogTable):
 
 
 QUESTIONS = {
-    "length_unit": "unit of corners, origins and markers, m or mm: POINT:UNITS states neither; mm where an edge of a plate "
-    "is some hundreds",
+    "length_unit": "unit of corners, origins and markers, m or mm: POINT:UNITS states neither; mm where an edge of a "
+    "plate is some hundreds",
     "force_unit": "unit of forces of the plates, N or kN: the file states none that is of a force",
     "moment_unit": "unit of moments of the plates, N m or N mm: the file states none that is of a moment",
     "origin_from": "where ORIGIN begins: the format defines it from the sensor to the surface, z below 0 as z points "
