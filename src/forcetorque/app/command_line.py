@@ -39,8 +39,8 @@ PANELS: Final[Mapping[str, tuple[str, ...]]] = {
 """Commands and groups in the order of work, as the help shows them."""
 GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
     "bench": (
-        "Measure sensors on a bench: loads, temperature, fast forces, gains.",
-        {name: name for name in ("workbench", "thermal", "response", "gains", "device", "contest")},
+        "Measure sensors on a bench: loads, temperature, fast forces, gains, force plates.",
+        {name: name for name in ("workbench", "thermal", "response", "gains", "device", "contest", "plate")},
     ),
     "robot": (
         "Examine a whole robot: feet, net force, motion, torque loops.",

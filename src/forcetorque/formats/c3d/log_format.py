@@ -47,10 +47,10 @@ class C3dFormat:
 
     def read(self, specified: C3dLog, context: LogContext) -> LogReading:
         """Read the wrenches about the centres of the surfaces, and the markers."""
-        return _reading(*determined_file(context.file(specified.path), specified), {})
+        return _reading(determined_file(context.file(specified.path), specified), specified, {})
 
 
-def determined_file(path: Path, table: C3dLog) -> tuple[C3dFile, C3dLog]:
+def determined_file(path: Path, table: C3dLog) -> C3dFile:
     """Read a file of which nothing is left open.
 
     Args:
@@ -58,7 +58,7 @@ def determined_file(path: Path, table: C3dLog) -> tuple[C3dFile, C3dLog]:
         table: What the file does not determine.
 
     Returns:
-        The file, and the table with the name of the file in its messages.
+        The file.
 
     Raises:
         FormatError: If a key lacks, or one is stated that the file determines.
@@ -68,7 +68,7 @@ def determined_file(path: Path, table: C3dLog) -> tuple[C3dFile, C3dLog]:
     require_open(table, keys)
     for key in unanswered(table, keys):
         raise FormatError(f"{path}: {key}: expected {QUESTIONS[key]}; got none")
-    return file, table
+    return file
 
 
 def _reading(file: C3dFile, table: C3dLog, undetermined: Mapping[str, str]) -> LogReading:
