@@ -20,6 +20,7 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import cross, make_pose
 from forcetorque.base.units import SI_FACTORS
+from forcetorque.base.wrench import WRENCH_UNITS
 from forcetorque.formats.c3d.c3d_file import C3dFile
 from forcetorque.formats.c3d.conventions import C3dLog, OriginFrom, factor_of, stated_unit
 
@@ -48,7 +49,10 @@ class ForcePlate(ArrayRecord):
     corners_m: FloatArray | None = field(default=None, metadata=array(4, 3))
     """Corners in the frame of the markers; shape (4, 3); m; None where they are of no plate."""
     cal_matrix: FloatArray | None = field(default=None, metadata=array(6, 6))
-    """CAL_MATRIX of a plate of type 4, wrench = CAL_MATRIX x channels, in the units of the file; shape (6, 6)."""
+    """Wrench by channels, in the units of the file: CAL_MATRIX of type 4, the identity for type 2; shape (6, 6); None
+    for types whose channels are no wrench."""
+    unit_factors: FloatArray | None = field(default=None, metadata=array(6))
+    """Factors from the units of that wrench to N and N m; shape (6,); None likewise."""
 
     @property
     def name(self) -> str:
@@ -255,13 +259,20 @@ def _plate(file: C3dFile, stated: _Stated, table: C3dLog) -> ForcePlate:
         if origin is not None:
             wrench = np.hstack([wrench[:, :3], wrench[:, 3:] + cross(wrench[:, :3], origin)])
     corners = length * stated.corners
+    units = stated.output_units if stated.type == 4 else [file.analog_units[k] for k in stated.channels]
+    is_linear = stated.type in (2, 4)
     return ForcePlate(
         number=stated.number,
         type=stated.type,
         wrench=wrench,
         origin_m=origin,
         corners_m=corners if _is_rectangle(corners) else None,
-        cal_matrix=stated.cal_matrix,
+        cal_matrix=(np.eye(6) if stated.cal_matrix is None else stated.cal_matrix) if is_linear else None,
+        unit_factors=np.array(
+            [_factor(file, unit, dimension, table) for unit, dimension in zip(units, WRENCH_UNITS, strict=True)]
+        )
+        if is_linear
+        else None,
     )
 
 
@@ -292,7 +303,7 @@ def _sensor_wrench(file: C3dFile, stated: _Stated, channels: FloatArray, length:
         channels, units = channels @ stated.cal_matrix.T, stated.output_units
     if stated.type == 3:
         return _of_kistler(channels * [_factor(file, unit, "N", table) for unit in units], length * stated.origin)
-    dimensions = ("N", "N", "N", "m", "m", "N m") if stated.type == 1 else ("N",) * 3 + ("N m",) * 3
+    dimensions = ("N", "N", "N", "m", "m", "N m") if stated.type == 1 else WRENCH_UNITS
     values = channels * [
         _factor(file, unit, dimension, table) for unit, dimension in zip(units, dimensions, strict=True)
     ]
