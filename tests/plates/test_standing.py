@@ -62,6 +62,12 @@ def test_a_plate_with_another_sign_contradicts(tmp_path: Path) -> None:
     assert weighed.mass_kg == pytest.approx(MASS_KG, abs=0.1)
 
 
+def test_a_baseline_is_named(tmp_path: Path) -> None:
+    """Of the plate that is free for a while."""
+    weighed = _weighed(tmp_path / "a.c3d", replace(EXACT, baseline=np.array([0.0, 0.0, 3.0, 0.0, 0.0, 0.0])), OTHER)
+    assert "plate 1 measures 3.0 N while nothing stands on it" in weighed.contradictions[0]
+
+
 def test_cross_talk_pushes_who_stands_still_sideways(tmp_path: Path) -> None:
     """5 % of Fz on Fx."""
     distortion = np.eye(6)

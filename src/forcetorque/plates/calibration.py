@@ -71,7 +71,7 @@ def calibrate_loads(
         serial=loads.bench.serial,
         source=loads.source,
         loads=len(known),
-        components=_component_rows(matrix, calibration.matrix_standard_error),
+        components=_component_rows(matrix, fit.fitted.fit.posterior.matrix_error(matrix)),
         unmoved=fit.row.unmoved,
         centre_before_mm=_rms(before),
         centre_shift_mm=tuple(before.mean(axis=0).tolist()),

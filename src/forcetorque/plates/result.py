@@ -29,12 +29,12 @@ class PlateRow(Row):
     """Magnitude of the mean force across the surface."""
     is_negative: Annotated[bool, Shown("Fz below 0")]
     """Whether that force has Fz below 0 along the axes of the plate."""
-    x_mm: Annotated[float | None, Shown("centre x", "mm", digits=1, error="half_width_95_mm")]
-    """Centre of pressure from the centre of the surface, along x of the plate; None of a free plate."""
-    y_mm: Annotated[float | None, Shown("centre y", "mm", digits=1, error="half_width_95_mm")]
+    x_mm: Annotated[float | None, Shown("centre x", "mm", digits=1)]
+    """Mean centre of pressure from the centre of the surface, along x of the plate; None of a free plate."""
+    y_mm: Annotated[float | None, Shown("centre y", "mm", digits=1)]
     """The same along y."""
-    half_width_95_mm: float | None
-    """Larger half-width of the 95 % intervals of both."""
+    sway_mm: Annotated[float | None, Shown("sway", "mm", digits=1)]
+    """Root mean square distance of the centre of pressure from its mean, noise included."""
     half_edges_mm: PlanePoint | None
     """Half of the edges along x and y; None where the corners are of no rectangle."""
     alone_kg: Annotated[float | None, Shown("alone", "kg", digits=2, error="alone_half_width_95_kg")]
@@ -78,9 +78,8 @@ class PlateWeight(Result):
         """
         loaded = [row for row in self.plates if row.centre_mm is not None]
         where = "; ".join(
-            f"plate {row.plate}: {row.force_N:.1f} N at {plus_minus(row.centre_mm, row.half_width_95_mm, 'mm')}"
+            f"plate {row.plate}: {row.force_N:.1f} N at ({row.x_mm:.1f}, {row.y_mm:.1f}) mm, sway {row.sway_mm:.1f} mm"
             for row in loaded[:4]
-            if row.centre_mm is not None
         )
         signs = {row.is_negative for row in loaded}
         sign = ""

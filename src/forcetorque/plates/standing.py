@@ -26,6 +26,8 @@ _LIGHTEST = 1.0 / 3.0
 """Share of the largest force below which nobody stands on the plates with all of the weight (heuristic)."""
 _SHORTEST_S = 0.5
 """Shortest interval of standing."""
+_TARED_N = 1.0
+"""Force that a free plate may measure; N."""
 _SIDEWAYS = 0.03
 """Share of the weight that the mean force along the surface of who stands still does not reach; 1.7 degrees."""
 
@@ -87,7 +89,13 @@ def weigh(
         mass_kg=total.mass_kg,
         half_width_95_kg=total.half_width_kg,
         plates=rows,
-        contradictions=(*_signs(rows), *_outside(rows), *_sideways(bearing, within), *_apart(rows)),
+        contradictions=(
+            *_signs(rows),
+            *_untared(plates, down),
+            *_outside(rows),
+            *_sideways(bearing, within),
+            *_apart(rows),
+        ),
     )
 
 
@@ -126,18 +134,17 @@ def _mass(time: FloatArray, force: FloatArray, gravity: float) -> _Means:
 def _row(plates: PlateFile, plate: ForcePlate, within: BoolArray, down: FloatArray, k: int, gravity: float) -> PlateRow:
     time = plates.time_s
     force = float(down[within, k].mean())
-    centre = half = None
-    is_loaded = abs(force) > LOADED_N
-    if is_loaded:
-        mean = plate.wrench[within].mean(axis=0)
-        centre = 1e3 * centre_of_pressure(mean[None])[0]
-        # of the ratio to first order: the moment that the mean centre leaves, over the force
+    centre = sway = None
+    if abs(force) > LOADED_N:
+        centre = 1e3 * centre_of_pressure(plate.wrench[within].mean(axis=0)[None])[0]
+        # the moment that the mean centre leaves, over the mean force: a ratio of samples would have outliers
         left = plate.wrench[within][:, [4, 3]] + plate.wrench[within][:, 2:3] * (1e-3 * centre * (1.0, -1.0))
-        half = float(1e3 * mean_error(left, time[within]).half_width.max() / abs(force))
+        sway = float(1e3 * np.sqrt((left**2).sum(axis=1).mean()) / abs(force))
     others = np.delete(down, k, axis=1)
     alone = None
     if len(plates.plates) > 1:
-        rest = _longest_rest(time, down[:, k], (np.abs(others) < LOADED_N).all(axis=1))
+        is_alone = np.asarray((np.abs(others) < LOADED_N).all(axis=1), dtype=np.bool_)
+        rest = _longest_rest(time, down[:, k], is_alone)
         alone = None if rest is None else _mass(time[rest], down[rest, k], gravity)
     edges = plate.half_edges_m
     return PlateRow(
@@ -147,7 +154,7 @@ def _row(plates: PlateFile, plate: ForcePlate, within: BoolArray, down: FloatArr
         is_negative=force < 0.0,
         x_mm=None if centre is None else float(centre[0]),
         y_mm=None if centre is None else float(centre[1]),
-        half_width_95_mm=half,
+        sway_mm=sway,
         half_edges_mm=None if edges is None else 1e3 * edges,
         alone_kg=None if alone is None else alone.mass_kg,
         alone_half_width_95_kg=None if alone is None else alone.half_width_kg,
@@ -165,12 +172,25 @@ def _signs(rows: Sequence[PlateRow]) -> Iterator[str]:
             )
 
 
+def _untared(plates: PlateFile, down: FloatArray) -> Iterator[str]:
+    """Plates that measure a force while they are free."""
+    fewest = round(_SHORTEST_S * plates.file.analog_rate_hz)
+    for plate, force in zip(plates.plates, down.T, strict=True):
+        free = [force[first : last + 1] for first, last in true_runs(np.abs(force) < LOADED_N)]
+        longest = max(free, key=len, default=np.zeros(0))
+        if len(longest) >= fewest and abs(rest := float(np.median(longest))) > _TARED_N:
+            yield (
+                f"plate {plate.number} measures {rest:.1f} N while nothing stands on it: tare it, or state "
+                "FORCE_PLATFORM:ZERO"
+            )
+
+
 def _outside(rows: Sequence[PlateRow]) -> Iterator[str]:
     for row in rows:
         if row.centre_mm is None or row.half_edges_mm is None:
             continue
         beyond = float((np.abs(row.centre_mm) - row.half_edges_mm).max())
-        if beyond > (row.half_width_95_mm or 0.0):
+        if beyond > (row.sway_mm or 0.0):
             yield (
                 f"the centre of pressure of plate {row.plate} is {beyond:.0f} mm outside of it: check ORIGIN, CORNERS "
                 "and the units of moments"

@@ -108,8 +108,8 @@ def undetermined_keys(file: C3dFile) -> set[str]:
     if factor_of(stated_unit(file.length_unit), "m") is None and (plates or file.markers.size):
         keys.add("length_unit")
     for plate in plates:
-        units = [file.analog_units[k] for k in plate.channels]
-        forces, moments = (units[:3], units[3:]) if plate.type == 2 else (units, [])
+        units = tuple(file.analog_units[k] for k in plate.channels)
+        forces, moments = (units[:3], units[3:]) if plate.type == 2 else (units, ())
         if plate.type == 4:
             forces, moments = plate.output_units[:3], plate.output_units[3:]
         elif plate.type == 1:
@@ -169,7 +169,7 @@ class _Stated:
         if types is None or channel is None or corners is None or origin is None:
             return
         units = file.parameters.get("FORCE_PLATFORM:UNITS")
-        has_units = isinstance(units, tuple) and len(units) >= 6 * count
+        output_units = units if isinstance(units, tuple) and len(units) >= 6 * count else ("",) * 6 * count
         for k in range(count):
             kind = int(types[k])
             if kind not in _CHANNELS:
@@ -184,7 +184,7 @@ class _Stated:
                 corners=corners[:, :, k].T,
                 origin=origin[:, k],
                 cal_matrix=_cal_matrix(file, k, count) if kind == 4 else None,
-                output_units=units[6 * k : 6 * k + 6] if has_units else ("",) * 6,
+                output_units=output_units[6 * k : 6 * k + 6],
             )
 
     @property

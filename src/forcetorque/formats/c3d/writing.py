@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, ShapeError
 from forcetorque.base.output_file import write_bytes_atomically
 
-Parameter = FloatArray | tuple[str, ...]
+Parameter = FloatArray | IntArray | tuple[str, ...]
 """Numbers, first index fastest in the file, whole ones as 16-bit integers; or texts."""
 _BLOCK = 512
 
