@@ -142,9 +142,12 @@ class PlateCalibration(DrawnResult):
         yield table_of(self.components, f"{self.trial}: plate {self.plate}, {self.source}")
         if self.cal_matrix is not None:
             yield Table(
-                caption="CAL_MATRIX, rows fx fy fz mx my mz, in the units of the file",
-                headings=tuple(f"channel {k}" for k in range(1, 7)),
-                rows=tuple(tuple(f"{value:.6g}" for value in row) for row in self.cal_matrix),
+                caption="CAL_MATRIX in the units of the file; --cal-matrix writes all digits",
+                headings=("row", *(f"channel {k}" for k in range(1, 7))),
+                rows=tuple(
+                    (component, *(f"{value:.4g}" for value in row))
+                    for component, row in zip(("Fx", "Fy", "Fz", "Mx", "My", "Mz"), self.cal_matrix, strict=True)
+                ),
             )
         yield from self.warnings
         if self.file is not None:

@@ -31,7 +31,7 @@ def plate(
 
     Example: forcetorque bench plate standing.c3d
 
-    Python: `app.plate("standing.c3d")`
+    Python: `plates.plate("standing.c3d")`
 
     Returns:
         Mass with its interval, centre of pressure on each plate, and contradictions.
@@ -85,7 +85,7 @@ def calibrate_plate(
     Example: forcetorque bench calibrate-plate pole.c3d --serial FP1 --measure-direction parent_to_child --tip pole_tip
     --head pole_head --load-cell load_cell -o FP1.json
 
-    Python: `app.calibrate_plate("pole.c3d", serial="FP1", measure_direction="parent_to_child", tip="pole_tip", ...)`
+    Python: `plates.calibrate_plate("pole.c3d", serial="FP1", measure_direction="parent_to_child", tip="pole_tip", ...)`
 
     Returns:
         Gains, cross-talk, error of the centre of pressure before and after; `save` writes the calibration.
