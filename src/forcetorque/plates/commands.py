@@ -96,6 +96,7 @@ def calibrate_plate(
         FitError: If the loads determine no matrix, or contradict the measurements.
     """
     from importlib.metadata import version
+    from pathlib import Path
 
     from forcetorque.base.errors import ExperimentError
     from forcetorque.plates.applied_loads import loads_of_pole, loads_of_weights
@@ -106,7 +107,7 @@ def calibrate_plate(
     plates, direction = read_plates(file, recording), MeasureDirection(measure_direction)
     chosen = plates.plate(plate)
     if weights is not None and tip is head is load_cell is None:
-        loads = loads_of_weights(plates, chosen, weights, serial=serial, measure_direction=direction)
+        loads = loads_of_weights(plates, chosen, Path(weights), serial=serial, measure_direction=direction)
     elif weights is None and tip is not None and head is not None and load_cell is not None:
         loads = loads_of_pole(
             plates, chosen, tip=tip, head=head, load_cell=load_cell, serial=serial, measure_direction=direction

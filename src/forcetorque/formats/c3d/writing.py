@@ -7,14 +7,15 @@ import struct
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, ShapeError
 from forcetorque.base.output_file import write_bytes_atomically
 
-Parameter = FloatArray | IntArray | tuple[str, ...]
+Parameter = np.ndarray[Any, np.dtype[Any]] | tuple[str, ...]
 """Numbers, first index fastest in the file, whole ones as 16-bit integers; or texts."""
 _BLOCK = 512
 
@@ -101,7 +102,9 @@ def c3d_bytes(
         "POINT:RATE": np.array(frame_rate_hz, dtype=np.float32),
         "POINT:FRAMES": np.array(frames % 65536),
         "POINT:DATA_START": np.array(0),
+        "POINT:DESCRIPTIONS": ("",) * points,
         "ANALOG:USED": np.array(channels),
+        "ANALOG:DESCRIPTIONS": ("",) * channels,
         "ANALOG:GEN_SCALE": np.array(1.0, dtype=np.float32),
         "ANALOG:SCALE": np.ones(channels, dtype=np.float32),
         "ANALOG:OFFSET": np.zeros(channels, dtype=np.int64),
