@@ -19,6 +19,7 @@ from forcetorque.formats.c3d.conventions import C3dLog
 from forcetorque.formats.c3d.force_platform import centre_of_pressure
 from forcetorque.formats.c3d.log_format import C3dFormat
 from forcetorque.formats.c3d.writing import INTEL, Processor
+from forcetorque.inspection.draft.draft import draft_experiment
 from tests.formats.c3d import plate_files as files
 
 FLOAT32 = 1e-6
@@ -238,3 +239,11 @@ def test_real_files_have_the_peaks_that_were_measured(
         assert vertical[np.argmax(np.abs(vertical))] == pytest.approx(peak, abs=1.0)
         loaded = wrench[np.abs(vertical) > 300.0]
         assert np.abs(centre_of_pressure(loaded)).max() < 0.35  # m, half of the longest edge
+
+
+def test_init_asks_what_the_file_leaves_open(tmp_path: Path) -> None:
+    """The sign of ORIGIN, and that of the wrench, which the format does not fix."""
+    path = files.write_plate(tmp_path / "a.c3d", FORCE_PLATFORM__ORIGIN=-files.ORIGIN_MM[:, None])
+    draft = draft_experiment(path, tmp_path / "x.toml")
+    assert {"origin_from", "measure_direction"} <= {question.key for question in draft.questions}
+    assert draft.format == "c3d"
