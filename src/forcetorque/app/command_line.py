@@ -39,7 +39,7 @@ PANELS: Final[Mapping[str, tuple[str, ...]]] = {
 """Commands and groups in the order of work, as the help shows them."""
 GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
     "bench": (
-        "Measure sensors on a bench: loads, temperature, fast forces, gains, force plates.",
+        "Measure sensors on a bench: loads, temperature, fast forces, gains.",
         {
             name: name
             for name in ("workbench", "thermal", "response", "gains", "device", "contest", "plate", "calibrate-plate")

@@ -27,7 +27,7 @@ def plate(
         Option("What the file leaves open, as origin_from=surface or force_unit=N; repeat for more.", "--recording"),
     ] = (),
 ) -> "PlateWeight":
-    """Weigh who or what stands on force plates, and find plates that contradict each other.
+    """Weigh who stands on force plates, and compare the plates.
 
     Example: forcetorque bench plate standing.c3d
 
@@ -80,10 +80,9 @@ def calibrate_plate(
         Option("What the file leaves open, as origin_from=surface or force_unit=N; repeat for more.", "--recording"),
     ] = (),
 ) -> "PlateCalibration":
-    """Calibrate a force plate with an instrumented pole, or with weights at known places.
+    """Calibrate a force plate with a pole or weights.
 
-    Example: forcetorque bench calibrate-plate pole.c3d --serial FP1 --measure-direction parent_to_child --tip pole_tip
-    --head pole_head --load-cell load_cell -o FP1.json
+    Example: forcetorque bench calibrate-plate a.c3d --serial FP1 --measure-direction parent_to_child --weights w.csv
 
     Python: `plates.calibrate_plate("pole.c3d", serial="FP1", measure_direction="parent_to_child", tip="pole_tip", ...)`
 

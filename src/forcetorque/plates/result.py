@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.results.answer import Answer, Concern, typed
+from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import plus_minus
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -90,8 +90,7 @@ class PlateWeight(Result):
             subject=f"{self.file}, {self.start_s:.2f} to {self.end_s:.2f} s, {len(loaded)} plate(s)",
             verdict=plus_minus(self.mass_kg, self.half_width_95_kg, "kg"),
             why=(*self.contradictions[:2], where, *((sign,) if sign else ())),
-            step="calibrate the plates with a pole or weights" if self.contradictions else "",
-            command=typed("bench", "calibrate-plate", "--help") if self.contradictions else "",
+            step="tare the plates, or calibrate them by `bench calibrate-plate`" if self.contradictions else "",
             concern=Concern.BAD if self.contradictions else Concern.NONE,
         )
 
