@@ -43,6 +43,7 @@ CAPABILITIES = (
     "estimation",
     "sensor",
     "workbench",
+    "plates",
     "device",
     "locomotion",
     "skin",

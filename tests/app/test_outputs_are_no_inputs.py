@@ -32,6 +32,7 @@ INPUT_OPTIONS = {
     "--stream",
     "--urdf",
     "--warm-up",
+    "--weights",
 }
 """Options with a path that is read, in every command that has them; lines of what is resumed are rewritten in it."""
 TABLE_THAT_IS_READ = ("skin wrench", "--table")
@@ -52,6 +53,7 @@ WORDS = {
     "calibrate": f"{PARQUET} -o new.json",
     "robot coherence": f"{PARQUET}",
     "study compare": f"{PARQUET}",
+    "bench calibrate-plate": f"{PARQUET} --serial FP1 --measure-direction parent_to_child",
     "bench contest": f"{PARQUET}",
     "bench device": f"{PARQUET}",
     "dataset check": f"{PARQUET}",

@@ -22,6 +22,7 @@ import pytest
 from forcetorque.app.command_line import commands, whole_program
 from forcetorque.fleet.add import add_recordings
 from forcetorque.fleet.sensor_record import AddOptions
+from forcetorque.plates.simulated import SimulatedPlate, write_pole_trial, write_standing
 from forcetorque.results.answer import MOST_LINES
 from forcetorque.results.capability import named
 from forcetorque.results.command import command_of
@@ -53,6 +54,10 @@ LIMITS = (
 )
 SHORT = ("--type", "OnTdTO", "--type", "CnTdTO", "--lambda", "0", "--lambda", "100")
 KNEE = ("--column", "robot.position.knee", "--desired", "robot.position.knee_desired")
+
+
+POLE = ("--serial", "FP1", "--measure-direction", "parent_to_child", "--tip", "pole_tip", "--head", "pole_head")
+POLE += ("--load-cell", "load_cell")
 
 
 def _of_experiments() -> dict[str, tuple[str, ...]]:
@@ -93,6 +98,8 @@ COMMANDS = _of_experiments() | {
     "study sphere": ("study", "sphere", PARQUET, "-c", "fitted.json"),
     "study fits": ("study", "fits", PARQUET, "-o", "study", *SHORT),
     "tare": ("tare", PARQUET, "--interval", "judge", "-c", "fitted.json"),
+    "bench plate": ("bench", "plate", "floor/standing.c3d"),
+    "bench calibrate-plate": ("bench", "calibrate-plate", "floor/pole.c3d", *POLE),
     "bench thermal": ("bench", "thermal", "chamber/chamber.toml"),
     "study validate": ("study", "validate", TWO, "-c", "fitted.json"),
     "view": ("view", PARQUET, "-o", "view.html"),
@@ -154,6 +161,14 @@ def _write_dataset(arm: Path) -> None:
     write_dataset(arm / "learning" / "frames", episodes)
 
 
+def _write_plates(arm: Path) -> None:
+    (arm / "floor").mkdir()
+    rng = np.random.default_rng(3)
+    plates = [SimulatedPlate.draw(rng, centre_m=(x, 0.4), crosstalk=0.02, corner_error_m=0.003) for x in (0.3, 0.9)]
+    write_standing(arm / "floor" / "standing.c3d", plates, rng)
+    write_pole_trial(arm / "floor" / "pole.c3d", plates[0], rng)
+
+
 def _write_log(arm: Path) -> None:
     shutil.copytree(FOLDER_OF_THE_TUTORIAL, arm / "begun")
 
@@ -181,6 +196,8 @@ WRITTEN: Mapping[str, Callable[[Path], object]] = MappingProxyType(
         "dataset": _write_records,
         "learning/frames": _write_dataset,
         "feet/standing.toml": _write_feet,
+        "floor/standing.c3d": _write_plates,
+        "floor/pole.c3d": _write_plates,
         "SIM001.toml": partial(write_bench, faults=BenchFaults(swapped=(3, 8))),
     }
 )

@@ -38,6 +38,8 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
 from tests.formats.array_file import test_hdf5_and_npz as arrays
+from tests.formats.c3d import test_log_format as c3d
+from tests.formats.c3d.plate_files import write_plate
 from tests.formats.franka import test_log_format as franka
 from tests.formats.franka.states import states, write_states, write_table
 from tests.formats.lerobot import test_log_format as lerobot
@@ -184,6 +186,11 @@ def _franka_case(folder: Path, *, table: bool) -> Case:
     return Case(log=path, file=path, read=lambda: franka._read(path))
 
 
+def _c3d_case(folder: Path, kind: int) -> Case:
+    path = write_plate(folder / "log", kind)
+    return Case(log=path, file=path, read=lambda: c3d.read(path))
+
+
 CASES: dict[str, tuple[str, Callable[[Path], Case]]] = {
     "npz": ("npz", lambda folder: array_case(folder, "npz")),
     "hdf5": ("hdf5", lambda folder: array_case(folder, "hdf5")),
@@ -207,6 +214,8 @@ CASES: dict[str, tuple[str, Callable[[Path], Case]]] = {
     "binary rtde": ("ur_rtde", lambda folder: _rtde_case(folder, binary=True)),
     "states": ("franka", lambda folder: _franka_case(folder, table=False)),
     "table of states": ("franka", lambda folder: _franka_case(folder, table=True)),
+    "forces and moments": ("c3d", lambda folder: _c3d_case(folder, 2)),
+    "volts and a matrix": ("c3d", lambda folder: _c3d_case(folder, 4)),
     "index": ("ros", lambda folder: _bag_case(folder, "mcap", index=True)),
     "frames of a dataset": (
         "lerobot",

@@ -40,7 +40,10 @@ PANELS: Final[Mapping[str, tuple[str, ...]]] = {
 GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
     "bench": (
         "Measure sensors on a bench: loads, temperature, fast forces, gains.",
-        {name: name for name in ("workbench", "thermal", "response", "gains", "device", "contest")},
+        {
+            name: name
+            for name in ("workbench", "thermal", "response", "gains", "device", "contest", "plate", "calibrate-plate")
+        },
     ),
     "robot": (
         "Examine a whole robot: feet, net force, motion, torque loops.",

@@ -20,6 +20,7 @@ from pydantic_core import CoreSchema
 from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.input_file import accept_input, read_xml
 from forcetorque.formats.array_file.log_format import Hdf5Format, MatlabFormat, NpzFormat
+from forcetorque.formats.c3d.log_format import C3dFormat
 from forcetorque.formats.franka.log_format import FrankaFormat
 from forcetorque.formats.lerobot.log_format import LeRobotFormat
 from forcetorque.formats.log_format import LogContext, LogDescription, LogFormat, LogReading, LogTable
@@ -117,6 +118,7 @@ LOG_FORMATS: tuple[LogFormat[Any], ...] = (
     UrRtdeFormat(),
     FrankaFormat(),
     LeRobotFormat(),
+    C3dFormat(),
 )
 
 

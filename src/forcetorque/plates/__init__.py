@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Force plates: who or what stands on them, and their calibration with a pole or weights."""
+
+from typing import TYPE_CHECKING
+
+from forcetorque.base.lazy import lazy_names
+from forcetorque.results.capability import Capability
+
+if TYPE_CHECKING:
+    from forcetorque.plates.commands import calibrate_plate, plate
+
+CAPABILITY = Capability(
+    page="guides/plates.md",
+    needs=("workbench",),
+    commands=("forcetorque.plates.commands:plate", "forcetorque.plates.commands:calibrate_plate"),
+)
+
+__all__ = ["calibrate_plate", "plate"]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "calibrate_plate": "forcetorque.plates.commands",
+        "plate": "forcetorque.plates.commands",
+    },
+)

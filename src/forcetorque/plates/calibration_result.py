@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Result of the calibration of a force plate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.output_file import write_bytes_atomically
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.number_text import amount, plus_minus
+from forcetorque.results.result import DrawnResult
+from forcetorque.results.table import Row, Shown, Table, WrenchValues, table_of
+
+
+class ComponentRow(Row):
+    """One component of the wrench."""
+
+    component: Annotated[str, Shown("component")]
+    """Component."""
+    gain: Annotated[float, Shown("gain", digits=4, error="half_width_95")]
+    """True by measured component."""
+    half_width_95: float
+    """Half-width of its 95 % interval."""
+    crosstalk_percent: Annotated[float, Shown("cross-talk", "%", digits=2, error="crosstalk_half_width_95_percent")]
+    """Largest share of another component that is to be taken away; a moment counts like a force at 0.2 m."""
+    crosstalk_half_width_95_percent: float
+    """Half-width of its 95 % interval."""
+    crosstalk_of: Annotated[str, Shown("of")]
+    """That component."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PlatePicture(ArrayRecord):
+    """Errors of the centre of pressure over a plate, for the figure."""
+
+    half_edges_mm: FloatArray | None = field(metadata=array(2))
+    """Half of the edges along x and y; shape (2,); mm; None where they are not known."""
+    place_mm: FloatArray = field(metadata=array("n", 2))
+    """Where the loads act from the centre; shape (n, 2); mm."""
+    before_mm: FloatArray = field(metadata=array("n", 2))
+    """Errors of the centre of pressure as measured, less the baseline; shape (n, 2); mm."""
+    after_mm: FloatArray = field(metadata=array("n", 2))
+    """The same with the calibration by all other loads; shape (n, 2); mm."""
+
+
+class PlateCalibration(DrawnResult):
+    """Calibration of a force plate."""
+
+    drawn_by: ClassVar[str] = "forcetorque.plates.figure:centre_error_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("picture",)
+
+    schema_name: Literal["forcetorque/calibrate_plate/1"] = Field(
+        default="forcetorque/calibrate_plate/1", alias="schema"
+    )
+    """Form of the result."""
+    trial: str
+    """The C3D file."""
+    plate: int
+    """Number of the plate in it."""
+    serial: str
+    """Serial number of the plate."""
+    source: str
+    """Source of the loads."""
+    loads: int
+    """Number of loads."""
+    components: tuple[ComponentRow, ...]
+    """Gain and cross-talk of every component."""
+    unmoved: tuple[str, ...]
+    """Directions of load that none excites: there the plate is taken as it measures."""
+    centre_before_mm: float
+    """Root mean square distance of the centre of pressure from where the load acts, as measured, less the baseline."""
+    centre_shift_mm: tuple[float, float]
+    """Mean of that error along x and y of the plate: corners that are off, or an error of the marker at the tip."""
+    centre_shift_half_width_95_mm: float
+    """Larger half-width of its 95 % intervals."""
+    centre_after_mm: float
+    """The same distance of loads that are left out of the fit one by one."""
+    centre_largest_after_mm: float
+    """Largest of these."""
+    error_before: WrenchValues
+    """Root mean square error of the wrench as measured; N, N m."""
+    error_after: WrenchValues
+    """The same of loads that are left out of the fit one by one; N, N m."""
+    cal_matrix: tuple[tuple[float, ...], ...] | None
+    """CAL_MATRIX, in the units of the file, by rows: wrench about the origin of the sensor by channels; of a plate of
+    type 2, which becomes type 4, by its forces and moments; None for other types."""
+    file: str | None = None
+    """File of the calibration; null where none was written."""
+    warnings: tuple[str, ...]
+    """What was left out, and doubts of the data."""
+    calibration: Calibration = Field(exclude=True, repr=False)
+    """The calibration, of wrenches about the centre of the surface."""
+    picture: PlatePicture = Field(exclude=True, repr=False)
+    """Errors over the plate."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Give the error of the centre of pressure before and after.
+
+        Yields:
+            One answer.
+        """
+        is_better = self.centre_after_mm < self.centre_before_mm
+        gains = [row.gain for row in self.components]
+        worst = max(self.components, key=lambda row: row.crosstalk_percent)
+        width = max(row.half_width_95 for row in self.components)
+        shift = plus_minus(self.centre_shift_mm, self.centre_shift_half_width_95_mm, "mm")
+        undetermined = (
+            (f"no load excites {'; '.join(self.unmoved)}: there it stays as measured; ",) if self.unmoved else ()
+        )
+        yield Answer(
+            subject=f"{self.trial}, plate {self.plate} ({self.serial}), {self.loads} loads",
+            verdict=f"CENTRE OF PRESSURE {amount(self.centre_before_mm, 'mm')} -> {amount(self.centre_after_mm, 'mm')}"
+            if is_better
+            else "NOT BETTER THAN AS MEASURED",
+            why=(
+                f"{''.join(undetermined)}RMS of loads left out one by one, largest "
+                f"{amount(self.centre_largest_after_mm, 'mm')}; before, the mean error is {shift}",
+                f"gains {min(gains):.3f} to {max(gains):.3f} (95 %: ±{amount(width, '')}), cross-talk up to "
+                f"{worst.crosstalk_percent:.1f} % ({worst.crosstalk_of} on {worst.component})",
+            ),
+            step=""
+            if self.file is not None
+            else "add -o FILE for the calibration, --cal-matrix FILE for motion capture",
+            written=(self.file, self.figure_file),
+            concern=Concern.UNCERTAIN if self.unmoved else Concern.NONE if is_better else Concern.BAD,
+        )
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Make the text for the terminal.
+
+        Yields:
+            Tables and messages.
+        """
+        yield table_of(self.components, f"{self.trial}: plate {self.plate}, {self.source}")
+        if self.cal_matrix is not None:
+            yield Table(
+                caption="CAL_MATRIX in the units of the file; --cal-matrix writes all digits",
+                headings=("row", *(f"channel {k}" for k in range(1, 7))),
+                rows=tuple(
+                    (component, *(f"{value:.4g}" for value in row))
+                    for component, row in zip(("Fx", "Fy", "Fz", "Mx", "My", "Mz"), self.cal_matrix, strict=True)
+                ),
+            )
+        yield from self.warnings
+        if self.file is not None:
+            yield f"written to {self.file}"
+
+    def save(self, path: Path | str, *, force: bool = False) -> None:
+        """Write the calibration.
+
+        Args:
+            path: File to write or to replace, in an existing folder.
+            force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+
+        Raises:
+            OutputError: As of `Calibration.save`.
+        """
+        self.calibration.save(path, force=force)
+
+
+def save_cal_matrix(result: PlateCalibration, path: Path) -> None:
+    """Write CAL_MATRIX as a table of six rows without a heading.
+
+    Args:
+        result: The calibration of a plate.
+        path: File to write.
+
+    Raises:
+        ExperimentError: If the plate is of a type without CAL_MATRIX.
+    """
+    if result.cal_matrix is None:
+        raise ExperimentError(
+            f"{path}: --cal-matrix: expected a plate of type 2 or 4, whose channels are a wrench or are made one, got "
+            "another type: use the calibration (-o)"
+        )
+    lines = "".join(",".join(f"{value:.9g}" for value in row) + "\n" for row in result.cal_matrix)
+    write_bytes_atomically(path, lines.encode())

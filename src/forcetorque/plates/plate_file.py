@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A C3D file whose force plates are all determined, by the file and by what is stated beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, FormatError
+from forcetorque.base.toml_file import checked_tables
+from forcetorque.formats.c3d.c3d_file import C3dFile
+from forcetorque.formats.c3d.conventions import C3dLog
+from forcetorque.formats.c3d.force_platform import ForcePlate, force_plates
+from forcetorque.formats.c3d.log_format import determined_file
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PlateFile:
+    """Force plates of a C3D file."""
+
+    file: C3dFile
+    """The file."""
+    table: C3dLog
+    """What was stated beside it."""
+    plates: tuple[ForcePlate, ...]
+    """Its plates, at least one."""
+
+    @property
+    def time_s(self) -> FloatArray:
+        """Instants of the samples of the plates from the first one; shape (n,); s."""
+        return np.arange(len(self.file.analog), dtype=np.float64) / self.file.analog_rate_hz
+
+    def plate(self, number: int | None) -> ForcePlate:
+        """Find a plate.
+
+        Args:
+            number: Its number, from 1; None for the only one.
+
+        Returns:
+            The plate.
+
+        Raises:
+            ExperimentError: If there is no such plate, or there are several and none is named.
+        """
+        numbers = [plate.number for plate in self.plates]
+        if number is None and len(numbers) == 1:
+            return self.plates[0]
+        if number not in numbers:
+            got = "none" if number is None else str(number)
+            raise ExperimentError(
+                f"{self.file.path}: --plate: expected one of {', '.join(map(str, numbers))}, got {got}"
+            )
+        return self.plates[numbers.index(number)]
+
+
+def read_plates(path: Path | str, stated: Collection[str] = ()) -> PlateFile:
+    """Read the force plates of a C3D file.
+
+    Args:
+        path: The file.
+        stated: What the file leaves open, each as `origin_from=surface`.
+
+    Returns:
+        File and plates.
+
+    Raises:
+        FormatError: If the file is damaged, has no plate, or leaves something open that is not stated.
+    """
+    entries = [entry.partition("=") for entry in stated]
+    for entry, (key, equals, value) in zip(stated, entries, strict=True):
+        if not (equals and key.strip() and value.strip()) or key.strip() in ("format", "path"):
+            raise FormatError(f"--recording: expected KEY=VALUE, as origin_from=surface, got {entry!r}")
+    content = {"format": "c3d", "path": Path(path), **{key.strip(): value.strip() for key, _, value in entries}}
+    table = checked_tables(content, C3dLog, Path(path))
+    file = determined_file(Path(path), table)
+    plates = force_plates(file, table)
+    if not plates:
+        raise FormatError(f"{path}: expected force plates, FORCE_PLATFORM:USED is 0: export the trial with its plates")
+    return PlateFile(file=file, table=table, plates=plates)

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibration of simulated plates with a pole and with weights: truth recovered, and errors of new loads in mm."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, FormatError
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.formats.c3d.force_platform import centre_of_pressure
+from forcetorque.plates.applied_loads import AppliedLoads, loads_of_pole
+from forcetorque.plates.calibration import calibrate_loads
+from forcetorque.plates.calibration_result import PlateCalibration, save_cal_matrix
+from forcetorque.plates.plate_file import PlateFile, read_plates
+from forcetorque.plates.simulated import SimulatedPlate, write_pole_trial, write_trial
+from forcetorque.results.answer import MOST_LINES, answer_text
+from tests.app.outcome import typed
+
+POLE = {"tip": "pole_tip", "head": "pole_head", "load_cell": "load_cell"}
+DIRECTION: Any = "parent_to_child"
+PLATE = SimulatedPlate.draw(np.random.default_rng(3), crosstalk=0.02, corner_error_m=0.003)
+
+
+def _loads(plates: PlateFile, **changes: str) -> AppliedLoads:
+    return loads_of_pole(plates, plates.plate(None), **(POLE | changes), serial="FP1", measure_direction=DIRECTION)
+
+
+def _calibrated(path: Path) -> PlateCalibration:
+    plates = read_plates(path)
+    return calibrate_loads(
+        plates, plates.plate(None), _loads(plates), measure_direction=DIRECTION, code_version="0", created="2026-01-01"
+    )
+
+
+@pytest.fixture(scope="module")
+def fitted(tmp_path_factory: pytest.TempPathFactory) -> PlateCalibration:
+    """A plate with 2 % cross-talk and corners that are 3 mm off, calibrated with 40 pushes of a pole."""
+    path = tmp_path_factory.mktemp("plate") / "pole.c3d"
+    write_pole_trial(path, PLATE, np.random.default_rng(4))
+    return _calibrated(path)
+
+
+def _centre_errors(calibration: PlateCalibration, folder: Path) -> tuple[float, float]:
+    """Of pushes that are not fitted, before and after; root mean square, mm."""
+    path = folder / "new.c3d"
+    write_pole_trial(path, PLATE, np.random.default_rng(99), pushes=20)
+    new = _loads(read_plates(path))
+    before, after = (
+        1e3 * (centre_of_pressure(wrench) - new.centre_m)
+        for wrench in (
+            new.bench.raw - PLATE.baseline,
+            new.bench.raw @ calibration.calibration.matrix.T + calibration.calibration.offset,
+        )
+    )
+    return tuple(float(np.sqrt((errors**2).sum(axis=1).mean())) for errors in (before, after))  # type: ignore[return-value]
+
+
+def test_errors_of_new_pushes_fall_from_millimetres_to_the_noise(fitted: PlateCalibration, tmp_path: Path) -> None:
+    """Of the centre of pressure in the laboratory; the result predicts both, before and after."""
+    before, after = _centre_errors(fitted, tmp_path)
+    assert before > 5.0
+    assert after < 0.05  # mm: noise of 0.02 N m over 200 N, means of 600 samples, and of markers of 0.1 mm
+    assert fitted.centre_before_mm == pytest.approx(before, rel=0.3)
+    assert fitted.centre_after_mm == pytest.approx(after, rel=0.5)
+
+
+def test_the_true_matrix_is_within_its_intervals(fitted: PlateCalibration) -> None:
+    """Gains against the inverse of what the plate does, about its surface in the file."""
+    surface_X_sensor = np.eye(6)
+    depth = 0.04
+    surface_X_sensor[3:, :3] = [[0.0, -depth, 0.0], [depth, 0.0, 0.0], [0.0, 0.0, 0.0]]
+    inverse = surface_X_sensor @ np.linalg.solve(PLATE.distortion, np.linalg.inv(surface_X_sensor))
+    shift = np.array([1.0, -1.0, -1.0]) * PLATE.corner_error_m  # along the axes of the plate
+    moved = np.eye(6)  # about the centre of the file, which is shifted: moment - shift x force
+    moved[3:, :3] = -np.array([[0.0, 0.0, shift[1]], [0.0, 0.0, -shift[0]], [-shift[1], shift[0], 0.0]])
+    truth = moved @ inverse
+    error = np.abs(fitted.calibration.matrix - truth) / fitted.calibration.matrix_standard_error
+    assert (error < 1.96).mean() > 0.85
+    assert error.max() < 4.5
+    assert np.abs(fitted.calibration.matrix - inverse)[3:, 2].max() > 1e-3  # negative control: the corners are off
+    for row in fitted.components:
+        assert row.half_width_95 < 0.01
+
+
+def test_the_answer_is_short_and_names_errors_before_and_after(fitted: PlateCalibration) -> None:
+    """In at most twelve lines; the figure has both."""
+    text = answer_text(list(fitted.answers()), 80)
+    assert len(text.splitlines()) <= MOST_LINES
+    assert f"CENTRE OF PRESSURE {fitted.centre_before_mm:.1f} mm -> 0.0" in text
+    assert len(fitted.figure().axes) == 2
+
+
+def test_cal_matrix_corrects_the_channels(fitted: PlateCalibration, tmp_path: Path) -> None:
+    """A file of type 4 with it reads what the calibration gives."""
+    path = tmp_path / "a.c3d"
+    write_pole_trial(path, PLATE, np.random.default_rng(5), pushes=8)
+    plates = read_plates(path)
+    save_cal_matrix(fitted, tmp_path / "cal.csv")
+    cal_matrix = np.loadtxt(tmp_path / "cal.csv", delimiter=",")
+    channels = plates.file.analog[:, :6]
+    sensor = channels @ cal_matrix.T * np.repeat([1.0, 1e-3], 3)
+    origin = plates.plates[0].origin_m
+    corrected = np.hstack([sensor[:, :3], sensor[:, 3:] + np.cross(sensor[:, :3], origin)])
+    expected = plates.plates[0].wrench @ fitted.calibration.matrix.T
+    np.testing.assert_allclose(corrected, expected, atol=1e-5)
+    without = fitted.model_copy(update={"cal_matrix": None})
+    with pytest.raises(ExperimentError, match="expected a plate of type 2 or 4"):
+        save_cal_matrix(without, tmp_path / "none.csv")
+
+
+@pytest.mark.real_data
+def test_a_trial_of_another_writer_gives_its_true_matrix(data_dir: Path) -> None:
+    """Without pauses between pushes; the matrix that undoes the distortion of the trial to 0.002, and before 0.075."""
+    folder = data_dir / "c3d_plates"
+    truth = np.array(json.loads((folder / "truth.json").read_text())["pole"]["inverse_is_the_PILS_matrix"])
+    result = _calibrated(folder / "pole_trial.c3d")
+    size = np.repeat([1.0, 200.0], 3)  # mm, so that forces and moments count alike
+    error = np.abs(np.array(result.cal_matrix) - truth) * size / size[:, None]
+    assert error.max() < 0.005
+    assert (np.abs(np.eye(6) - truth) * size / size[:, None]).max() > 0.05
+    assert result.centre_after_mm < 0.2 < 10.0 < result.centre_before_mm
+    assert any("no pause without load" in text for text in result.warnings)
+
+
+def _weighed(folder: Path, force: FloatArray, places: FloatArray) -> Path:
+    seconds, rate = 1.0, 1000
+    n = round(seconds * rate)
+    points = PLATE.corners_m.mean(axis=0) + np.column_stack([places, np.zeros(len(places))]) * (1.0, -1.0, 1.0)
+    rng = np.random.default_rng(6)
+    exact = replace(PLATE, corner_error_m=np.zeros(3))
+    down = np.repeat(np.column_stack([0 * force, 0 * force, -force]), n, axis=0)
+    channels = exact.channels(down, np.repeat(points, n, axis=0), rng)
+    path = folder / "weights.c3d"
+    write_trial(path, [exact], channels, {"floor": np.zeros((len(channels) // 10, 3))})
+    return path
+
+
+def test_weights_at_known_places_correct_what_they_excite(tmp_path: Path) -> None:
+    """Vertical forces alone: the other directions are named, and stay as measured."""
+    x, y = (grid.ravel() for grid in np.meshgrid([-0.2, 0.0, 0.2], [-0.15, 0.0, 0.15]))
+    places = np.vstack([np.column_stack([x, y])] * 2)
+    mass = np.repeat([10.0, 25.0], len(x))
+    path = _weighed(tmp_path, STANDARD_GRAVITY * mass, places)
+    rows = [
+        f"{k},{m},{a},{b},0,0,0,1,{k + 0.1},{k + 0.9}" for k, (m, (a, b)) in enumerate(zip(mass, places, strict=True))
+    ]
+    table = tmp_path / "weights.csv"
+    heading = f"# gravity_m_per_s2: {STANDARD_GRAVITY}\nname,mass_kg,x_m,y_m,z_m,dx,dy,dz,start_s,end_s\n"
+    table.write_text(heading + "\n".join(rows) + "\n")
+    words = ["--serial", "FP1", "--measure-direction", "parent_to_child", "--weights", str(table)]
+    done = typed("bench", "calibrate-plate", str(path), *words, "-o", str(tmp_path / "w.json"), "--format", "json")
+    assert done.code == 0, done.err
+    assert read_calibration(tmp_path / "w.json").sensor.serial == "FP1"
+    result = json.loads(done.out)
+    assert result["centre_after_mm"] < 0.1 < 1.0 < result["centre_before_mm"]
+    assert len(result["unmoved"]) == 3
+    table.write_text(heading.replace(",end_s", "") + "\n".join(row.rpartition(",")[0] for row in rows) + "\n")
+    assert "expected numbers start_s and end_s" in typed("bench", "calibrate-plate", str(path), *words).err
+
+
+def test_refusals_name_what_is_there(tmp_path: Path) -> None:
+    """Marker, channel, direction, sign of the load cell, too few pushes, and neither pole nor weights."""
+    path = tmp_path / "a.c3d"
+    write_pole_trial(path, PLATE, np.random.default_rng(5), pushes=4)
+    plates = read_plates(path)
+    with pytest.raises(ExperimentError, match="--tip: no marker is called 'tip'.*pole_tip"):
+        _loads(plates, tip="tip")
+    with pytest.raises(ExperimentError, match="--load-cell: no channel is called 'cell'"):
+        _loads(plates, load_cell="cell")
+    with pytest.raises(ExperimentError, match="Mx1: expected a channel in N or kN"):
+        _loads(plates, load_cell="Mx1")
+    with pytest.raises(ExperimentError, match="Fz1: expected compression above 0"):
+        _loads(plates, load_cell="Fz1")
+    with pytest.raises(ExperimentError, match="expected at least 6 pushes .* got 4"):
+        _loads(plates)
+    words = ["bench", "calibrate-plate", str(path), "--serial", "FP1", "--measure-direction"]
+    assert "expected --tip, --head and --load-cell of a pole, or --weights" in typed(*words, "parent_to_child").err
+    write_pole_trial(path, PLATE, np.random.default_rng(5), pushes=8, force=True)
+    pole = ["--tip", "pole_tip", "--head", "pole_head", "--load-cell", "load_cell"]
+    done = typed(*words, "child_to_parent", *pole)
+    assert done.code == 2
+    assert "measure_direction" in done.err
+    with pytest.raises(FormatError, match="expected no file there"):
+        write_pole_trial(path, PLATE, np.random.default_rng(5), pushes=8)
+
+
+@pytest.mark.long
+def test_an_error_of_the_tip_goes_into_the_centre_of_pressure(tmp_path: Path) -> None:
+    """As the page states: nothing in the trial tells it from corners that are off."""
+    path = tmp_path / "a.c3d"
+    write_pole_trial(path, PLATE, np.random.default_rng(4), tip_error_m=0.002)
+    result = _calibrated(path)
+    _, after = _centre_errors(result, tmp_path)
+    assert after == pytest.approx(2.0, abs=0.1)
+    assert result.centre_after_mm < 0.1
