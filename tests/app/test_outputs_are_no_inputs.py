@@ -53,7 +53,7 @@ WORDS = {
     "calibrate": f"{PARQUET} -o new.json",
     "robot coherence": f"{PARQUET}",
     "study compare": f"{PARQUET}",
-    "bench calibrate-plate": f"{PARQUET} --serial FP1 --measure-direction parent_to_child",
+    "bench fit-plate": f"{PARQUET} --serial FP1 --measure-direction parent_to_child",
     "bench contest": f"{PARQUET}",
     "bench device": f"{PARQUET}",
     "dataset check": f"{PARQUET}",

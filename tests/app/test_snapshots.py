@@ -99,7 +99,7 @@ COMMANDS = _of_experiments() | {
     "study fits": ("study", "fits", PARQUET, "-o", "study", *SHORT),
     "tare": ("tare", PARQUET, "--interval", "judge", "-c", "fitted.json"),
     "bench plate": ("bench", "plate", "floor/standing.c3d"),
-    "bench calibrate-plate": ("bench", "calibrate-plate", "floor/pole.c3d", *POLE),
+    "bench fit-plate": ("bench", "fit-plate", "floor/pole.c3d", *POLE),
     "bench thermal": ("bench", "thermal", "chamber/chamber.toml"),
     "study validate": ("study", "validate", TWO, "-c", "fitted.json"),
     "view": ("view", PARQUET, "-o", "view.html"),

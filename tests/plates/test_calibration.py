@@ -156,14 +156,14 @@ def test_weights_at_known_places_correct_what_they_excite(tmp_path: Path) -> Non
     heading = f"# gravity_m_per_s2: {STANDARD_GRAVITY}\nname,mass_kg,x_m,y_m,z_m,dx,dy,dz,start_s,end_s\n"
     table.write_text(heading + "\n".join(rows) + "\n")
     words = ["--serial", "FP1", "--measure-direction", "parent_to_child", "--weights", str(table)]
-    done = typed("bench", "calibrate-plate", str(path), *words, "-o", str(tmp_path / "w.json"), "--format", "json")
+    done = typed("bench", "fit-plate", str(path), *words, "-o", str(tmp_path / "w.json"), "--format", "json")
     assert done.code == 0, done.err
     assert read_calibration(tmp_path / "w.json").sensor.serial == "FP1"
     result = json.loads(done.out)
     assert result["centre_after_mm"] < 0.1 < 1.0 < result["centre_before_mm"]
     assert len(result["unmoved"]) == 3
     table.write_text(heading.replace(",end_s", "") + "\n".join(row.rpartition(",")[0] for row in rows) + "\n")
-    assert "expected numbers start_s and end_s" in typed("bench", "calibrate-plate", str(path), *words).err
+    assert "expected numbers start_s and end_s" in typed("bench", "fit-plate", str(path), *words).err
 
 
 def test_refusals_name_what_is_there(tmp_path: Path) -> None:
@@ -181,7 +181,7 @@ def test_refusals_name_what_is_there(tmp_path: Path) -> None:
         _loads(plates, load_cell="Fz1")
     with pytest.raises(ExperimentError, match="expected at least 6 pushes .* got 4"):
         _loads(plates)
-    words = ["bench", "calibrate-plate", str(path), "--serial", "FP1", "--measure-direction"]
+    words = ["bench", "fit-plate", str(path), "--serial", "FP1", "--measure-direction"]
     assert "expected --tip, --head and --load-cell of a pole, or --weights" in typed(*words, "parent_to_child").err
     write_pole_trial(path, PLATE, np.random.default_rng(5), pushes=8, force=True)
     pole = ["--tip", "pole_tip", "--head", "pole_head", "--load-cell", "load_cell"]

@@ -42,7 +42,7 @@ GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
         "Measure sensors on a bench: loads, temperature, fast forces, gains.",
         {
             name: name
-            for name in ("workbench", "thermal", "response", "gains", "device", "contest", "plate", "calibrate-plate")
+            for name in ("workbench", "thermal", "response", "gains", "device", "contest", "plate", "fit-plate")
         },
     ),
     "robot": (

@@ -7,20 +7,20 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.plates.commands import calibrate_plate, plate
+    from forcetorque.plates.commands import fit_plate, plate
 
 CAPABILITY = Capability(
     page="guides/plates.md",
     needs=("workbench",),
-    commands=("forcetorque.plates.commands:plate", "forcetorque.plates.commands:calibrate_plate"),
+    commands=("forcetorque.plates.commands:plate", "forcetorque.plates.commands:fit_plate"),
 )
 
-__all__ = ["calibrate_plate", "plate"]
+__all__ = ["fit_plate", "plate"]
 
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "calibrate_plate": "forcetorque.plates.commands",
+        "fit_plate": "forcetorque.plates.commands",
         "plate": "forcetorque.plates.commands",
     },
 )

@@ -57,9 +57,7 @@ class PlateCalibration(DrawnResult):
     drawn_by: ClassVar[str] = "forcetorque.plates.figure:centre_error_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("picture",)
 
-    schema_name: Literal["forcetorque/calibrate_plate/1"] = Field(
-        default="forcetorque/calibrate_plate/1", alias="schema"
-    )
+    schema_name: Literal["forcetorque/fit_plate/1"] = Field(default="forcetorque/fit_plate/1", alias="schema")
     """Form of the result."""
     trial: str
     """The C3D file."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque bench plate` and `bench calibrate-plate`: who stands on force plates, and their calibration."""
+"""`forcetorque bench plate` and `bench fit-plate`: who stands on force plates, and their calibration."""
 
 from collections.abc import Collection
 from typing import TYPE_CHECKING, Annotated
@@ -55,7 +55,7 @@ def plate(
         function="forcetorque.plates.calibration_result:save_cal_matrix",
     ),
 )
-def calibrate_plate(
+def fit_plate(
     file: Annotated["Path", Option("C3D file of a trial with known loads on a force plate.")],
     *,
     measure_direction: Annotated[
@@ -63,17 +63,23 @@ def calibrate_plate(
         Option(
             "Who acts on whom in the channels: child_to_parent if they hold the force on the plate (Fz above 0 under a "
             "load), parent_to_child if they hold the reaction.",
+            "--measure-direction",
+            "-d",
             choices=tuple(direction.value for direction in MeasureDirection),
         ),
     ],
-    serial: Annotated[str, Option("Serial number of the plate.")],
+    serial: Annotated[str, Option("Serial number of the plate.", "--serial", "-s")],
     plate: Annotated[int | None, Option("Number of the plate, from 1. Default: the only one.")] = None,
     tip: Annotated[str | None, Option("Marker at the tip of an instrumented pole.")] = None,
     head: Annotated[str | None, Option("Another marker on the axis of the pole.")] = None,
     load_cell: Annotated[str | None, Option("Channel of its load cell; compression positive, N or kN.")] = None,
     weights: Annotated[
         "Path | None",
-        Option("Table (CSV) of weights in place of a pole, with start_s and end_s of each; see docs/guides/plates.md."),
+        Option(
+            "Table (CSV) of weights in place of a pole, with start_s and end_s of each; see docs/guides/plates.md.",
+            "--weights",
+            "-w",
+        ),
     ] = None,
     recording: Annotated[
         Collection[str],
@@ -82,9 +88,9 @@ def calibrate_plate(
 ) -> "PlateCalibration":
     """Calibrate a force plate with a pole or weights.
 
-    Example: forcetorque bench calibrate-plate a.c3d --serial FP1 --measure-direction parent_to_child --weights w.csv
+    Example: forcetorque bench fit-plate a.c3d -s F -d parent_to_child -w w.csv
 
-    Python: `plates.calibrate_plate("pole.c3d", serial="FP1", measure_direction="parent_to_child", tip="pole_tip", ...)`
+    Python: `plates.fit_plate("pole.c3d", serial="FP1", measure_direction="parent_to_child", tip="pole_tip", ...)`
 
     Returns:
         Gains, cross-talk, error of the centre of pressure before and after; `save` writes the calibration.

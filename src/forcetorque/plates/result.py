@@ -90,7 +90,7 @@ class PlateWeight(Result):
             subject=f"{self.file}, {self.start_s:.2f} to {self.end_s:.2f} s, {len(loaded)} plate(s)",
             verdict=plus_minus(self.mass_kg, self.half_width_95_kg, "kg"),
             why=(*self.contradictions[:2], where, *((sign,) if sign else ())),
-            step="tare the plates, or calibrate them by `bench calibrate-plate`" if self.contradictions else "",
+            step="tare the plates, or calibrate them by `bench fit-plate`" if self.contradictions else "",
             concern=Concern.BAD if self.contradictions else Concern.NONE,
         )
 
