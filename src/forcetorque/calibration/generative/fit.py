@@ -449,7 +449,9 @@ def fit_generative(
         for k in range(len(rows.unit))
     ]
 
-    def solve(reading: FloatArray, shapes: Sequence[SlowNoise]) -> tuple[SolvedRows, float]:
+    def solve(
+        reading: FloatArray, shapes: Sequence[SlowNoise], start: Sequence[Unknowns] = ()
+    ) -> tuple[SolvedRows, float]:
         """Solve the rows, which read errors of the loads by `reading`; shape (rows, 6)."""
         design = design_of(ordered, response, shares, _in_rows(derivatives, reading), drift=drift, centre=centre)
         _require_means(design, drift=drift)
@@ -461,6 +463,7 @@ def fit_generative(
             sensor=np.arange(LOADS),
             accuracy=rows.accuracy if noise_floor else np.zeros_like(rows.accuracy),
             freedom=max(len(raw) - design.free.shape[1], 1),
+            start=start,
         )
         solved = SolvedRows(
             rows=rows,
@@ -479,8 +482,11 @@ def fit_generative(
 
     solved, deviance = solve(rows.from_load, shapes)
     if terms:
-        # the prior matrix reads errors of the loads as it reads the loads: by its own error, which the first fit gives
-        solved, deviance = solve(solved.reading(), list(dict.fromkeys(own.noise for own in solved.unknowns)))
+        # the prior matrix reads errors of the loads as it reads the loads: by its own error, which the first fit gives.
+        # the second holds the sizes of the first: where a mass scales all loads, evidence would prefer a large error of
+        # the mass, of which the matrix so read explains its own error
+        noise = list(dict.fromkeys(own.noise for own in solved.unknowns))
+        solved, deviance = solve(solved.reading(), noise, solved.unknowns)
     return _fit(solved, raw, wrench, values - centre, variables=variables, centre=centre, deviance=deviance)
 
 

@@ -87,6 +87,10 @@ class _Row:
         self.shape = shape
         self.products = RowProducts.of(self.data[shape], self.basis, *self._place)
 
+    def take_noise(self, variance: float) -> None:
+        """Start with a known variance of the noise."""
+        self.variance = np.maximum(variance, self.least)
+
     def take_all_as_noise(self, freedom: int) -> None:
         """Start with the whole response as noise."""
         self.variance = np.maximum(self.response / max(freedom, 1), self.least)
@@ -164,6 +168,13 @@ class Sizes:
         """Number of unknowns that every row has for itself, which are its first."""
         return int(np.argmax(np.r_[self.places[0] == self.places[-1], True])) if len(self.places) > 1 else 0
 
+    def of(self, unknowns: Sequence[Unknowns]) -> FloatArray:
+        """Give the sizes that the unknowns of every row have, or are expected to have where there are none."""
+        sizes = self.expected.copy()
+        for places, known in zip(self.places, unknowns, strict=False):
+            sizes[self.size[places]] = known.deviations
+        return sizes
+
     def estimated(self, squares: FloatArray, determined: FloatArray, unknowns: IntArray) -> FloatArray:
         """Estimate the sizes from squares of unknowns, each with the share that the data determine of it.
 
@@ -200,6 +211,7 @@ def infer(
     sensor: IntArray,
     accuracy: FloatArray,
     freedom: int,
+    start: Sequence[Unknowns] = (),
 ) -> tuple[list[Unknowns], float]:
     """Find sizes, noise and unknowns.
 
@@ -212,6 +224,8 @@ def infer(
         sensor: Which unknowns of a row are coefficients of the matrix, with which the second start begins; shape (6,).
         accuracy: Slow error of the reference in every row, which the noise cannot fall below; shape (rows,).
         freedom: Number of means less that of free unknowns.
+        start: Unknowns of every row whose sizes are held and whose noise is the one start; none to find sizes from the
+            two starts of this module.
 
     Returns:
         The unknowns of every row, and the deviance: minus twice the logarithm of the evidence, less a constant.
@@ -221,10 +235,12 @@ def infer(
         for k, (own, basis) in enumerate(zip(data, bases, strict=True))
     ]
     local = design.local_places.ravel()
-    for row in rows:
+    for row, known in zip(rows, start, strict=False):
+        row.take_noise(known.variance)
+    for row in () if start else rows:
         row.take_all_as_noise(freedom)
-    best = _ascend(rows, sizes, sizes.expected, local, freedom)
-    if freedom > LOADS and _have_rank(data[0][0].columns[:LOADS, :LOADS]):
+    best = _ascend(rows, sizes, sizes.of(start), local, freedom, hold=bool(start))
+    if not start and freedom > LOADS and _have_rank(data[0][0].columns[:LOADS, :LOADS]):
         solutions = np.concatenate([row.take_least_squares(freedom, sensor) for row in rows])
         start = sizes.estimated(solutions**2, np.ones_like(solutions), sizes.places[:, sensor].ravel())
         second = _ascend(rows, sizes, start, local, freedom)
@@ -264,8 +280,16 @@ class _Maximum:
     """Minus twice the logarithm of the evidence, less a constant."""
 
 
-def _ascend(rows: Sequence[_Row], model: Sizes, sizes: FloatArray, local_terms: IntArray, freedom: int) -> _Maximum:
-    """Iterate sizes and noise from a start."""
+def _ascend(
+    rows: Sequence[_Row],
+    model: Sizes,
+    sizes: FloatArray,
+    local_terms: IntArray,
+    freedom: int,
+    *,
+    hold: bool = False,
+) -> _Maximum:
+    """Iterate sizes and noise from a start, or noise alone where sizes are held."""
     coupled = model.coupled
     choices = _CHOICES_TOGETHER if coupled else _CHOICES
     every = np.arange(len(model.size))
@@ -300,7 +324,8 @@ def _ascend(rows: Sequence[_Row], model: Sizes, sizes: FloatArray, local_terms: 
                 deviance += float(row.log_determinant[shape] + row.response[shape] / row.variance[shape])
                 left, determined = max(solution.left[k], _TINY), solution.determined[k]
                 row.variance[shape] = max(left / max(freedom - determined, 1.0), row.least[shape])
-        sizes = model.estimated(solution.coefficients**2, 1.0 - solution.variances / deviations**2, every)
+        if not hold:
+            sizes = model.estimated(solution.coefficients**2, 1.0 - solution.variances / deviations**2, every)
     return _Maximum(
         solution=solution,
         deviations=deviations,
