@@ -21,7 +21,7 @@ EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["p
 def _named_extras() -> set[str]:
     """Extras that errors of the library name."""
     texts = (path.read_text(encoding="utf-8") for path in (ROOT / "src").rglob("*.py"))
-    return {name for text in texts for name in re.findall(r"install_line\('([\w-]+)'\)", text)}
+    return {name for text in texts for name in re.findall(r"install_line\(['\"]([\w-]+)['\"]\)", text)}
 
 
 def test_errors_name_extras_that_exist() -> None:

@@ -73,11 +73,8 @@ def installed_robot(name: str, *, others: Iterable[str] = ()) -> InstalledRobot:
     if name in robots:
         return robots[name]
     text = f"no robot is called {name!r}; {known_names(name, [*others, *robots])}"
-    extras = [
-        install_line(extra)
-        for extra, is_there in (("robots", _examples() is not None), ("icub", _has_icub_models()))
-        if not is_there
-    ]
+    lines = {install_line("robots"): _examples() is not None, install_line("icub"): _has_icub_models()}
+    extras = [line for line, is_there in lines.items() if not is_there]
     if extras:
         raise MissingExtraError(f"{text}; more robots: {', '.join(extras)}")
     raise RobotError(f"{text}; or name a URDF file")
