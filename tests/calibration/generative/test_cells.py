@@ -55,6 +55,33 @@ def _recordings(count: int, sessions: int) -> list[WindowMeans]:
     return means
 
 
+def _one_with_two_sessions(count: int) -> list[WindowMeans]:
+    """The last recording is switched off and on within: first in the session of all others, then in its own."""
+    rng = np.random.default_rng(1)
+    truth = (np.eye(6) + 0.03 * rng.normal(size=(6, 6))) @ PRIOR
+    means = []
+    for number, session in [*((number, "morning") for number in range(count)), (count - 1, "evening")]:
+        wrench = rng.normal(size=(12, 6)) * [20.0, 20.0, 20.0, 2.0, 2.0, 2.0] - [0.0, 0.0, 30.0, 0.0, 0.0, 0.0]
+        derivatives = np.stack([wrench, 30.0 + rng.normal(size=(12, 6))], axis=2)
+        terms = (("mass", TermKind.MASS, 0.03), (f"tilt of {number}", TermKind.ACCELERATION, 0.05))
+        means.append(
+            WindowMeans(
+                label=session,
+                session=session,
+                recording=f"r{number}",
+                time_s=np.arange(12.0) + 100.0 * (session == "evening"),
+                count=np.full(12, 100.0),
+                raw=(wrench + derivatives @ [0.02, 0.05] + 7.0) @ np.linalg.inv(truth).T + rng.normal(size=(12, 6)),
+                reference=wrench,
+                flattening=np.zeros((12, 6)),
+                variables=25.0 + rng.normal(size=(12, 1)),
+                terms=tuple(ErrorTerm(name=name, kind=kind, deviation=size) for name, kind, size in terms),
+                model=derivatives,
+            )
+        )
+    return means
+
+
 def _fitted(means: list[WindowMeans], prior: FloatArray | None, *, drift: bool) -> GenerativeFit:
     assumptions = Assumptions.of_counts(6, 32767.0, accuracy=np.zeros(6))
     return fit_generative(means, prior, assumptions, variables=[TEMPERATURE], drift=drift, shapes=SHAPES)
@@ -87,6 +114,18 @@ def test_cells_change_no_number(
             assert one.name == other.name
             np.testing.assert_allclose(one.value, other.value, atol=SAME * other.standard_error)
             np.testing.assert_allclose(one.standard_error, other.standard_error, rtol=SAME)
+
+
+@pytest.mark.parametrize("drift", [False, True])
+def test_offsets_of_a_recording_with_a_shared_session_and_its_own(drift: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each session has the offset that it has in one cell; derivatives have means far from zero."""
+    means = _one_with_two_sessions(4)
+    together = _fitted(means, PRIOR, drift=drift)
+    monkeypatch.setattr(design, "MOST_TOGETHER", 1)
+    apart = _fitted(means, PRIOR, drift=drift)
+    spread = np.sqrt(np.einsum("kpp->kp", together.posterior.covariance))
+    np.testing.assert_allclose((apart.posterior.mean - together.posterior.mean) / spread, 0.0, atol=SAME)
+    np.testing.assert_allclose(apart.residual, together.residual, rtol=1e-6)
 
 
 def test_terms_of_one_recording_are_kept_beside_it() -> None:

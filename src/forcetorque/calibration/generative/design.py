@@ -68,7 +68,7 @@ class Design:
     model_means: FloatArray
     """Means of the columns of all terms by session; shape (sessions, rows, t)."""
     centred_terms: BoolArray
-    """Whether they were taken off; shape (t,)."""
+    """Whether they were taken off; shape (sessions, t)."""
     response_means: FloatArray
     """Means that were taken off; shape (sessions, rows)."""
     timeline: Timeline
@@ -126,10 +126,10 @@ def design_of(
     ones = (member[:, None] == np.arange(len(sessions))).astype(np.float64)
     alone = np.array([len(np.unique(cell[member == number])) == 1 for number in range(len(sessions))])
     shared, local, model_means = _centred_terms(model, member, cell, count, alone)
-    centred_terms = np.ones(len(model.terms), dtype=bool)
+    centred_terms = np.ones((len(sessions), len(model.terms)), dtype=bool)
     for number in np.flatnonzero(~alone):
         of_cells = model.local[np.unique(cell[member == number])]
-        centred_terms[of_cells[of_cells >= 0]] = False
+        centred_terms[number, of_cells[of_cells >= 0]] = False
     recordings = list(dict.fromkeys(s.recording for s in stretches))
     return Design(
         columns=columns,

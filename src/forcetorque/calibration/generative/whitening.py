@@ -238,6 +238,5 @@ def _free_of_row(design: Design, stacked: _Stacked, products: _Products, row: in
     inverse = symmetric_pseudo_inverse(product[:f, :f])
     worth = inverse @ np.delete(shared[:f], a + terms, axis=1)
     # as of columns without their means by session
-    uncentred = np.flatnonzero(~design.centred_terms)
-    worth[:sessions, a + uncentred] -= design.model_means[:, row, uncentred]
+    worth[:sessions, a : a + terms] -= np.where(design.centred_terms, 0.0, design.model_means[:, row])
     return FreeUnknowns(covariance=inverse, columns=worth[:, :-1], response=worth[:, -1])
