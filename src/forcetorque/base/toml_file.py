@@ -230,13 +230,13 @@ def _validation_message(file: Path, content: dict[str, Any], form: type[BaseMode
     ]
     where = _key_path(content, first["loc"], missing=first["type"] == "missing") or "top level"
     message, got = expected_text(first), first["input"]
-    if first["type"] == "union_tag_invalid":
-        where, got = f"{where}.{first['ctx']['discriminator'].strip(chr(39))}", first["ctx"]["tag"]
+    if first["type"] in ("union_tag_invalid", "union_tag_not_found"):
+        where, got = f"{where}.{first['ctx']['discriminator'].strip(chr(39))}", first["ctx"].get("tag")
     if first["type"] == "tuple_type":
         message = f"expected a list{f', written [[{where}]]' if isinstance(got, dict) else ''}"
-    if first["type"] == "missing" and len(first["loc"]) == 1:
-        message = message.replace("this key", _written(form, where))
-    shown = first["type"] in ("missing", "unknown_key") or isinstance(got, dict)
+    if len(first["loc"]) == 1 and first["type"] != "union_tag_not_found":
+        message = re.sub(r"this key|a table$|at least 1 value$", _written(form, str(first["loc"][0])), message)
+    shown = first["type"] in ("missing", "unknown_key", "union_tag_not_found") or isinstance(got, dict)
     got_text = "" if shown else f", got {got!r}"
     rest = f" (and {len(more)} more)" if more else ""
     return f"{file}: {where}: {message[:400]}{got_text[:200]}{rest}"
@@ -245,10 +245,11 @@ def _validation_message(file: Path, content: dict[str, Any], form: type[BaseMode
 def _written(form: type[BaseModel], key: str) -> str:
     """How a key of the whole file is written: as a table, as one of several tables, or as a key."""
     annotation = {field.alias or name: field.annotation for name, field in form.model_fields.items()}[key]
-    of = get_args(annotation)[0] if get_origin(annotation) is tuple else annotation
-    if not (isinstance(of, type) and issubclass(of, BaseModel)):
-        return "this key"
-    return f"a table [{key}]" if of is annotation else f"at least one table [[{key}]]"
+    several = get_origin(annotation) is tuple
+    for one in (annotation, *get_args(annotation)):
+        if isinstance(one, type) and issubclass(one, BaseModel):
+            return f"at least one table [[{key}]]" if several else f"a table [{key}]"
+    return "this key"
 
 
 def _short_lists_once(errors: list[ErrorDetails]) -> list[ErrorDetails]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+_TABLES = ("model_type", "model_attributes_type", "dict_type")
 _COMPARED = {
     "greater than or equal to ": "at least ",
     "greater than ": "more than ",
@@ -26,6 +27,15 @@ def expected_text(entry: ErrorDetails) -> str:
         return "expected this key, there is none"
     if entry["type"] == "union_tag_invalid":
         return f"expected one of {entry['ctx']['expected_tags']}"
+    if entry["type"] in _TABLES:
+        return "expected a table"
+    if entry["type"] == "union_tag_not_found":
+        return "expected this key, there is none"
+    if entry["type"] == "too_short" and "ctx" in entry:
+        least = entry["ctx"]["min_length"]
+        return f"expected at least {least} value{'s' * (least > 1)}"
+    if entry["type"] == "value_error":
+        return entry["msg"].removeprefix("Value error, ")
     if entry["type"] == "extra_forbidden":
         return "expected no such key"
     words = entry["msg"].removeprefix("Input should be ")

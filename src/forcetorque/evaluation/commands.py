@@ -43,9 +43,7 @@ def evaluate(
     ],
     calibrations: Annotated[
         "Calibrations | None",
-        Option(
-            "Calibration of the sensor, several to compare, or a folder of them. Default: its prior.", required=True
-        ),
+        Option("Calibration of the sensor, several to compare, or a folder of them.", required=True),
     ] = None,
 ) -> "Evaluation":
     """Evaluate calibrations on the validation intervals, prior against new.

@@ -383,7 +383,8 @@ def export_ros2_parameters(
     if len(frame_ids) != len(calibrations):
         frames = ", ".join(f"{one.sensor.name}: its {one.sensor.frame} frame" for one in calibrations.values())
         raise ExperimentError(
-            f"frame_ids: expected the frame of tf that each sensor reads in ({frames}), got {len(frame_ids)} for "
+            f"--frame-id, from Python frame_ids: expected the frame of tf that each sensor reads in ({frames}), "
+            f"got {len(frame_ids)} for "
             f"{len(calibrations)}; --frame-id names it, once for each calibration in their order"
         )
     by_sensor = {sensor_name or one.sensor.name: one for one in calibrations.values()}

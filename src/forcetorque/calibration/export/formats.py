@@ -26,8 +26,8 @@ _OFFSET_HANDLING = {
     ExportFormat.ICUB_MATRIX: "not stored, a matrix file has no place for it: add it to what the sensor sends",
     ExportFormat.WHOLEBODYDYNAMICS: "stored as FT_OFFSET, which the device ADDS, and only after the RPC command "
     "usePreEstimatedOffset",
-    ExportFormat.CSV: "stored: add it to the product of matrix and raw counts",
+    ExportFormat.CSV: "stored: add it to the product of matrix and raw reading",
     ExportFormat.COEFFICIENTS: "not stored, the file is for the variables: store it with the matrix",
-    ExportFormat.ROS2: "stored: add it to the product of matrix and raw counts",
+    ExportFormat.ROS2: "stored: add it to the product of matrix and raw reading",
     ExportFormat.NUMPY: "stored: wrench = raw @ matrix.T + offset",
 }
