@@ -83,7 +83,7 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert fitted.code == 0, fitted.err
     judged = run(*evaluate, "--details").out
     for words in (
-        "force error 0.13 N against 2.65 N with the prior",
+        "force error 0.22 N against 2.65 N with the prior",
         "it errs by some 0.68 N",
         "the prior by some 2.4 N",
     ):
