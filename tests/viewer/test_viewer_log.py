@@ -105,6 +105,7 @@ def test_intervals_and_findings_are_events(built: BuiltScene, log: ViewerLog) ->
     stamps = [event.stamp_ns for event in log.events]
     assert stamps == sorted(stamps)
     assert sum(event.is_warning for event in log.events) == len(built.scene.findings)
+    assert any("the offset over the calibration intervals is added" in text for text in texts)
 
 
 def test_names_never_meet(built: BuiltScene) -> None:

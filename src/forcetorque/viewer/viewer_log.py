@@ -12,9 +12,11 @@ from typing import Literal
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.scene import Joint, Robot, Scene
 from forcetorque.viewer.scene_builder import BuiltScene
+from forcetorque.viewer.sensor_wrenches import LOGGED
 
 POSES_HZ = 50.0
 """Highest rate of poses and arrows; wrenches keep theirs."""
@@ -239,7 +241,13 @@ def _events(scene: Scene, stamp_ns: IntArray) -> tuple[LoggedEvent, ...]:
     for finding in scene.findings:
         text = f"{finding.stream}: {finding.kind}: {finding.message}"
         events.append(LoggedEvent(stamp_ns=at(finding.start_s), is_warning=True, text=text))
-    notes = (LoggedEvent(stamp_ns=int(stamp_ns[0]), is_warning=False, text=note) for note in scene.notes)
+    moved = [
+        f"{sensor.name}, {series.name}: the offset over the calibration intervals is added; do not calibrate from it"
+        for sensor in scene.sensors
+        for series in sensor.wrenches
+        if series.name in (LOGGED, PRIOR)
+    ]
+    notes = (LoggedEvent(stamp_ns=int(stamp_ns[0]), is_warning=False, text=note) for note in (*moved, *scene.notes))
     return tuple(sorted((*events, *notes), key=lambda event: event.stamp_ns))
 
 

@@ -182,7 +182,12 @@ def test_files_that_are_refused(scenario: Path, run: Run, old: str, new: str, me
     [
         ("[20.0, 21.0]", "[20.0]", "recording[1].temperature_degC: expected 2 values", "[20.0]"),
         ("[20.0, 21.0]", "[]", "recording[1].temperature_degC: expected 2 values", "[]"),
-        ("[2.0, 3.0, 1.0]", "[2.0, 3.0]", "sensors.workbench_error.mean_force_N: expected at least 3 values", "[2.0, 3.0]"),
+        (
+            "[2.0, 3.0, 1.0]",
+            "[2.0, 3.0]",
+            "sensors.workbench_error.mean_force_N: expected at least 3 values",
+            "[2.0, 3.0]",
+        ),
         ("[0.0, 0.0, 1.0]", "[1.0]", "recording[0].gravity_direction: array: expected an array", "[1.0]"),
         ("[2.0, 2.0, 2.0, 1.0]", "[2.0]", "sensors.screw_torque_Nm: expected at least 3 values", "[2.0]"),
         ('["arm"]', "[]", "robot.model: expected at least 1 value", "[]"),
