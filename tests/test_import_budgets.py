@@ -102,6 +102,16 @@ def test_a_log_is_judged_without_what_it_does_not_use(bytecode: dict[str, str], 
 
 
 @pytest.mark.long
+def test_a_first_log_is_drafted_without_what_it_does_not_use(bytecode: dict[str, str], tmp_path: Path) -> None:
+    """Neither pandas, nor the compiler, nor figures are loaded by `init`."""
+    tutorial = ROOT / "docs" / "tutorial"
+    unused = ("pandas", "numba", "matplotlib")
+    _command(
+        bytecode, unused, "init", tutorial / "log.csv", "--urdf", tutorial / "robot.urdf", "-o", tmp_path / "new.toml"
+    )
+
+
+@pytest.mark.long
 def test_a_module_and_its_time_are_noticed(bytecode: dict[str, str]) -> None:
     """Negative control: a child that loads scipy.signal lists it, and one that is busy for 0.3 s spends them."""
     busy = "import scipy.signal, time\nbusy = time.process_time()\nwhile time.process_time() < busy + 0.3: pass"

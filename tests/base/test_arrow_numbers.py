@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pyarrow as pa
 import pytest
 
-from forcetorque.base.arrow import arrow_numbers
+from forcetorque.base.arrow import arrow_array, arrow_numbers
 
 
 @pytest.mark.parametrize(
@@ -33,9 +35,29 @@ def test_numbers_are_those_of_arrow(column: pa.Array) -> None:
     assert numbers.dtype == expected.dtype
 
 
+@pytest.mark.parametrize(
+    "numbers",
+    [
+        np.array([1.0, np.nan, -0.0]),
+        np.arange(6.0).reshape(2, 3)[:, 1],
+        np.broadcast_to(np.array(2.0), 3),
+        np.array([2**62, -1]),
+        np.zeros(0),
+    ],
+)
+def test_arrays_are_those_of_arrow(numbers: npt.NDArray[Any]) -> None:
+    """With NaN, steps in memory, both types, and nothing at all."""
+    array = arrow_array(numbers)
+    array.validate(full=True)
+    assert array.type == pa.array(numbers).type
+    assert array.null_count == 0
+    np.testing.assert_array_equal(arrow_numbers(array), numbers)
+
+
 _SCRIPT = """
 import sys, pyarrow as pa
-from forcetorque.base.arrow import arrow_numbers
+import numpy as np
+from forcetorque.base.arrow import arrow_array, arrow_numbers
 column = pa.Array.from_buffers(pa.int64(), 1, [None, pa.py_buffer(bytes(8))])
 print({})
 print("pandas" in sys.modules)
@@ -50,5 +72,6 @@ def _loads_pandas(expression: str) -> bool:
 @pytest.mark.long
 def test_pandas_is_not_loaded() -> None:
     """Negative control: by Arrow's own conversion it is, so there is a reason to have ours."""
-    assert not _loads_pandas("arrow_numbers(column)")
+    assert not _loads_pandas("arrow_numbers(column), arrow_array(np.zeros(1))")
     assert _loads_pandas("column.to_numpy()")
+    assert _loads_pandas("pa.array(np.zeros(1))")

@@ -35,6 +35,20 @@ def arrow_numbers(column: Any) -> npt.NDArray[Any]:
     return np.where(valid, numbers, np.nan)
 
 
+def arrow_array(numbers: npt.NDArray[Any]) -> Any:
+    """Give numbers as an array of Arrow, whose own conversion imports pandas where that is installed.
+
+    Args:
+        numbers: The numbers, float64 or int64; shape (n,). NaN stays NaN.
+
+    Returns:
+        The array, without empty values; on the memory of the numbers where these are contiguous.
+    """
+    contiguous = np.ascontiguousarray(numbers)
+    kind = pa.from_numpy_dtype(contiguous.dtype)
+    return pa.Array.from_buffers(kind, len(contiguous), [None, pa.py_buffer(contiguous)])
+
+
 def require_small_parquet(file: Path, metadata: Any, columns: Collection[str]) -> None:
     """Refuse a Parquet file that unpacks to more than it may, before a column is read.
 

@@ -17,7 +17,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.arrow import arrow_numbers, require_small_parquet
+from forcetorque.base.arrow import arrow_array, arrow_numbers, require_small_parquet
 from forcetorque.base.errors import FormatError, MissingFileError, RecordingError, ShapeError
 from forcetorque.base.output_file import real_path, temporary_beside
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
@@ -178,16 +178,16 @@ def _write_stream(path: Path, stream: Stream) -> None:
         quantity: {"columns": list(s.columns), "units": list(s.units), "frame": s.frame}
         for quantity, s in stream.signals.items()
     }
-    fields, arrays = [pa.field("stamp_ns", pa.int64(), nullable=False)], [pa.array(stream.stamp_ns)]
+    fields, arrays = [pa.field("stamp_ns", pa.int64(), nullable=False)], [arrow_array(stream.stamp_ns)]
     if stream.sequence is not None:
         fields.append(pa.field("sequence", pa.int64(), nullable=False))
-        arrays.append(pa.array(stream.sequence))
+        arrays.append(arrow_array(stream.sequence))
     for quantity, signal in stream.signals.items():
         width = signal.values.shape[1]
         metadata = {key: json.dumps(value) for key, value in described[quantity].items()}
         row_type = pa.list_(pa.field("element", pa.float64(), nullable=False), width)
         fields.append(pa.field(quantity, row_type, nullable=False, metadata=metadata))
-        arrays.append(pa.FixedSizeListArray.from_arrays(pa.array(signal.values.ravel()), type=row_type))
+        arrays.append(pa.FixedSizeListArray.from_arrays(arrow_array(signal.values.ravel()), type=row_type))
     header = {"schema": SCHEMA, "name": stream.name, "clock": stream.clock, "signals": described}
     schema = pa.schema(fields, metadata={_METADATA_KEY: json.dumps(header).encode()})
     table = pa.Table.from_arrays(arrays, schema=schema)

@@ -64,7 +64,6 @@ def run(
 
     Python: `experiment.run("results")`, of files `forcetorque.run("experiment.toml", "results")`
     """
-    from forcetorque.app.run.run import run as go
     from forcetorque.inspection.draft.questions import open_questions
 
     log = start_logging()
@@ -79,6 +78,8 @@ def run(
     for file in open_files:
         if (unanswered := _unanswered(file, no_input=no_input)) is not None:
             _end(unanswered, output_format, details=details, files=files)
+    from forcetorque.app.run.run import run as go  # here because open questions need none of its stages
+
     result = go(
         files,
         output,

@@ -13,6 +13,7 @@ import pyarrow.compute as pc
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrow import arrow_numbers
 from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.formats.headings import read_heading
@@ -216,4 +217,4 @@ def frame_numbers(column: Any) -> FloatArray:
     """
     if not (pa.types.is_integer(column.type) or pa.types.is_floating(column.type)):
         raise FormatError(f"expected a column of numbers, got {column.type}")
-    return np.asarray(column.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False), dtype=np.float64)
+    return arrow_numbers(column.cast(pa.float64(), safe=False))

@@ -14,7 +14,7 @@ import pyarrow.csv as pacsv
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from forcetorque.base.arrow import arrow_text
+from forcetorque.base.arrow import arrow_numbers, arrow_text
 from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import unpacked_limit
 from forcetorque.base.toml_file import Table, Text
@@ -82,7 +82,7 @@ class Extent:
         Args:
             column: Column of Arrow.
         """
-        values = np.asarray(column.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False), dtype=np.float64)
+        values = arrow_numbers(column.cast(pa.float64(), safe=False))
         finite = values[np.isfinite(values)]
         if len(finite):
             self.smallest = min(self.smallest, float(finite.min()))
@@ -239,10 +239,9 @@ def _count_lines(path: Path) -> int:
 
 def _unit_fours(table: Any) -> tuple[int, ...]:
     """First columns of four floating ones whose norm is 1 in every row."""
-    floating = [pa.types.is_floating(column.type) for column in table.columns]
     columns = [
-        np.asarray(column.to_numpy()) if is_float else None
-        for column, is_float in zip(table.columns, floating, strict=True)
+        arrow_numbers(column.cast(pa.float64())) if pa.types.is_floating(column.type) else None
+        for column in table.columns
     ]
     fours = []
     for first in range(len(columns) - 3):
@@ -264,7 +263,7 @@ def _sketched(name: str, rows: int, column: Any) -> SketchedColumns:
     if kind is None or not (pa.types.is_floating(kind) or pa.types.is_integer(kind)):
         is_number = kind is None or pa.types.is_null(kind)
         return SketchedColumns(name=name, rows=rows, unit=unit, is_number=is_number)
-    values = np.asarray(column.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False), dtype=np.float64)
+    values = arrow_numbers(column.cast(pa.float64(), safe=False))
     return sketched_numbers(name, values, rows=rows, unit=unit)
 
 
