@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.calibration.summary import calibration_answer
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.recording.storage import read_recording
@@ -52,6 +53,21 @@ def test_the_json_fits_the_printed_schemas(arm: Path, run: Run) -> None:
         assert faults({**content, "matrix": content["matrix"][:5]}, schemas["calibration"])
     assert faults({**result, "calibrations": "none"}, schemas["calibrate"])
     assert faults({key: value for key, value in result.items() if key != "experiment"}, schemas["calibrate"])
+
+
+def test_the_answer_counts_many_intervals(arm: Path, run: Run) -> None:
+    """A campaign of 200 recordings has an answer as short as that of one, which names its interval."""
+    run("calibrate", PARQUET, "-o", "made.json", "--format", "json").result()
+    fitted = read_calibration("made.json")
+    interval = fitted.provenance.intervals[0]
+    many = fitted.provenance.model_copy(update={"intervals": (interval,) * 200})
+    campaign = fitted.model_copy(update={"provenance": many})
+    one, several = (
+        calibration_answer(calibration, None, "made.json", saved=True, doubtful=False).why[0]
+        for calibration in (fitted, campaign)
+    )
+    assert f"samples of {interval.label}: residual" in one
+    assert several == one.replace(f"of {interval.label}:", "of 200 intervals:")
 
 
 def test_the_csv_holds_the_same_numbers(arm: Path, run: Run) -> None:

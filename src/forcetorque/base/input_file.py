@@ -144,17 +144,17 @@ def read_xml(file: Path, *, comments: bool = False) -> Element | None:
     return _parsed_xml(file, str(file), comments=comments)
 
 
-def xml_of_text(text: str, *, where: str) -> Element | None:
+def xml_of_text(text: str | bytes, *, where: str) -> Element | None:
     """Parse XML that is no file.
 
     Args:
-        text: The XML.
+        text: The XML; bytes in the encoding that it declares.
         where: What has it, for messages.
 
     Returns:
         Its root element.
     """
-    return _parsed_xml(BytesIO(text.encode()), where, comments=False)
+    return _parsed_xml(BytesIO(text if isinstance(text, bytes) else text.encode()), where, comments=False)
 
 
 def _parsed_xml(source: Path | BytesIO, where: str, *, comments: bool) -> Element | None:

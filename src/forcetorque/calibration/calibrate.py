@@ -444,7 +444,8 @@ def _found(run: SensorRun, *, by_model: bool) -> Iterator[str]:
     """Findings in fitted intervals; a channel that saturates in every swing does not hide the others."""
     start_ns, sensors = run.experiment.recording.start_ns, (run.sensor.name,)
     alike: dict[str, list[str]] = {}
-    for interval, finding in unreliable_intervals(run.experiment, Use.CALIBRATION, by_model=by_model, sensors=sensors):
+    found = unreliable_intervals(run.experiment, Use.CALIBRATION, by_model=by_model, sensors=sensors, computed=run)
+    for interval, finding in found:
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
         kind = f"interval {interval.label!r}: {finding.stream} {finding.kind}"
         alike.setdefault(kind, []).append(f"{kind} at {start:.2f}-{end:.2f} s: {finding.message}")

@@ -14,11 +14,15 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_
 from forcetorque.experiment.calibration.artefact import JOINT, Calibration, SessionOffset
 from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.capability import named
-from forcetorque.results.number_text import number, with_error
+from forcetorque.results.number_text import counted, number, with_error
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+_MOST_INTERVALS = 6
+"""Intervals that an answer names; more are counted."""
 
 
 def calibration_answer(
@@ -42,7 +46,8 @@ def calibration_answer(
         The answer.
     """
     sensor, source = calibration.sensor, calibration.provenance
-    intervals = ", ".join(interval.label for interval in source.intervals)
+    labels = [interval.label for interval in source.intervals]
+    intervals = ", ".join(labels) if len(labels) <= _MOST_INTERVALS else counted(len(labels), "interval")
     force, moment = (float(np.linalg.norm(calibration.residual_rms[part])) for part in FORCE_AND_MOMENT)
     fitted = f"{source.samples} samples of {intervals}: residual {force:.2f} N, {moment:.3f} N m (RMS of the norm)"
     return Answer(

@@ -47,7 +47,7 @@ class SensorRun:
         self.experiment = experiment
         self.sensor = experiment.sensor(sensor) if isinstance(sensor, str) else sensor
         self._known: dict[Hashable, object] = {}
-        self._samples: dict[Hashable, IntervalSamples] = {}
+        self._samples: dict[tuple[Hashable, tuple[str, ...], bool], IntervalSamples] = {}
         self._judged: dict[Hashable, EvaluatedWrenches] = {}
         self._motions: dict[Hashable, list[tuple[JointMotion, RootMotion]]] = {}
 
@@ -187,8 +187,23 @@ class SensorRun:
                 variables=names,
                 smoothed=smoothed,
                 with_flattening=with_flattening,
+                known=self._without_filter(),
             )
         return kept
+
+    def _without_filter(self) -> list[IntervalSamples]:
+        unfiltered = self.experiment.processing.smoothing is None
+        return [samples for (*_, smoothed), samples in self._samples.items() if unfiltered or not smoothed]
+
+    def copy(self) -> SensorRun:
+        """Share what is computed so far, for an analysis whose samples are not to be kept in memory.
+
+        Returns:
+            The sensor; what it computes further is not known to this one.
+        """
+        other = SensorRun(self.experiment, self.sensor)
+        other._known, other._samples = dict(self._known), dict(self._samples)
+        return other
 
     def interval_readings(self, interval: Interval, *, variables: Collection[str] = ()) -> Readings:
         """Take the readings over an interval, for which no reference is wanted.

@@ -110,6 +110,7 @@ def samples_over(
     variables: Sequence[str] = (),
     smoothed: bool = True,
     with_flattening: bool = True,
+    known: Sequence[IntervalSamples] = (),
 ) -> IntervalSamples:
     """Pair the readings of a sensor with what the model expects over one interval.
 
@@ -120,6 +121,7 @@ def samples_over(
         variables: Names of linear variables of the sensor that are wanted; samples that lack one are left out.
         smoothed: Whether the filter of the experiment is applied.
         with_flattening: As of `sensor_samples`.
+        known: Samples of the sensor, without a filter, whose expected wrenches need not be computed again.
 
     Returns:
         Reading and reference at the same instants.
@@ -149,6 +151,7 @@ def samples_over(
         applied=None if experiment.loads is None else experiment.loads.applied,
         quality=sample_quality(experiment, sensor),
         with_flattening=with_flattening,
+        known=[other.samples for other in known if other.interval.support is interval.support],
     )
     readings = Readings.of(sensor, samples.reading.values, dict(zip(variables, samples.variables.T, strict=True)))
     content = logged_content(experiment, sensor, interval) if interval.use is Use.CALIBRATION else None

@@ -56,6 +56,7 @@ def inspect_experiment(
     with_causes: bool = True,
     calibrations: Mapping[str, Calibration] | None = None,
     sensors: Collection[str] | None = None,
+    computed: SensorRun | None = None,
     progress: Progress = lambda _: None,
 ) -> tuple[Finding, ...]:
     """Find faults of the recording of an experiment, with its robot and sensors, each of which is compared once.
@@ -70,6 +71,7 @@ def inspect_experiment(
         with_causes: Whether faults of experiment file, URDF and log are looked for, about a second per sensor.
         calibrations: Calibrations that read the sensors in place of their priors, by the name of the sensor.
         sensors: Names of the sensors to inspect; all if None.
+        computed: One of them, whose samples need not be computed again; further samples are not kept in it.
         progress: Called with the time that is left, of a log that takes longer than a few seconds.
 
     Returns:
@@ -89,6 +91,8 @@ def inspect_experiment(
         if by_model:
             calibration = (calibrations or {}).get(sensor.name)
             run = SensorRun(experiment, sensor)
+            if computed is not None and computed.sensor is sensor:
+                run = computed.copy()
             at_half = partial(time_left.at, number * _STEPS + 1)
             findings += _model_findings(run, calibration, with_causes=with_causes, at_half=at_half)
     return tuple(sorted(findings, key=lambda finding: finding.start_ns or 0))
@@ -106,7 +110,12 @@ def _once(experiment: Experiment, key: Hashable, find: Callable[[], _Found]) -> 
 
 
 def unreliable_intervals(
-    experiment: Experiment, use: Use, *, by_model: bool = True, sensors: Collection[str] | None = None
+    experiment: Experiment,
+    use: Use,
+    *,
+    by_model: bool = True,
+    sensors: Collection[str] | None = None,
+    computed: SensorRun | None = None,
 ) -> tuple[tuple[Interval, Finding], ...]:
     """Select the findings of `inspect_experiment` inside the intervals of one use.
 
@@ -115,12 +124,13 @@ def unreliable_intervals(
         use: Use of the intervals.
         by_model: As of `inspect_experiment`.
         sensors: As of `inspect_experiment`.
+        computed: As of `inspect_experiment`.
 
     Returns:
         Interval and finding, for findings that make its samples unreliable.
     """
     # a fit checks the causes by itself
-    found = inspect_experiment(experiment, by_model=by_model, with_causes=False, sensors=sensors)
+    found = inspect_experiment(experiment, by_model=by_model, with_causes=False, sensors=sensors, computed=computed)
     findings = [finding for finding in found if finding.kind in _UNRELIABLE]
     return tuple(
         (interval, finding)

@@ -148,11 +148,13 @@ def fix_joints(model: RobotModel, positions: Mapping[str, float]) -> RobotModel:
         positions: Coordinate of each joint; rad, m where prismatic.
 
     Returns:
-        The robot, with fixed joints in their place.
+        The robot, with fixed joints in their place; the same without positions.
 
     Raises:
         RobotError: If a joint is not in the robot, is fixed already, mimics another, or is beyond one turn.
     """
+    if not positions:
+        return model
     joints = dict(model.joints)
     for name in positions:
         if name not in joints:

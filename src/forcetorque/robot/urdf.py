@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TypeVar
 from xml.etree.ElementTree import Element
@@ -15,8 +16,9 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, MissingFileError, RobotError
 from forcetorque.base.inertia import Inertia
-from forcetorque.base.input_file import read_xml, xml_of_text
+from forcetorque.base.input_file import xml_of_text
 from forcetorque.base.pose import make_pose, rotation_from_rpy, split_pose
+from forcetorque.base.run_files import declare_input
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, Mimic, RobotModel, SensorFrame
 
@@ -269,6 +271,9 @@ def _read_common(place: UrdfPlace, tag: Element, *, name: str, joint: str, pose:
 
 _Named = TypeVar("_Named")
 
+_KEPT = 4
+"""Robots that are kept after they were read."""
+
 
 def read_urdf(path: Path | str) -> RobotModel:
     """Read a robot from a URDF file: its links, joints and force-torque sensors.
@@ -290,7 +295,14 @@ def read_urdf(path: Path | str) -> RobotModel:
     file = Path(path)
     if not file.is_file():
         raise MissingFileError(f"{file}: expected a URDF file, there is none")
-    return _robot(read_xml(file), str(file), file.stem)
+    declare_input(file)
+    return _read_once(file.read_bytes(), str(file), file.stem)
+
+
+@lru_cache(maxsize=_KEPT)
+def _read_once(content: bytes, where: str, name: str) -> RobotModel:
+    """Recordings of one robot share its model, and with it the trees that are built of it."""
+    return _robot(xml_of_text(content, where=where), where, name)
 
 
 def read_urdf_text(text: str, *, where: str) -> RobotModel:

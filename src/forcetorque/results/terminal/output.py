@@ -10,7 +10,9 @@ import shlex
 import sys
 from collections.abc import Sequence
 from enum import StrEnum
+from glob import escape
 from io import TextIOWrapper
+from os.path import commonprefix
 from pathlib import Path
 from shutil import get_terminal_size
 from typing import TYPE_CHECKING, TypeVar
@@ -25,6 +27,10 @@ _Drawn = TypeVar("_Drawn", bound="DrawnResult")
 
 _PIPE_WIDTH = 120
 """Columns of a table that goes to a file or a pipe."""
+
+
+_MOST_FILES = 4
+"""Experiment files that a command lists; of more it has a pattern."""
 
 
 class Format(StrEnum):
@@ -105,7 +111,7 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
         show_warnings(result)
         sys.stdout.write(result.text(columns))
         return
-    text = answer_text(answers, columns, shlex.join(map(str, experiments)))
+    text = answer_text(answers, columns, files_text(experiments))
     sys.stdout.write(text)
     if details:
         sys.stdout.write("\n" + result.details(columns))
@@ -117,6 +123,29 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
     sys.stderr.write(warnings_text(tuple(result.cautions()), columns, room))
     sys.stderr.flush()
     sys.stdout.write("details: --details\n")
+
+
+def files_text(files: Sequence[Path]) -> str:
+    """Write files as they are typed in a command.
+
+    Args:
+        files: The files.
+
+    Returns:
+        All of them where they are few; of many a pattern that a shell expands to the same files, or empty where there
+        is none.
+    """
+    names = [str(file) for file in files]
+    if len(names) <= _MOST_FILES:
+        return shlex.join(names)
+    start = commonprefix(names)
+    rest = [name[len(start) :][::-1] for name in names]
+    end = commonprefix(rest)[::-1]
+    folder = Path(files[0].anchor)
+    pattern = f"{escape(start.removeprefix(files[0].anchor))}*{escape(end)}"
+    if sorted(map(str, folder.glob(pattern))) != sorted(names):
+        return ""
+    return "*".join(shlex.quote(text) if text else "" for text in (start, end))
 
 
 def show_warnings(result: Result) -> None:

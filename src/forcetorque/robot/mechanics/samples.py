@@ -242,6 +242,7 @@ def sensor_samples(
     applied: str | None = None,
     quality: SampleQuality | None = None,
     with_flattening: bool = True,
+    known: Sequence[SensorSamples] = (),
 ) -> SensorSamples:
     """Pair the readings of a sensor in an interval with the wrenches expected from the robot model.
 
@@ -261,6 +262,7 @@ def sensor_samples(
         applied: Stream with the `applied_wrench`, which is the reference in place of the model's; none if None.
         quality: What is wrong with each sample of the stream; what the board and the stamps say if None.
         with_flattening: Whether the flattening is evaluated, for a fit.
+        known: Samples on the same support, by the same processing without `smoothing`, whose reference holds here too.
 
     Returns:
         Samples of the interval that lie in no ignored interval and have a finite reading, reference and variables.
@@ -277,7 +279,11 @@ def sensor_samples(
     columns = {}
     if applied is None:
         robot = (recording, model, sensor, source, interval.support, at_ns)
-        columns["reference"], joints = _expected(*robot, processing, evaluator)
+        columns["reference"] = _known(at_ns, known)
+        new = np.isnan(columns["reference"]).any(axis=1)
+        joints: tuple[str, ...] = ()
+        if new.any():
+            columns["reference"][new], joints = _expected(*robot[:-1], at_ns[new], processing, evaluator)
         if with_flattening and not processing.logged_derivatives:
             longer = replace(processing, derivative_window=processing.derivative_window.doubled())
             # near the end of a log there may be no room for the longer window
@@ -358,6 +364,15 @@ def _variables(recording: Recording, source: Stream, variables: Sequence[ScalarS
     for variable in variables:
         require_overlap(source, recording.stream(variable.stream))
     return np.column_stack([np.empty((len(at_ns), 0)), *(variable.at(recording, at_ns) for variable in variables)])
+
+
+def _known(at_ns: IntArray, known: Sequence[SensorSamples]) -> FloatArray:
+    """Expected wrenches of samples at the same instants; shape (n, 6); NaN where there are none."""
+    expected = np.full((len(at_ns), 6), np.nan)
+    for samples in known:
+        _, here, there = np.intersect1d(at_ns, samples.stamp_ns, assume_unique=True, return_indices=True)
+        expected[here] = samples.reference[there]
+    return expected
 
 
 def _applied(recording: Recording, source: Stream, applied: str, at_ns: IntArray) -> FloatArray:
