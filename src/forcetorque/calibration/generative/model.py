@@ -242,8 +242,8 @@ def infer(
     best = _ascend(rows, sizes, sizes.of(start), local, freedom, hold=bool(start))
     if not start and freedom > LOADS and _have_rank(data[0][0].columns[:LOADS, :LOADS]):
         solutions = np.concatenate([row.take_least_squares(freedom, sensor) for row in rows])
-        start = sizes.estimated(solutions**2, np.ones_like(solutions), sizes.places[:, sensor].ravel())
-        second = _ascend(rows, sizes, start, local, freedom)
+        least_squares = sizes.estimated(solutions**2, np.ones_like(solutions), sizes.places[:, sensor].ravel())
+        second = _ascend(rows, sizes, least_squares, local, freedom)
         best = second if second.deviance < best.deviance - _HIGHER else best
     covariance = best.solution.covariance()
     return [
