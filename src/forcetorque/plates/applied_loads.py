@@ -158,15 +158,15 @@ def _require_pole(path: Path, tip_m: FloatArray, head_m: FloatArray) -> None:
     length = float(np.median(np.linalg.norm(head_m - tip_m, axis=1)))
     if not length >= _SHORTEST_POLE_M:
         raise ExperimentError(
-            f"{path}: --tip, --head: expected markers at least {_SHORTEST_POLE_M:g} m apart, got {length:.3g} m: choose "
-            "one near each end of the pole"
+            f"{path}: --tip, --head: expected markers at least {_SHORTEST_POLE_M:g} m apart, got {length:.3g} m: "
+            "choose one near each end of the pole"
         )
     # the distance from the surface, as z points down or up by the order of the corners
     tip, head = (float(np.median(np.abs(marker[:, 2]))) for marker in (tip_m, head_m))
     if tip > _TIP_M or head < tip:
         raise ExperimentError(
-            f"{path}: --tip, --head: expected the tip within {1e3 * _TIP_M:g} mm of the surface and the head farther, got "
-            f"{1e3 * tip:.0f} and {1e3 * head:.0f} mm: are they exchanged?"
+            f"{path}: --tip, --head: expected the tip within {1e3 * _TIP_M:g} mm of the surface and the head farther, "
+            f"got {1e3 * tip:.0f} and {1e3 * head:.0f} mm: are they exchanged?"
         )
 
 
@@ -241,8 +241,8 @@ def _spans(table: Path, end_of_file_s: float) -> list[tuple[float, float]]:
     for number, (start, end) in enumerate(spans, start=1):
         if not 0.0 <= start < end <= end_of_file_s:
             raise ExperimentError(
-                f"{table}: weight {number}: expected start_s before end_s, from 0 to {end_of_file_s:g} s, got {start:g} "
-                f"to {end:g} s: state the interval in which it stands"
+                f"{table}: weight {number}: expected start_s before end_s, from 0 to {end_of_file_s:g} s, got "
+                f"{start:g} to {end:g} s: state the interval in which it stands"
             )
     order = sorted(range(len(spans)), key=spans.__getitem__)
     for one, other in pairwise(order):

@@ -129,10 +129,7 @@ def _require_sign(where: str, raw: FloatArray, known: FloatArray) -> None:
 
 
 def _baseline(raw: FloatArray, known: FloatArray) -> FloatArray:
-    """Constant part of the measurement, which a tare takes away; shape (6,).
-
-    Where the loads do not separate it from gains, it is the mean difference, that is with gains of 1.
-    """
+    """Constant part of the measurement; shape (6,); with gains of 1 where the loads do not separate it from them."""
     ones = np.ones(len(known))
     if np.abs(known @ np.linalg.lstsq(known, ones, rcond=None)[0] - ones).max() < ONE_MASS:
         return np.asarray((raw - known).mean(axis=0), dtype=np.float64)
