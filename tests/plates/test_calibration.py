@@ -16,12 +16,12 @@ from forcetorque.base.errors import ExperimentError, FormatError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.formats.c3d.force_platform import centre_of_pressure
-from forcetorque.plates.applied_loads import AppliedLoads, loads_of_pole
+from forcetorque.plates.applied_loads import AppliedLoads, loads_of_pole, loads_of_weights
 from forcetorque.plates.calibration import calibrate_loads
 from forcetorque.plates.calibration_result import PlateCalibration, save_cal_matrix
 from forcetorque.plates.plate_file import PlateFile, read_plates
 from forcetorque.plates.simulated import SimulatedPlate, write_pole_trial, write_trial
-from forcetorque.results.answer import MOST_LINES, answer_text
+from forcetorque.results.answer import MOST_LINES, Concern, answer_text
 from tests.app.outcome import typed
 
 POLE = {"tip": "pole_tip", "head": "pole_head", "load_cell": "load_cell"}
@@ -187,9 +187,97 @@ def test_refusals_name_what_is_there(tmp_path: Path) -> None:
     pole = ["--tip", "pole_tip", "--head", "pole_head", "--load-cell", "load_cell"]
     done = typed(*words, "child_to_parent", *pole)
     assert done.code == 2
-    assert "measure_direction" in done.err
+    assert "check --measure-direction, or --tip and --head exchanged" in done.err
+    with pytest.raises(ExperimentError, match="--tip, --head: .* are they exchanged"):
+        _loads(read_plates(path), tip="pole_head", head="pole_tip")
+    with pytest.raises(ExperimentError, match="--tip, --head: expected two markers, got 'pole_tip' for both"):
+        _loads(read_plates(path), head="pole_tip")
     with pytest.raises(FormatError, match="expected no file there"):
         write_pole_trial(path, PLATE, np.random.default_rng(5), pushes=8)
+
+
+def test_a_tip_marker_up_the_axis_of_the_pole_moves_no_place(tmp_path: Path) -> None:
+    """The place is where the axis meets the surface; the marker itself is up to 20 mm beside it."""
+    path = tmp_path / "a.c3d"
+    write_pole_trial(path, PLATE, np.random.default_rng(5), pushes=8)
+    plates = read_plates(path)
+    tip, head = (plates.file.marker_labels.index(label) for label in ("pole_tip", "pole_head"))
+    markers = plates.file.markers.copy()
+    markers[:, tip] += 0.05 * (markers[:, head] - markers[:, tip])
+    moved = replace(plates, file=replace(plates.file, markers=markers))
+    np.testing.assert_allclose(_loads(moved).centre_m, _loads(plates).centre_m, atol=1e-6)
+
+
+_HEADING = f"# gravity_m_per_s2: {STANDARD_GRAVITY}\nname,mass_kg,x_m,y_m,z_m,dx,dy,dz,start_s,end_s\n"
+
+
+def _of_table(folder: Path, mass: FloatArray, heading: str = _HEADING, **changes: tuple[float, float]) -> Any:
+    """Calibrate with weights that stand for 1 s each; `changes` has other intervals by name."""
+    places = np.array([[-0.2, -0.15], [0.2, -0.15], [-0.2, 0.15], [0.2, 0.15], [0.0, 0.0], [0.1, 0.0], [0.0, 0.1]])
+    path = _weighed(folder, STANDARD_GRAVITY * mass, places)
+    spans = {f"w{k}": (k + 0.1, k + 0.9) for k in range(len(mass))} | changes
+    rows = [
+        f"{name},{m},{a},{b},0,0,0,1,{start},{end}"
+        for m, (a, b), (name, (start, end)) in zip(mass, places, spans.items(), strict=True)
+    ]
+    table = folder / "w.csv"
+    table.write_text(heading + "\n".join(rows) + "\n")
+    plates = read_plates(path)
+    plate = plates.plate(None)
+    loads = loads_of_weights(plates, plate, table, serial="FP1", measure_direction=DIRECTION)
+    return calibrate_loads(plates, plate, loads, measure_direction=DIRECTION, code_version="0", created="2026-01-01")
+
+
+MASSES = np.array([10.0, 20.0, 30.0, 10.0, 20.0, 30.0, 10.0])
+
+
+@pytest.mark.parametrize(
+    ("interval", "message"),
+    [
+        ((1.8, 2.9), "weights 2 and 3: expected intervals apart"),
+        ((2.1, 9.0), "weight 3: expected start_s before end_s, from 0 to 7 s, got 2.1 to 9 s"),
+        ((2.9, 2.1), "weight 3: expected start_s before end_s"),
+    ],
+)
+def test_intervals_that_overlap_or_leave_the_file_are_refused(
+    tmp_path: Path, interval: tuple[float, float], message: str
+) -> None:
+    """By the numbers of the weights."""
+    with pytest.raises(ExperimentError, match=message):
+        _of_table(tmp_path, MASSES, w2=interval)
+
+
+def test_an_interval_before_the_weight_stands_is_refused(tmp_path: Path) -> None:
+    """The gain would be too large."""
+    with pytest.raises(ExperimentError, match=r"'w2', start_s: expected a steady load from 1.95 to 2.9 s, got Fz -2"):
+        _of_table(tmp_path, MASSES, w1=(1.1, 1.9), w2=(1.95, 2.9))
+
+
+def test_spaces_after_commas_of_the_heading_do_not_matter(tmp_path: Path) -> None:
+    """As in the columns of the loads."""
+    assert _of_table(tmp_path, MASSES, _HEADING.replace(",", ", ")).loads == len(MASSES)
+
+
+def test_weights_of_one_mass_leave_no_baseline_in_the_error_before(tmp_path: Path) -> None:
+    """The mean difference is subtracted, and a note says what the weights do not separate."""
+    result = _of_table(tmp_path, np.full(7, 20.0))
+    assert any("all weights have one mass: gain and offset of Fz cannot be separated" in w for w in result.warnings)
+    assert np.abs(result.centre_shift_mm).max() < 2.0  # mm: the baseline of 0.15 N m alone is 0.8 mm
+
+
+def test_a_gain_far_from_one_and_a_larger_error_of_the_wrench_are_no_success(fitted: PlateCalibration) -> None:
+    """Nor is an error of the centre of pressure near that before."""
+    assert next(fitted.answers()).concern == Concern.NONE
+    row = fitted.components[2].model_copy(update={"gain": 1.3})
+    far = fitted.model_copy(update={"components": (*fitted.components[:2], row, *fitted.components[3:])})
+    assert next(far.answers()).concern == Concern.UNCERTAIN
+    for update in (
+        {"centre_after_mm": 0.95 * fitted.centre_before_mm},
+        {"error_after": 2.0 * np.asarray(fitted.error_before)},
+    ):
+        answer = next(fitted.model_copy(update=update).answers())
+        assert answer.verdict == "NOT BETTER THAN AS MEASURED"
+        assert answer.concern == Concern.BAD
 
 
 @pytest.mark.long

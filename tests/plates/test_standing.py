@@ -100,6 +100,30 @@ def test_refusals_say_what_to_do(tmp_path: Path) -> None:
         read_plates(path).plate(7)
 
 
+@pytest.mark.parametrize("gravity", [0.0, -1.0, np.nan])
+def test_gravity_is_above_zero(tmp_path: Path, gravity: float) -> None:
+    """As of weights on a bench."""
+    write_standing(tmp_path / "a.c3d", [EXACT], np.random.default_rng(2))
+    with pytest.raises(ExperimentError, match="gravity: expected a number above 0 m/s2"):
+        weigh(read_plates(tmp_path / "a.c3d"), gravity=gravity)
+
+
+def test_a_unit_of_length_that_makes_plates_too_large_is_refused(tmp_path: Path) -> None:
+    """And plates without corners are named."""
+    path = tmp_path / "a.c3d"
+    write_standing(path, [EXACT], np.random.default_rng(2))
+    plates = read_plates(path)
+    without = replace(plates, plates=tuple(replace(plate, corners_m=None) for plate in plates.plates))
+    assert any("the corners of plate 1" in text for text in weigh(without, gravity=9.81).contradictions)
+    content = path.read_bytes()
+    assert content.count(b"mm") >= 1
+    index = content.index(b"mm", content.index(b"UNITS"))
+    path.write_bytes(content[:index] + b"  " + content[index + 2 :])
+    with pytest.raises(FormatError, match="length_unit=m: expected edges of 0.05 to 10 m between CORNERS, got 400 to"):
+        read_plates(path, ["length_unit=m"])
+    assert read_plates(path, ["length_unit=mm"]).plates[0].corners_m is not None
+
+
 def test_the_command_prints_the_mass_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """And the plates as a table and as JSON."""
     monkeypatch.chdir(tmp_path)

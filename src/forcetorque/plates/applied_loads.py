@@ -11,9 +11,8 @@ References:
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -27,9 +26,10 @@ from forcetorque.base.wrench import MeasureDirection, reading_sign, transform_wr
 from forcetorque.formats.c3d.conventions import factor_of, stated_unit
 from forcetorque.formats.c3d.force_platform import ForcePlate
 from forcetorque.plates.plate_file import PlateFile
+from forcetorque.plates.standing import STEADY, WINDOW_S
 from forcetorque.recording.stream_faults import true_runs
 from forcetorque.workbench.bench import Bench
-from forcetorque.workbench.loads import BenchLoads, read_loads
+from forcetorque.workbench.loads import BenchLoads, LoadTable, read_loads
 
 _PRESSED = 0.2
 """Share of the largest force of the pole above which it is pressed: light samples determine little."""
@@ -41,6 +41,13 @@ _SLIDING_M = 0.005
 """Distance by which the tip may move in a push; m."""
 _FEWEST = 6
 """Pushes, or weights, without which no matrix is determined."""
+ONE_MASS = 0.01
+"""Relative difference of weights below which gain and offset of Fz cannot be separated."""
+_ONE_MASS_NOTE = "all weights have one mass: gain and offset of Fz cannot be separated; use two masses or more"
+_SHORTEST_POLE_M = 0.1
+"""Least distance of the two markers on the pole."""
+_TIP_M = 0.05
+"""Largest distance of the marker at the tip from the surface."""
 _RANGE = 2.0
 """Full scale over the largest measurement, where a plate states none."""
 
@@ -85,11 +92,14 @@ def loads_of_pole(
         A load per push.
 
     Raises:
-        ExperimentError: If markers or channel are not there, the plate has no place, or there are too few pushes.
+        ExperimentError: If markers or channel are not there or the markers are exchanged, the plate has no place, or
+            there are too few pushes.
     """
     path = plates.file.path
     if plate.lab_H_plate is None:
         raise ExperimentError(f"{path}: plate {plate.number}: expected CORNERS of a rectangle, to place the pole on it")
+    if tip == head:
+        raise ExperimentError(f"{path}: --tip, --head: expected two markers, got {tip!r} for both")
     tip_m, head_m = (_marker(plates, label, option) for label, option in ((tip, "--tip"), (head, "--head")))
     cell = _of_frames(plates, _channel(plates, load_cell)[:, None])[:, 0]
     measured = _of_frames(plates, plate.wrench)
@@ -118,13 +128,15 @@ def loads_of_pole(
             f"{path}: expected at least {_FEWEST} pushes of {_SHORTEST_S:g} s at places of their own, got {len(pushes)}"
             f" ({sliding} slid): press longer, without sliding"
         )
+    plate_H_lab = invert_pose(plate.lab_H_plate)
+    tip_in_plate, head_in_plate = (m @ plate_H_lab[:3, :3].T + plate_H_lab[:3, 3] for m in (tip_m, head_m))
+    pressed = np.concatenate([np.arange(push.start, push.stop) for push in pushes])
+    _require_pole(path, tip_in_plate[pressed], head_in_plate[pressed])
     axis = head_m - tip_m
     length = np.linalg.norm(axis, axis=1, keepdims=True)
     force = -(cell - zero)[:, None] * axis / length
     lab = np.hstack([force, np.cross(tip_m, force)])
-    plate_H_lab = invert_pose(plate.lab_H_plate)
     applied = transform_wrench(plate_H_lab, lab)
-    place = tip_m @ plate_H_lab[:3, :3].T + plate_H_lab[:3, 3]
     names = tuple(f"push {k}" for k in range(1, len(pushes) + 1))
     sign = -reading_sign(measure_direction, child_is_outboard=True)
     wrench = sign * np.array([applied[push].mean(axis=0) for push in pushes])
@@ -133,10 +145,35 @@ def loads_of_pole(
     time = np.array([0.5 * (push.start + push.stop - 1) for push in pushes]) / rate
     return AppliedLoads(
         bench=_bench(plate, serial, loads, raw, time),
-        centre_m=np.array([place[push, :2].mean(axis=0) for push in pushes]),
+        centre_m=np.array(
+            [_on_surface(tip_in_plate[push].mean(axis=0), head_in_plate[push].mean(axis=0)) for push in pushes]
+        ),
         source=f"{len(pushes)} pushes of a pole, up to {peak:.0f} N",
         notes=tuple(notes),
     )
+
+
+def _require_pole(path: Path, tip_m: FloatArray, head_m: FloatArray) -> None:
+    """Refuse markers whose places in the axes of the plate are not those of tip and head; shape (n, 3); m."""
+    length = float(np.median(np.linalg.norm(head_m - tip_m, axis=1)))
+    if not length >= _SHORTEST_POLE_M:
+        raise ExperimentError(
+            f"{path}: --tip, --head: expected markers at least {_SHORTEST_POLE_M:g} m apart, got {length:.3g} m: "
+            "choose one near each end of the pole"
+        )
+    # the distance from the surface, as z points down or up by the order of the corners
+    tip, head = (float(np.median(np.abs(marker[:, 2]))) for marker in (tip_m, head_m))
+    if tip > _TIP_M or head < tip:
+        raise ExperimentError(
+            f"{path}: --tip, --head: expected the tip within {1e3 * _TIP_M:g} mm of the surface and the head farther, "
+            f"got {1e3 * tip:.0f} and {1e3 * head:.0f} mm: are they exchanged?"
+        )
+
+
+def _on_surface(tip_m: FloatArray, head_m: FloatArray) -> FloatArray:
+    """Where the axis of the pole meets the surface, z = 0 in the axes of the plate; shape (2,); m."""
+    axis = head_m - tip_m
+    return np.asarray((tip_m - axis * (tip_m[2] / axis[2]))[:2], dtype=np.float64)
 
 
 def loads_of_weights(
@@ -157,23 +194,28 @@ def loads_of_weights(
 
     Raises:
         FormatError: If the table has no intervals.
-        ExperimentError: If an interval holds no sample, or there are too few weights.
+        ExperimentError: If intervals overlap or leave the file, a load is not steady in its own, or there are too few
+            weights.
     """
     loads = read_loads(table, measure_direction=measure_direction)
-    spans = list(_spans(table))
     if loads.weights is None or len(loads) < _FEWEST:
         raise ExperimentError(f"{table}: expected at least {_FEWEST} weights, got {len(loads)}")
+    rate = plates.file.analog_rate_hz
     time, raw = plates.time_s, []
-    for name, (start, end) in zip(loads.names, spans, strict=True):
+    spans = _spans(table, len(time) / rate)
+    for name, (start, end), known in zip(loads.names, spans, loads.wrench, strict=True):
         within = (time >= start) & (time < end)
+        where = f"{table}: weight {name!r}"
         if not within.any():
-            raise ExperimentError(f"{table}: {name}: expected samples from {start:g} to {end:g} s, the file has none")
+            raise ExperimentError(f"{where}: expected samples from {start:g} to {end:g} s, the file has none")
+        _require_steady(where, (start, end), plate.wrench[within, 2], float(np.linalg.norm(known[:3])), rate)
         raw.append(plate.wrench[within].mean(axis=0))
     middle = np.array([0.5 * (start + end) for start, end in spans])
     return AppliedLoads(
         bench=_bench(plate, serial, loads, np.array(raw), middle),
         centre_m=loads.weights.position_m[:, :2],
         source=f"{len(loads)} weights, up to {loads.weights.total_kg.max():g} kg",
+        notes=(_ONE_MASS_NOTE,) if np.ptp(loads.wrench[:, 2]) < ONE_MASS * np.abs(loads.wrench[:, 2]).max() else (),
     )
 
 
@@ -189,17 +231,38 @@ def _bench(plate: ForcePlate, serial: str, loads: BenchLoads, raw: FloatArray, t
     )
 
 
-def _spans(table: Path) -> Iterator[tuple[float, float]]:
-    lines = [line for line in read_text(table, "a table of weights").splitlines() if line.strip() and line[0] != "#"]
-    for number, row in enumerate(csv.DictReader(lines), start=1):
-        cells = [row.get(key) for key in ("start_s", "end_s")]
-        try:
-            start, end = (float(str(cell)) for cell in cells)
-        except ValueError as error:
-            raise FormatError(
-                f"{table}: weight {number}: expected numbers start_s and end_s, got {cells[0]!r} and {cells[1]!r}"
-            ) from error
-        yield start, end
+def _spans(table: Path, end_of_file_s: float) -> list[tuple[float, float]]:
+    """Intervals of the weights, apart from each other and within the file; s."""
+    rows = LoadTable(str(table), read_text(table, "a table of weights"))
+    try:
+        spans = list(zip(rows.column("start_s").tolist(), rows.column("end_s").tolist(), strict=True))
+    except FormatError as error:
+        raise FormatError(f"{error}: expected numbers start_s and end_s of each weight") from error
+    for number, (start, end) in enumerate(spans, start=1):
+        if not 0.0 <= start < end <= end_of_file_s:
+            raise ExperimentError(
+                f"{table}: weight {number}: expected start_s before end_s, from 0 to {end_of_file_s:g} s, got "
+                f"{start:g} to {end:g} s: state the interval in which it stands"
+            )
+    order = sorted(range(len(spans)), key=spans.__getitem__)
+    for one, other in pairwise(order):
+        if spans[other][0] < spans[one][1]:
+            raise ExperimentError(
+                f"{table}: weights {one + 1} and {other + 1}: expected intervals apart, got {spans[one][0]:g} to "
+                f"{spans[one][1]:g} s and {spans[other][0]:g} to {spans[other][1]:g} s: they stand one after the other"
+            )
+    return spans
+
+
+def _require_steady(where: str, span: tuple[float, float], down: FloatArray, known_N: float, rate_hz: float) -> None:
+    """Refuse an interval in which the weight is put down or taken away."""
+    count = max(1, len(down) // max(1, round(WINDOW_S * rate_hz)))
+    means = np.array([window.mean() for window in np.array_split(down, count)])
+    if not np.abs(means - np.median(means)).max() <= STEADY * known_N:
+        raise ExperimentError(
+            f"{where}, start_s: expected a steady load from {span[0]:g} to {span[1]:g} s, got Fz {means.min():.0f} to "
+            f"{means.max():.0f} N; state the interval in which it stands"
+        )
 
 
 def _of_frames(plates: PlateFile, samples: FloatArray) -> FloatArray:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
@@ -10,8 +12,8 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import WRENCH_COMPONENTS, MeasureDirection
 from forcetorque.formats.c3d.force_platform import ForcePlate, centre_of_pressure
-from forcetorque.plates.applied_loads import AppliedLoads
-from forcetorque.plates.calibration_result import ComponentRow, PlateCalibration, PlatePicture
+from forcetorque.plates.applied_loads import ONE_MASS, AppliedLoads
+from forcetorque.plates.calibration_result import FAR_GAIN, ComponentRow, PlateCalibration, PlatePicture
 from forcetorque.plates.plate_file import PlateFile
 from forcetorque.plates.standing import LOADED_N
 from forcetorque.workbench.recording import BenchRecording
@@ -47,6 +49,7 @@ def calibrate_loads(
     Raises:
         FitError: If the loads determine no matrix, or contradict the measurements.
     """
+    _require_sign(f"{plates.file.path}: plate {plate.number}", loads.bench.raw, loads.bench.loads.wrench)
     recording = BenchRecording.of(loads.bench, measure_direction=measure_direction, frame=plate.name)
     fit = fit_sensor(recording, np.random.default_rng(0), with_series=False)
     if fit.fitted is None or fit.row.held_out is None or fit.row.prior is None:
@@ -65,13 +68,14 @@ def calibrate_loads(
         for wrench in (fit.bench.raw - _baseline(fit.bench.raw, known), left_out)
     )
     matrix = calibration.matrix
+    components = _component_rows(matrix, fit.fitted.fit.posterior.matrix_error(matrix))
     return PlateCalibration(
         trial=str(plates.file.path),
         plate=plate.number,
         serial=loads.bench.serial,
         source=loads.source,
         loads=len(known),
-        components=_component_rows(matrix, fit.fitted.fit.posterior.matrix_error(matrix)),
+        components=components,
         unmoved=fit.row.unmoved,
         centre_before_mm=_rms(before),
         centre_shift_mm=tuple(before.mean(axis=0).tolist()),
@@ -83,7 +87,7 @@ def calibrate_loads(
         cal_matrix=None
         if (values := corrected_cal_matrix(plate, matrix)) is None
         else tuple(map(tuple, values.tolist())),
-        warnings=(*loads.notes, *fit.warnings),
+        warnings=(*loads.notes, *_gain_warnings(components), *fit.warnings),
         calibration=calibration,
         picture=PlatePicture(
             half_edges_mm=None if plate.half_edges_m is None else 1e3 * plate.half_edges_m,
@@ -113,10 +117,34 @@ def corrected_cal_matrix(plate: ForcePlate, matrix: FloatArray) -> FloatArray | 
     return np.asarray((inner * plate.unit_factors / plate.unit_factors[:, None]) @ plate.cal_matrix, dtype=np.float64)
 
 
+def _require_sign(where: str, raw: FloatArray, known: FloatArray) -> None:
+    """Refuse measurements that fall where the loads rise."""
+    measured, expected = raw - raw.mean(axis=0), known - known.mean(axis=0)
+    size = np.repeat([1.0, _LEVER_M], 3)
+    if ((measured / size) * (expected / size)).sum() < 0.0:
+        raise FitError(
+            f"{where}: expected channels with the sign of the loads, got the opposite: check --measure-direction, or "
+            "--tip and --head exchanged"
+        )
+
+
 def _baseline(raw: FloatArray, known: FloatArray) -> FloatArray:
-    """Constant part of the measurement, which a tare takes away; shape (6,)."""
-    design = np.hstack([known, np.ones((len(known), 1))])
+    """Constant part of the measurement; shape (6,); with gains of 1 where the loads do not separate it from them."""
+    ones = np.ones(len(known))
+    if np.abs(known @ np.linalg.lstsq(known, ones, rcond=None)[0] - ones).max() < ONE_MASS:
+        return np.asarray((raw - known).mean(axis=0), dtype=np.float64)
+    design = np.hstack([known, ones[:, None]])
     return np.asarray(np.linalg.lstsq(design, raw, rcond=None)[0][-1], dtype=np.float64)
+
+
+def _gain_warnings(components: Sequence[ComponentRow]) -> tuple[str, ...]:
+    far = [f"{row.component} {row.gain:.2f}" for row in components if abs(row.gain - 1.0) > FAR_GAIN]
+    if not far:
+        return ()
+    return (
+        f"expected gains within {100.0 * FAR_GAIN:.0f} % of 1, got {', '.join(far)}: check the loads, their times and "
+        "units",
+    )
 
 
 def _rms(errors: FloatArray) -> float:

@@ -8,16 +8,23 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
+import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import write_bytes_atomically
+from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import amount, plus_minus
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, WrenchValues, table_of
+
+FAR_GAIN = 0.1
+"""Distance of a gain from 1 beyond which the loads are doubtful (heuristic)."""
+_BETTER = 0.8
+"""Share of the error before that the error after must stay below, to be called better (heuristic)."""
 
 
 class ComponentRow(Row):
@@ -105,8 +112,12 @@ class PlateCalibration(DrawnResult):
         Yields:
             One answer.
         """
-        is_better = self.centre_after_mm < self.centre_before_mm
+        after, before = np.asarray(self.error_after), np.asarray(self.error_before)
+        is_better = self.centre_after_mm < _BETTER * self.centre_before_mm and all(
+            np.linalg.norm(after[half]) <= np.linalg.norm(before[half]) for half in FORCE_AND_MOMENT
+        )
         gains = [row.gain for row in self.components]
+        is_doubtful = bool(self.unmoved) or max(abs(gain - 1.0) for gain in gains) > FAR_GAIN
         worst = max(self.components, key=lambda row: row.crosstalk_percent)
         width = max(row.half_width_95 for row in self.components)
         shift = plus_minus(self.centre_shift_mm, self.centre_shift_half_width_95_mm, "mm")
@@ -128,7 +139,7 @@ class PlateCalibration(DrawnResult):
             if self.file is not None
             else "add -o FILE for the calibration, --cal-matrix FILE for motion capture",
             written=(self.file, self.figure_file),
-            concern=Concern.UNCERTAIN if self.unmoved else Concern.NONE if is_better else Concern.BAD,
+            concern=Concern.BAD if not is_better else Concern.UNCERTAIN if is_doubtful else Concern.NONE,
         )
 
     def blocks(self) -> Iterator[Table | str]:

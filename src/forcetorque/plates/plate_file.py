@@ -13,8 +13,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError
 from forcetorque.base.toml_file import checked_tables
 from forcetorque.formats.c3d.c3d_file import C3dFile
-from forcetorque.formats.c3d.conventions import C3dLog
-from forcetorque.formats.c3d.force_platform import ForcePlate, force_plates
+from forcetorque.formats.c3d.conventions import C3dLog, factor_of, stated_unit
+from forcetorque.formats.c3d.force_platform import EDGE_M, ForcePlate, force_plates
 from forcetorque.formats.c3d.log_format import determined_file
 
 
@@ -68,7 +68,8 @@ def read_plates(path: Path | str, stated: Collection[str] = ()) -> PlateFile:
         File and plates.
 
     Raises:
-        FormatError: If the file is damaged, has no plate, or leaves something open that is not stated.
+        FormatError: If the file is damaged, has no plate, leaves something open that is not stated, or the unit of
+            length that is stated makes no edge one of a plate.
     """
     entries = [entry.partition("=") for entry in stated]
     for entry, (key, equals, value) in zip(stated, entries, strict=True):
@@ -80,4 +81,20 @@ def read_plates(path: Path | str, stated: Collection[str] = ()) -> PlateFile:
     plates = force_plates(file, table)
     if not plates:
         raise FormatError(f"{path}: expected force plates, FORCE_PLATFORM:USED is 0: export the trial with its plates")
+    _require_length_unit(file, table)
     return PlateFile(file=file, table=table, plates=plates)
+
+
+def _require_length_unit(file: C3dFile, table: C3dLog) -> None:
+    """Refuse a stated unit that no edge of a plate can have; a file without corners has none to compare."""
+    if factor_of(stated_unit(file.length_unit), "m") is not None or table.length_unit is None:
+        return
+    factor, corners = factor_of(table.length_unit, "m"), file.numbers("FORCE_PLATFORM:CORNERS", 3, 4, None)
+    if factor is None or corners is None or not corners.any():
+        return
+    edges = factor * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=0)
+    if not ((edges > EDGE_M[0]) & (edges < EDGE_M[1])).any():
+        raise FormatError(
+            f"{file.path}: --recording length_unit={table.length_unit}: expected edges of {EDGE_M[0]:g} to "
+            f"{EDGE_M[1]:g} m between CORNERS, got {edges.min():g} to {edges.max():g} m: state the unit of the file"
+        )

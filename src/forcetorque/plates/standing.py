@@ -11,16 +11,16 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import mean_error
-from forcetorque.formats.c3d.force_platform import ForcePlate, centre_of_pressure
+from forcetorque.formats.c3d.force_platform import EDGE_M, ForcePlate, centre_of_pressure
 from forcetorque.plates.plate_file import PlateFile
 from forcetorque.plates.result import PlateRow, PlateWeight
 from forcetorque.recording.stream_faults import true_runs
 
 LOADED_N = 20.0
 """Force below which a plate counts as free: its centre of pressure is noise then."""
-_WINDOW_S = 0.1
+WINDOW_S = 0.1
 """Windows whose means show whether the load is at rest."""
-_STEADY = 0.05
+STEADY = 0.05
 """Share of the force by which the means of windows may depart from their median."""
 _LIGHTEST = 1.0 / 3.0
 """Share of the largest force below which nobody stands on the plates with all of the weight (heuristic)."""
@@ -57,9 +57,11 @@ def weigh(
         Mass, centre of pressure on each plate, and contradictions.
 
     Raises:
-        ExperimentError: If nothing stands still on the plates, or the interval holds no load.
+        ExperimentError: If gravity is not above 0, nothing stands still on the plates, or the interval holds no load.
     """
     path, time = plates.file.path, plates.time_s
+    if not 0.0 < gravity < np.inf:
+        raise ExperimentError(f"--gravity: expected a number above 0 m/s2, got {gravity:g}")
     down = np.column_stack([plate.wrench[:, 2] for plate in plates.plates])  # (n, plates)
     if not np.isfinite(down).all():
         raise ExperimentError(f"{path}: expected finite forces, got samples without; export the trial again")
@@ -68,7 +70,7 @@ def weigh(
         if within is None:
             raise ExperimentError(
                 f"{path}: expected {_SHORTEST_S:g} s in which the total force is above {LOADED_N:g} N, above a third "
-                f"of its largest, and within {100.0 * _STEADY:.0f} % of its median, got none: nobody stands still; "
+                f"of its largest, and within {100.0 * STEADY:.0f} % of its median, got none: nobody stands still; "
                 "choose --start-s and --end-s"
             )
     else:
@@ -92,6 +94,7 @@ def weigh(
         contradictions=(
             *_signs(rows),
             *_untared(plates, down),
+            *_without_corners(plates),
             *_outside(rows),
             *_sideways(bearing, within),
             *_apart(rows),
@@ -107,7 +110,7 @@ def _total(down: FloatArray) -> FloatArray:
 
 def _longest_rest(time: FloatArray, total: FloatArray, allowed: BoolArray) -> BoolArray | None:
     """Samples of the longest interval in which a force is steady; None for none."""
-    window = np.floor(time / _WINDOW_S + 1e-6).astype(np.int64)
+    window = np.floor(time / WINDOW_S + 1e-6).astype(np.int64)
     count = np.bincount(window)
     mean = np.bincount(window, total) / np.maximum(count, 1)
     is_free = np.bincount(window, ~allowed) > 0
@@ -116,12 +119,12 @@ def _longest_rest(time: FloatArray, total: FloatArray, allowed: BoolArray) -> Bo
     for first, last in true_runs(loaded):
         values = mean[first : last + 1]
         level = np.median(values)
-        for low, high in true_runs(np.abs(values - level) < _STEADY * abs(level)):
+        for low, high in true_runs(np.abs(values - level) < STEADY * abs(level)):
             # the first and last window hold the step onto the plate
             start, end = first + low + 1, first + high - 1
             if best is None or end - start > best[1] - best[0]:
                 best = (start, end)
-    if best is None or (best[1] - best[0] + 1) * _WINDOW_S < _SHORTEST_S - 1e-9:
+    if best is None or (best[1] - best[0] + 1) * WINDOW_S < _SHORTEST_S - 1e-9:
         return None
     return (window >= best[0]) & (window <= best[1])
 
@@ -183,6 +186,15 @@ def _untared(plates: PlateFile, down: FloatArray) -> Iterator[str]:
                 f"plate {plate.number} measures {rest:.1f} N while nothing stands on it: tare it, or state "
                 "FORCE_PLATFORM:ZERO"
             )
+
+
+def _without_corners(plates: PlateFile) -> Iterator[str]:
+    numbers = [str(plate.number) for plate in plates.plates if plate.corners_m is None]
+    if numbers:
+        yield (
+            f"the corners of plate {', '.join(numbers)} are those of no rectangle with edges of {EDGE_M[0]:g} to "
+            f"{EDGE_M[1]:g} m, so its centre of pressure is not checked: check CORNERS and length_unit"
+        )
 
 
 def _outside(rows: Sequence[PlateRow]) -> Iterator[str]:

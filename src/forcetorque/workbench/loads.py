@@ -199,13 +199,22 @@ def read_loads(source: Path | str, *, measure_direction: MeasureDirection) -> Be
     gravity = _GRAVITY.search(text)
     if gravity is None:
         raise FormatError(f"{where}: expected a line `# gravity_m_per_s2: 9.81` above the heading, got none")
-    return _Table(where, text).loads(_number(f"{where}: gravity_m_per_s2", gravity[1]), measure_direction)
+    return LoadTable(where, text).loads(_number(f"{where}: gravity_m_per_s2", gravity[1]), measure_direction)
 
 
-class _Table:
+class LoadTable:
     """Rows of a table below its heading."""
 
     def __init__(self, where: str, text: str) -> None:
+        """Divide a text into fields without the spaces around them.
+
+        Args:
+            where: File, for messages.
+            text: Its text; lines that begin with # are comments.
+
+        Raises:
+            FormatError: If there is no row, or one has another number of fields than the heading.
+        """
         self._where = where
         rows = [
             (line, [cell.strip() for cell in next(csv.reader([content]))])
@@ -220,7 +229,18 @@ class _Table:
                 raise FormatError(f"{where}:{line}: expected {len(self._heading)} fields, got {len(cells)}")
 
     def loads(self, gravity: float, measure_direction: MeasureDirection) -> BenchLoads:
-        """The table as loads."""
+        """Compute the loads.
+
+        Args:
+            gravity: Magnitude of gravity; m/s2.
+            measure_direction: Who acts on whom in the measurement; the load is the child.
+
+        Returns:
+            The loads.
+
+        Raises:
+            UnitError: If x, y and z have several units.
+        """
         mass, kilograms = self._with_unit("mass", _MASS_UNITS)
         structure = self._with_unit("structure", _MASS_UNITS, optional=True)
         axes = [self._with_unit(axis, _LENGTH_UNITS) for axis in "xyz"]
@@ -230,10 +250,10 @@ class _Table:
                 f"{', '.join(name for name, _ in axes)}"
             )
         weights = Weights(
-            mass_kg=kilograms * self._column(mass),
-            structure_kg=structure[1] * self._column(structure[0]) if structure[0] else np.zeros(len(self._rows)),
-            position_m=axes[0][1] * np.column_stack([self._column(name) for name, _ in axes]),
-            direction=np.column_stack([self._column(name) for name in _DIRECTION]),
+            mass_kg=kilograms * self.column(mass),
+            structure_kg=structure[1] * self.column(structure[0]) if structure[0] else np.zeros(len(self._rows)),
+            position_m=axes[0][1] * np.column_stack([self.column(name) for name, _ in axes]),
+            direction=np.column_stack([self.column(name) for name in _DIRECTION]),
             gravity=gravity,
         )
         series = self._cells("series") if "series" in self._heading else ()
@@ -259,7 +279,15 @@ class _Table:
         index = self._heading.index(name)
         return [cells[index] for _, cells in self._rows]
 
-    def _column(self, name: str) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    def column(self, name: str) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+        """Read a column of numbers.
+
+        Args:
+            name: Its heading.
+
+        Returns:
+            Finite numbers in the unit of the column; shape (n,).
+        """
         cells = zip(self._rows, self._cells(name), strict=True)
         return np.array([_number(f"{self._where}:{line}: {name}", cell) for (line, _), cell in cells])
 

@@ -26,7 +26,7 @@ from forcetorque.formats.c3d.conventions import C3dLog, OriginFrom, factor_of, s
 
 _CHANNELS: Final = {1: 6, 2: 6, 3: 8, 4: 6}
 """Number of channels of each type that is read."""
-_EDGE_M: Final = (0.05, 10.0)
+EDGE_M: Final = (0.05, 10.0)
 """Least and largest edge of a plate; m."""
 _SQUARE: Final = 0.05
 """Cosine of the angle between two edges up to which a plate is a rectangle."""
@@ -289,7 +289,7 @@ def _is_rectangle(corners_m: FloatArray) -> bool:
     edges = np.array([one - two, two - three, three - four, four - one])
     with np.errstate(over="ignore", invalid="ignore"):
         lengths = np.linalg.norm(edges, axis=1)
-        if not ((lengths > _EDGE_M[0]) & (lengths < _EDGE_M[1])).all():
+        if not ((lengths > EDGE_M[0]) & (lengths < EDGE_M[1])).all():
             return False
         turned = np.roll(edges, 1, axis=0)
         cosines = (edges * turned).sum(axis=1) / (lengths * np.roll(lengths, 1))
