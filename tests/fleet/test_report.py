@@ -6,11 +6,12 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.base.errors import ExperimentError, ForceTorqueError, MissingFileError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.loading import load_experiment
@@ -18,6 +19,8 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.fleet.add import add_recordings
 from forcetorque.fleet.commands import fleet_report
 from forcetorque.fleet.dataset import Dataset
+from forcetorque.fleet.evaluate import evaluate_dataset
+from forcetorque.fleet.job import CalibrateJob, run_calibrate
 from forcetorque.fleet.report import FleetReport
 from forcetorque.fleet.report_page import page
 from forcetorque.fleet.run import run_plan
@@ -99,6 +102,25 @@ def test_damaged_sensors_come_first(base: Path, tmp_path: Path) -> None:
     assert "expected a log" in _texts(document.sections[titles.index("Recordings that failed")])
 
 
+def test_every_verdict_has_the_last_recording(base: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Report, plan and evaluation say the same of a sensor that was damaged after a healthy day."""
+    serials = _fleet(base, 2, tmp_path, {1: "gain"})
+    dataset, files = Dataset(tmp_path / "fleet"), {s: tmp_path / "calibrations" / f"{s}.json" for s in serials}
+    reported = {row.serial: (row.decision, row.reason) for row in _report(tmp_path).ranked}
+    for serial, file in files.items():
+        (evaluated,) = evaluate_dataset(dataset, {str(file): read_calibration(file)}).load_cases
+        assert reported[serial] == (evaluated.decision, evaluated.reasons[0].text)
+        assert evaluated.message.endswith(evaluated.reasons[0].text)
+    assert "in the last recording" in reported[serials[1]][1]
+    assert reported[serials[1]][0] != "use"
+    assert "in the last recording" not in reported[serials[0]][1]
+    made = SimpleNamespace(save=lambda: None, calibrations=[SimpleNamespace(calibration=read_calibration(file))])
+    monkeypatch.setattr("forcetorque.fleet.job.calibrate_for_file", lambda *_, **__: made)
+    monkeypatch.setattr("forcetorque.fleet.job.Dataset.moments", lambda *_: [])
+    job = CalibrateJob(serial=serials[1], dataset=dataset.folder, folder=tmp_path, code_version="1", created="2020")
+    assert run_calibrate(job).decision == reported[serials[1]][0]
+
+
 @pytest.mark.usefixtures("blank_pictures")
 def test_the_page_is_written(base: Path, tmp_path: Path, run: Run) -> None:
     """As HTML alone; a sensor without validation, and no calibration at all, give a page without ranks."""
@@ -121,7 +143,9 @@ def test_two_calibrations_of_a_sensor_are_refused(base: Path, tmp_path: Path) ->
     (warning,) = fleet_report(base / "fleet", calibrations=[own]).warnings
     assert "(FT000), which the dataset does not have" in warning
     (tmp_path / "empty").mkdir()
-    with pytest.raises(ExperimentError, match=r"expected calibrations, \*.json, in the folder, got none"):
+    (tmp_path / "calibrations" / "a_report.json").write_text('{"schema": "forcetorque/other/1"}', encoding="utf-8")
+    assert fleet_report(base / "fleet", calibrations=[own.parent]).warnings == (warning,)
+    with pytest.raises(MissingFileError, match=r"expected a folder of calibrations, .json; it holds none"):
         fleet_report(base / "fleet", calibrations=[tmp_path / "empty"])
 
 

@@ -12,14 +12,12 @@ from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.summary import LITTLE_LEARNT, information_gains
 from forcetorque.evaluation.answers import CONCERN
 from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, Decision, LoadCaseVerdict
-from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.calibration.artefact import Calibration, calibrations_in, read_calibration
 from forcetorque.experiment.calibration.moments import Moments
-from forcetorque.fleet.block_errors import ErrorInterval
 from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.failures import stored_failures
 from forcetorque.fleet.sensor_evaluation import RecordingError, SensorEvaluation
@@ -27,7 +25,7 @@ from forcetorque.fleet.sensor_record import SensorRecord
 from forcetorque.fleet.table import FleetSensor, fleet_sensors
 from forcetorque.results.answer import typed
 from forcetorque.results.capability import named
-from forcetorque.results.number_text import amount, finite_or_none
+from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
 
@@ -263,19 +261,18 @@ def fleet_report_of(folder: Path, calibrations: Sequence[Path], progress: Progre
 
 def _by_serial(paths: Sequence[Path]) -> dict[str, tuple[str, Calibration]]:
     """File and calibration of every serial number."""
-    files = [file for path in paths for file in (sorted(path.glob("*.json")) if path.is_dir() else [path])]
-    if paths and not files:
-        raise ExperimentError(f"{paths[0]}: expected calibrations, *.json, in the folder, got none")
+    read: dict[str, Calibration] = {}
+    for path in paths:
+        read |= calibrations_in(path) if path.is_dir() else {str(path): read_calibration(path)}
     known: dict[str, tuple[str, Calibration]] = {}
-    for file in dict.fromkeys(files):
-        calibration = read_calibration(file)
+    for file, calibration in read.items():
         serial = calibration.sensor.serial
         if serial in known:
             raise ExperimentError(
                 f"{file}: expected one calibration of every sensor, got {known[serial][0]} of {serial!r} too; name the "
                 "one that is in use"
             )
-        known[serial] = str(file), calibration
+        known[serial] = file, calibration
     return known
 
 
@@ -292,25 +289,19 @@ def _row(sensor: FleetSensor, evaluation: SensorEvaluation, verdict: LoadCaseVer
     """The sensor at one load case, by the quantity that is larger against what is allowed."""
     specified = {case.name: case.load_case.states_requirement for one in evaluation.stored for case in one.load_cases}
     limits = {row.quantity: row.allowed for row in verdict.errors}
-    means, tared, last = evaluation.last_means(file), verdict.offset == "tared", evaluation.evaluated[-1]
-    quantities: tuple[tuple[Literal["force", "moment"], Literal["N", "N m"]], ...] = (("force", "N"), ("moment", "N m"))
-    sizes = [
-        (ErrorInterval.of(means, axes, tared=tared), limits.get(quantity), quantity, unit)
-        for axes, (quantity, unit) in zip(FORCE_AND_MOMENT, quantities, strict=True)
-    ]
-    error, allowed, quantity, unit = max(sizes, key=lambda one: one[0].size / one[1] if one[1] else 0.0)
-    decision, reason = _decision(verdict, f"its {quantity} error", error, allowed, unit)
+    last, worst = evaluation.evaluated[-1], evaluation.last_error(verdict)
+    error, allowed = worst.interval, worst.allowed
     return RankedSensor(
         rank=1,
         robot=sensor.robot,
         sensor=sensor.sensor,
         serial=sensor.serial,
         calibration=file,
-        decision=decision,
+        decision=verdict.decision,
         load_case=verdict.load_case,
         loads=verdict.loads,
-        quantity=quantity,
-        unit=unit,
+        quantity=worst.quantity,
+        unit=worst.unit,
         error=error.size,
         error_at_least=error.at_least,
         error_at_most=finite_or_none(error.at_most),
@@ -324,20 +315,10 @@ def _row(sensor: FleetSensor, evaluation: SensorEvaluation, verdict: LoadCaseVer
         recordings=len(evaluation.evaluated),
         findings=sensor.findings,
         most_frequent_finding=sensor.most_frequent_finding,
-        reason=reason,
+        reason=verdict.reasons[0].text,
         step="",
         command="",
     )
-
-
-def _decision(
-    verdict: LoadCaseVerdict, what: str, error: ErrorInterval, allowed: float | None, unit: str
-) -> tuple[Decision, str]:
-    """The verdict on all recordings, unless the last one is worse: earlier ones were before a sensor was damaged."""
-    if allowed is None or error.size <= allowed or verdict.decision == "do not use":
-        return verdict.decision, verdict.reasons[0].text
-    text = f"in the last recording {what} is {amount(error.size, unit)}, {amount(allowed, unit)} allowed"
-    return ("do not use" if error.at_least > allowed else "not enough data"), text
 
 
 def _next(row: RankedSensor, verdict: LoadCaseVerdict, calibration: Calibration) -> tuple[str, str]:

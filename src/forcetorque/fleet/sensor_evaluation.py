@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -18,11 +19,12 @@ from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
-    SecondMeans,
     evidence_of_means,
     moved_and_load,
 )
 from forcetorque.evaluation.load_cases.verdict import (
+    LOOK_FOR_CAUSE,
+    Decision,
     LoadCaseVerdict,
     Reason,
     load_case_verdict,
@@ -34,12 +36,19 @@ from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.calibration.provenance import FittedInterval
 from forcetorque.experiment.calibrations_under_test import EvaluatedRow, tested_calibrations
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.fleet.block_errors import BlockErrors, BlockPair, LargerError, evaluation_of, second_means
+from forcetorque.fleet.block_errors import (
+    BlockErrors,
+    BlockPair,
+    ErrorInterval,
+    LargerError,
+    evaluation_of,
+    second_means,
+)
 from forcetorque.fleet.dataset import RecordingNames
 from forcetorque.fleet.evaluation_blocks import StoredEvaluation
 from forcetorque.fleet.sensor_record import SensorRecord
 from forcetorque.recording.fingerprint import kept_hashes
-from forcetorque.results.number_text import finite_or_none
+from forcetorque.results.number_text import amount, finite_or_none
 from forcetorque.results.table import Row, Shown, ShownWrench, WrenchValues
 
 
@@ -92,6 +101,35 @@ class RecordingError(Row):
     """Norm of the mean force error with the offset of the calibration."""
     offset_error_Nm: Annotated[float, Shown("offset", "N m", digits=3)]
     """The same of the moment."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LastError:
+    """Error of a calibration in the last recording, of the quantity that is larger against what is allowed."""
+
+    quantity: Literal["force", "moment"]
+    """What the error is of."""
+    unit: Literal["N", "N m"]
+    """Its unit."""
+    interval: ErrorInterval
+    """Its size with its 95 % interval."""
+    allowed: float | None
+    """What is allowed at the load case; None where no limit exists."""
+
+    def reason(self) -> Reason | None:
+        """Tell what it says against a calibration.
+
+        Returns:
+            The reason; None where the error is within the limit, or there is none.
+        """
+        if self.allowed is None or self.interval.size <= self.allowed:
+            return None
+        text = (
+            f"in the last recording its {self.quantity} error is {amount(self.interval.size, self.unit)}, "
+            f"{amount(self.allowed, self.unit)} allowed"
+        )
+        against: Literal["use", "data"] = "use" if self.interval.at_least > self.allowed else "data"
+        return Reason(against=against, text=text, remedy=LOOK_FOR_CAUSE)
 
 
 class SensorEvaluation:
@@ -195,16 +233,31 @@ class SensorEvaluation:
         priors = len(self.candidates) - len(self.calibrations)
         return next(k for k, one in enumerate(self.candidates) if one.name == name and k >= priors)
 
-    def last_means(self, name: str) -> list[SecondMeans]:
-        """Give the errors of a calibration in the last recording.
+    def last_error(self, verdict: LoadCaseVerdict) -> LastError:
+        """Give the error of a calibration in the last recording.
 
         Args:
-            name: Name of the calibration.
+            verdict: Verdict on the calibration at a load case, which has the limits.
 
         Returns:
-            Means over seconds of its sessions.
+            The error; without its mean where the load case is tared.
         """
-        return self.means[self.place(name)][-len(self.stored[-1].sessions) :]
+        means = self.means[self.place(verdict.calibration)][-len(self.stored[-1].sessions) :]
+        limits = {row.quantity: row.allowed for row in verdict.errors}
+        quantities: tuple[tuple[Literal["force", "moment"], Literal["N", "N m"]], ...] = (
+            ("force", "N"),
+            ("moment", "N m"),
+        )
+        errors = [
+            LastError(
+                quantity=quantity,
+                unit=unit,
+                interval=ErrorInterval.of(means, axes, tared=verdict.offset == "tared"),
+                allowed=limits.get(quantity),
+            )
+            for axes, (quantity, unit) in zip(FORCE_AND_MOMENT, quantities, strict=True)
+        ]
+        return max(errors, key=lambda one: one.interval.size / one.allowed if one.allowed else 0.0)
 
     def over_time(self, name: str) -> tuple[RecordingError, ...]:
         """Give the error of a calibration in every recording.
@@ -221,7 +274,9 @@ class SensorEvaluation:
         )
 
     def verdicts(self) -> Iterator[LoadCaseVerdict]:
-        """Decide whether calibrations may be used.
+        """Decide whether calibrations may be used: by all recordings, and by the last one alone.
+
+        Recordings before a sensor was damaged would hide the damage in errors of all of them together.
 
         Yields:
             One per calibration and load case.
@@ -231,7 +286,7 @@ class SensorEvaluation:
             measured: Evidence = evidence_of_means(self.means[k])
             notes = [Reason(against=None, text=text) for text in self._notes(name, calibration)]
             for case in self._load_cases():
-                yield load_case_verdict(
+                verdict = load_case_verdict(
                     self.sensor,
                     case,
                     (name, calibration),
@@ -239,6 +294,21 @@ class SensorEvaluation:
                     partial(self._worse, k),
                     notes,
                 )
+                yield self._with_last(verdict)
+
+    def _with_last(self, verdict: LoadCaseVerdict) -> LoadCaseVerdict:
+        """The verdict on all recordings, unless the last one is worse."""
+        reason = self.last_error(verdict).reason()
+        if reason is None or verdict.decision == "do not use":
+            return verdict
+        decision: Decision = "do not use" if reason.against == "use" else "not enough data"
+        return verdict.model_copy(
+            update={
+                "decision": decision,
+                "message": f"{decision} for {verdict.loads}: {reason.text}",
+                "reasons": (reason, *verdict.reasons),
+            }
+        )
 
     def _load_cases(self) -> list[LoadCase]:
         """Load cases that files specify; else of the default ones that with the largest loads."""
