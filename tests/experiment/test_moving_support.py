@@ -145,7 +145,7 @@ def test_a_contact_that_is_stated_is_not_added_again(arm: Path) -> None:
     ("links", "match"),
     [
         ('["base", "nose"]', r"contact_links: robot 'arm' has no link 'nose'"),
-        ("[]", "at least 1 item"),
+        ("[]", "at least 1 value"),
         ('["base"]\nsupport = "base"', "expected support or contact_links, got both"),
     ],
 )
