@@ -15,6 +15,7 @@ from forcetorque.base.errors import ChangingFileError, ExperimentError, FormatEr
 from forcetorque.fleet import add
 from forcetorque.fleet.add import add_recording
 from forcetorque.fleet.dataset import Dataset
+from forcetorque.fleet.failures import Failures, stored_failures
 from forcetorque.fleet.run import run_plan
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.fleet.source import RecordingSource
@@ -100,6 +101,37 @@ def test_a_log_that_grows_while_it_is_read(days: Path, monkeypatch: pytest.Monke
     monkeypatch.undo()
     log.write_bytes(whole)
     assert [row.state for row in add_recording(source, folder, OPTIONS)] == ["added"]
+
+
+def test_a_recording_of_an_installed_robot_is_known_again(days: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is added by the name of its robot, not read a second time, and changed where the file of the robot is."""
+    description = days / "cache" / "arms" / "urdf"
+    (days / "cache" / "arms" / ".git").mkdir(parents=True)
+    (days / "cache" / "arms" / ".git" / "HEAD").write_text("1234\n", encoding="utf-8")
+    description.mkdir()
+    shutil.move(days / "robot.urdf", description / "armlet.urdf")
+    monkeypatch.setenv("ROBOT_DESCRIPTIONS_CACHE", str(days / "cache"))
+    file, folder = days / FILES[0], days / "fleet"
+    file.write_text(file.read_text(encoding="utf-8").replace('"robot.urdf"', '"armlet"'), encoding="utf-8")
+    source = RecordingSource(experiment=file)
+    assert [row.state for row in add_recording(source, folder, OPTIONS)] == ["added"]
+    with monkeypatch.context() as patch:
+        patch.setattr(RecordingSource, "load", lambda own: pytest.fail("it is read again"))
+        assert [row.state for row in add_recording(source, folder, OPTIONS)] == ["present"]
+    with (description / "armlet.urdf").open("a", encoding="utf-8") as stream:
+        stream.write("<!-- another -->\n")
+    with pytest.raises(ExperimentError, match=r"changed after it was added to .*armlet \(arms 1234\)"):
+        add_recording(source, folder, OPTIONS)
+
+
+def test_a_failure_is_forgotten_when_the_recording_is_added(days: Path) -> None:
+    """By `fleet add` as by the plan that failed; a failure of another recording stays."""
+    folder, sources = days / "fleet", [RecordingSource(experiment=days / file) for file in FILES[:2]]
+    kept = Failures(dataset=folder, options=OPTIONS, code_version="1")
+    for source in sources:
+        kept.keep(source, "damaged")
+    add_recording(sources[0], folder, OPTIONS)
+    assert [one.file for one in stored_failures(folder)] == [str(sources[1].path)]
 
 
 @pytest.mark.long

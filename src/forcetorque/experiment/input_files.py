@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, MissingFileError
 from forcetorque.base.input_file import accept_input
 from forcetorque.base.output_file import real_path
-from forcetorque.robot.installed import installed_robot, is_robot_name
+from forcetorque.robot.installed import installed_robot, installed_robots, is_robot_name
 from forcetorque.robot.model import RobotModel
 
 
@@ -130,6 +130,24 @@ class Inputs:
             or by name, package and version of an installed robot.
         """
         return {name: sha256_of(path) for name, path in sorted(self._read.items())}
+
+
+def changed_inputs(folder: Path, inputs_sha256: Mapping[str, str]) -> list[str]:
+    """Find inputs that are not what they were.
+
+    Args:
+        folder: Folder of the experiment file.
+        inputs_sha256: SHA-256 by name, as `Inputs.sha256` gives them.
+
+    Returns:
+        Names of those that changed or are gone.
+    """
+    files = {name: folder / name for name in inputs_sha256}
+    if not all(path.is_file() for path in files.values()):  # an installed robot is named by its package and version
+        files |= {robot.source: robot.urdf for robot in installed_robots().values() if robot.source in files}
+    return [
+        name for name, digest in inputs_sha256.items() if not files[name].is_file() or sha256_of(files[name]) != digest
+    ]
 
 
 def sha256_of(path: Path) -> str:

@@ -15,8 +15,9 @@ from forcetorque.base.errors import ChangingFileError, ExperimentError, MissingF
 from forcetorque.base.output_file import real_path
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.input_files import sha256_of
+from forcetorque.experiment.input_files import changed_inputs
 from forcetorque.fleet.dataset import Dataset, RecordFile, require_folder
+from forcetorque.fleet.failures import forget_failures
 from forcetorque.fleet.sensor_record import AddOptions, path_digest, recording_digest, sensor_records
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.results.answer import Answer, typed
@@ -123,7 +124,13 @@ def add_recording(
     Returns:
         A row per sensor.
     """
-    code_version, dataset = version("forcetorque"), Dataset(folder)
+    rows = _added(source, Dataset(folder), options, replace=replace)
+    forget_failures(folder, source)
+    return rows
+
+
+def _added(source: RecordingSource, dataset: Dataset, options: AddOptions, *, replace: bool) -> list[AddedSensor]:
+    code_version = version("forcetorque")
     if (unchanged := _unchanged(source, dataset, options.digest(code_version))) is not None:
         return unchanged
     experiment = source.load()
@@ -153,7 +160,7 @@ def add_recording(
             if not present[record.identity.serial]:
                 dataset.write(record, options)
     for one in replaced:
-        (folder / one.path).unlink(missing_ok=True)
+        (dataset.folder / one.path).unlink(missing_ok=True)
     return [
         AddedSensor(
             file=str(source.path),
@@ -173,12 +180,10 @@ def _unchanged(source: RecordingSource, dataset: Dataset, wanted: str) -> list[A
         return None
     folder = real_path(source.experiment).parent
     written_ns = min((dataset.folder / file.path).stat().st_mtime_ns for file in files)
-    for name, digest in rows[0]["inputs_sha256"].items():
-        path = folder / name
-        if not path.is_file() or sha256_of(path) != digest:
-            return None
     # a new file in a folder that is a log may belong to it
-    if any(one.stat().st_mtime_ns > written_ns for one in source.log_folders()):
+    if changed_inputs(folder, rows[0]["inputs_sha256"]) or any(
+        one.stat().st_mtime_ns > written_ns for one in source.log_folders()
+    ):
         return None
     return [
         AddedSensor(file=str(source.path), sensor=name, serial=serial, state="present")
@@ -188,14 +193,12 @@ def _unchanged(source: RecordingSource, dataset: Dataset, wanted: str) -> list[A
 
 def _refuse_changing(experiment: Experiment, source: RecordingSource) -> None:
     """Refuse a recording that was written to while it was read."""
-    folder = real_path(source.experiment).parent
-    for name, digest in experiment.inputs_sha256.items():
-        path = folder / name
-        if not path.is_file() or sha256_of(path) != digest:
-            raise ChangingFileError(
-                f"{source.path}: expected inputs that do not change while they are read, got {name}, which did; add "
-                "the recording when its log is complete"
-            )
+    changed = changed_inputs(real_path(source.experiment).parent, experiment.inputs_sha256)
+    if changed:
+        raise ChangingFileError(
+            f"{source.path}: expected inputs that do not change while they are read, got {', '.join(changed)}, which "
+            "did; add the recording when its log is complete"
+        )
 
 
 def _refuse_other_robot(

@@ -75,7 +75,7 @@ def fleet_table(
 
 @command(
     None,
-    Saved(flags=("--output", "-o"), help="HTML page to write.", required=True),
+    Saved(flags=("--output", "-o"), help="HTML page to write."),
 )
 def fleet_report(
     dataset: Annotated["Path | str", Option("Folder of a dataset; see docs/fleet.md.")],
@@ -91,7 +91,7 @@ def fleet_report(
     ] = (),
     progress: Annotated["Progress", Option("Called with a line for people.")] = lambda _: None,
 ) -> "FleetReport":
-    """Write one page on the sensors of a dataset, the worst first.
+    """Rank the sensors of a dataset, the worst first, and write one page on them.
 
     Example: forcetorque fleet report fleet -c calibrations -o fleet.html
 

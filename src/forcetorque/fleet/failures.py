@@ -72,14 +72,16 @@ class Failures:
         stored = StoredFailure.model_validate({"file": str(source.path), "error": error})
         write_bytes_atomically(path, (stored.model_dump_json(by_alias=True) + "\n").encode())
 
-    def forget(self, source: RecordingSource) -> None:
-        """Remove what is kept of a recording that was added.
 
-        Args:
-            source: The recording.
-        """
-        for path in self.dataset.glob(f"failures/{path_digest(source.path)}-*.json"):
-            path.unlink(missing_ok=True)
+def forget_failures(dataset: Path, source: RecordingSource) -> None:
+    """Remove what is kept of a recording that was added.
+
+    Args:
+        dataset: Folder of the dataset.
+        source: The recording.
+    """
+    for path in dataset.glob(f"failures/{path_digest(source.path)}-*.json"):
+        path.unlink(missing_ok=True)
 
 
 def stored_failures(dataset: Path) -> list[StoredFailure]:

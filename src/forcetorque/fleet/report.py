@@ -16,7 +16,7 @@ from forcetorque.calibration.summary import LITTLE_LEARNT, information_gains
 from forcetorque.evaluation.answers import CONCERN
 from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, Decision, LoadCaseVerdict
-from forcetorque.experiment.calibration.artefact import Calibration, calibrations_in, read_calibration
+from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.failures import stored_failures
@@ -28,6 +28,7 @@ from forcetorque.results.capability import named
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
+from forcetorque.results.terminal.reading import read_calibrations
 
 DECISIONS: Final[Sequence[Decision]] = sorted(CONCERN, key=CONCERN.__getitem__, reverse=True)
 """Verdicts, the one that asks most for attention first."""
@@ -217,7 +218,8 @@ def fleet_report_of(folder: Path, calibrations: Sequence[Path], progress: Progre
         The report.
 
     Raises:
-        ExperimentError: If two calibrations are of one sensor, or a folder has none.
+        MissingFileError: If there is no dataset, or a folder has no calibration.
+        ExperimentError: If two calibrations are of one sensor.
     """
     known, dataset = _by_serial(calibrations), Dataset.opened(folder)
     sensors = fleet_sensors(dataset)
@@ -261,11 +263,8 @@ def fleet_report_of(folder: Path, calibrations: Sequence[Path], progress: Progre
 
 def _by_serial(paths: Sequence[Path]) -> dict[str, tuple[str, Calibration]]:
     """File and calibration of every serial number."""
-    read: dict[str, Calibration] = {}
-    for path in paths:
-        read |= calibrations_in(path) if path.is_dir() else {str(path): read_calibration(path)}
     known: dict[str, tuple[str, Calibration]] = {}
-    for file, calibration in read.items():
+    for file, calibration in read_calibrations(paths).items():
         serial = calibration.sensor.serial
         if serial in known:
             raise ExperimentError(

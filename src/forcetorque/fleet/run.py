@@ -153,7 +153,6 @@ def run_plan(file: Path, pool: Pool, *, retry_failed: bool = False, progress: Pr
                     kept.keep(one.source, error)
             failures.append(FailedJob(job="add", subject=str(one.source.path), error=error, earlier=False))
             continue
-        kept.forget(one.source)
         new = any(row.state == "added" for row in outcome.value)
         added, present = added + new, present + (not new)
     sensors: list[CalibratedSensor] = []
