@@ -24,6 +24,7 @@ from forcetorque.fleet.job import CalibrateJob, run_calibrate
 from forcetorque.fleet.report import FleetReport
 from forcetorque.fleet.report_page import page
 from forcetorque.fleet.run import run_plan
+from forcetorque.fleet.sensor_evaluation import SensorEvaluation
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.results.answer import MOST_LINES, answer_text
 from forcetorque.results.document.content import Section, Verdict
@@ -120,6 +121,30 @@ def test_every_verdict_has_the_last_recording(base: Path, tmp_path: Path, monkey
     monkeypatch.setattr("forcetorque.fleet.job.Dataset.moments", lambda *_: [])
     job = CalibrateJob(serial=serials[1], dataset=dataset.folder, folder=tmp_path, code_version="1", created="2020")
     assert run_calibrate(job).decision == reported[serials[1]][0]
+
+
+def test_any_recording_without_a_date_may_be_the_last(base: Path, tmp_path: Path) -> None:
+    """The damaged one counts wherever it stands; negative control: by dates it is the first, and does not."""
+    serials = _fleet(base, 1, tmp_path, {0: "gain"})
+    dataset, file = Dataset(tmp_path / "fleet"), tmp_path / "calibrations" / f"{serials[0]}.json"
+    healthy, damaged = dataset.records(dataset.of_sensor(serials[0]))
+    calibrations = {str(file): read_calibration(file)}
+
+    def reasons(start_ns: int) -> list[str]:
+        records = [damaged.model_copy(update={"start_ns": start_ns}), healthy.model_copy(update={"start_ns": start_ns})]
+        evaluation = SensorEvaluation(dataset.folder, serials[0], records, calibrations)
+        return [one.text for verdict in evaluation.verdicts() for one in verdict.reasons]
+
+    assert any("day_1.toml, which has no date and may be the last recording, its" in text for text in reasons(0))
+    assert not any("last recording" in text for text in reasons(healthy.start_ns))
+
+
+@pytest.mark.usefixtures("blank_pictures")
+def test_a_report_without_a_page_is_printed(base: Path, run: Run) -> None:
+    """No file is asked for, and none is written."""
+    answer = run("fleet", "report", str(base / "fleet"), "--format", "json").result()
+    assert answer["file"] is None
+    assert answer["unranked"]
 
 
 @pytest.mark.usefixtures("blank_pictures")

@@ -26,6 +26,18 @@ _DAY_NS = 86_400_000_000_000
 """Stamps below count from the start of a recording: nobody records on the first of January 1970 (heuristic)."""
 
 
+def has_date(stamp_ns: int) -> bool:
+    """Whether a stamp tells the day; else it counts from the start of a recording.
+
+    Args:
+        stamp_ns: The stamp; ns.
+
+    Returns:
+        Whether it does.
+    """
+    return stamp_ns >= _DAY_NS
+
+
 def require_fit(name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor) -> None:
     """Refuse a calibration of another sensor, or of one that is read in another way.
 
@@ -188,7 +200,7 @@ def was_used(earlier: FittedInterval, *, seen: bool | None, at_once: bool, own: 
     Returns:
         Whether it does.
     """
-    others = seen is False and earlier.start_ns < _DAY_NS
+    others = seen is False and not has_date(earlier.start_ns)
     one_log = log_went_in and own if others else log_went_in or own
     return bool(seen) or (at_once and one_log)
 

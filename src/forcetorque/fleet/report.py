@@ -288,7 +288,7 @@ def _row(sensor: FleetSensor, evaluation: SensorEvaluation, verdict: LoadCaseVer
     """The sensor at one load case, by the quantity that is larger against what is allowed."""
     specified = {case.name: case.load_case.states_requirement for one in evaluation.stored for case in one.load_cases}
     limits = {row.quantity: row.allowed for row in verdict.errors}
-    last, worst = evaluation.evaluated[-1], evaluation.last_error(verdict)
+    worst = evaluation.last_error(verdict)
     error, allowed = worst.interval, worst.allowed
     return RankedSensor(
         rank=1,
@@ -309,8 +309,8 @@ def _row(sensor: FleetSensor, evaluation: SensorEvaluation, verdict: LoadCaseVer
         allowed_Nm=limits.get("moment"),
         allowed_is_specified=specified.get(verdict.load_case, False),
         times_allowed=error.size / allowed if allowed else None,
-        last_date=last.date,
-        last_file=last.file,
+        last_date=worst.record.date,
+        last_file=worst.record.file,
         recordings=len(evaluation.evaluated),
         findings=sensor.findings,
         most_frequent_finding=sensor.most_frequent_finding,

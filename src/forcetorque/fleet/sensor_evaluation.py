@@ -29,7 +29,7 @@ from forcetorque.evaluation.load_cases.verdict import (
     Reason,
     load_case_verdict,
 )
-from forcetorque.experiment.applicability import require_same_reading, was_used
+from forcetorque.experiment.applicability import has_date, require_same_reading, was_used
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moment_blocks import pairwise_sum
 from forcetorque.experiment.calibration.moments import Moments
@@ -105,8 +105,13 @@ class RecordingError(Row):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LastError:
-    """Error of a calibration in the last recording, of the quantity that is larger against what is allowed."""
+    """Error of a calibration in the last recording, of the quantity that is larger against what is allowed.
 
+    Of recordings without a date any may be the last: it is the one with the largest error then.
+    """
+
+    record: SensorRecord
+    """The recording."""
     quantity: Literal["force", "moment"]
     """What the error is of."""
     unit: Literal["N", "N m"]
@@ -115,6 +120,12 @@ class LastError:
     """Its size with its 95 % interval."""
     allowed: float | None
     """What is allowed at the load case; None where no limit exists."""
+
+    @property
+    def _recording(self) -> str:
+        if has_date(self.record.start_ns):
+            return "the last recording"
+        return f"{Path(self.record.file).name}, which has no date and may be the last recording,"
 
     def reason(self) -> Reason | None:
         """Tell what it says against a calibration.
@@ -125,7 +136,7 @@ class LastError:
         if self.allowed is None or self.interval.size <= self.allowed:
             return None
         text = (
-            f"in the last recording its {self.quantity} error is {amount(self.interval.size, self.unit)}, "
+            f"in {self._recording} its {self.quantity} error is {amount(self.interval.size, self.unit)}, "
             f"{amount(self.allowed, self.unit)} allowed"
         )
         against: Literal["use", "data"] = "use" if self.interval.at_least > self.allowed else "data"
@@ -242,7 +253,16 @@ class SensorEvaluation:
         Returns:
             The error; without its mean where the load case is tared.
         """
-        means = self.means[self.place(verdict.calibration)][-len(self.stored[-1].sessions) :]
+        means = self.means[self.place(verdict.calibration)]
+        ends = np.cumsum([len(stored.sessions) for stored in self.stored]).tolist()
+        of_recordings = [
+            (record, means[end - len(stored.sessions) : end])
+            for record, stored, end in zip(self.evaluated, self.stored, ends, strict=True)
+        ]
+        # recordings are in the order of time, but those without a date are in no order and come first
+        last = [one for one in of_recordings if not has_date(one[0].start_ns)]
+        if has_date(self.evaluated[-1].start_ns):
+            last.append(of_recordings[-1])
         limits = {row.quantity: row.allowed for row in verdict.errors}
         quantities: tuple[tuple[Literal["force", "moment"], Literal["N", "N m"]], ...] = (
             ("force", "N"),
@@ -250,11 +270,13 @@ class SensorEvaluation:
         )
         errors = [
             LastError(
+                record=record,
                 quantity=quantity,
                 unit=unit,
-                interval=ErrorInterval.of(means, axes, tared=verdict.offset == "tared"),
+                interval=ErrorInterval.of(own, axes, tared=verdict.offset == "tared"),
                 allowed=limits.get(quantity),
             )
+            for record, own in last
             for axes, (quantity, unit) in zip(FORCE_AND_MOMENT, quantities, strict=True)
         ]
         return max(errors, key=lambda one: one.interval.size / one.allowed if one.allowed else 0.0)
