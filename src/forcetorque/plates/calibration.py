@@ -87,6 +87,7 @@ def calibrate_loads(
         cal_matrix=None
         if (values := corrected_cal_matrix(plate, matrix)) is None
         else tuple(map(tuple, values.tolist())),
+        offset=calibration.offset,
         warnings=(*loads.notes, *_gain_warnings(components), *fit.warnings),
         calibration=calibration,
         picture=PlatePicture(

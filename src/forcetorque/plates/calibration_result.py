@@ -97,8 +97,12 @@ class PlateCalibration(DrawnResult):
     cal_matrix: tuple[tuple[float, ...], ...] | None
     """CAL_MATRIX, in the units of the file, by rows: wrench about the origin of the sensor by channels; of a plate of
     type 2, which becomes type 4, by its forces and moments; None for other types."""
+    offset: WrenchValues
+    """Offset of the calibration about the centre of the surface, for which CAL_MATRIX has no place; N, N m."""
     file: str | None = None
     """File of the calibration; null where none was written."""
+    cal_matrix_file: str | None = None
+    """File of CAL_MATRIX; null where none was written."""
     warnings: tuple[str, ...]
     """What was left out, and doubts of the data."""
     calibration: Calibration = Field(exclude=True, repr=False)
@@ -138,7 +142,7 @@ class PlateCalibration(DrawnResult):
             step=""
             if self.file is not None
             else "add -o FILE for the calibration, --cal-matrix FILE for motion capture",
-            written=(self.file, self.figure_file),
+            written=(self.file, self.cal_matrix_file, self.figure_file),
             concern=Concern.BAD if not is_better else Concern.UNCERTAIN if is_doubtful else Concern.NONE,
         )
 
@@ -157,6 +161,10 @@ class PlateCalibration(DrawnResult):
                     (component, *(f"{value:.4g}" for value in row))
                     for component, row in zip(("Fx", "Fy", "Fz", "Mx", "My", "Mz"), self.cal_matrix, strict=True)
                 ),
+            )
+            yield (
+                f"CAL_MATRIX has no offset: the calibration adds {', '.join(f'{value:.2g}' for value in self.offset)} "
+                "(N, N m, about the centre of the surface); tare the plate, or set FORCE_PLATFORM:ZERO"
             )
         yield from self.warnings
         if self.file is not None:

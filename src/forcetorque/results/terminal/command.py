@@ -254,12 +254,13 @@ class _Analysis:
 
 
 def _written(result: Any, saved: Saved, path: Path) -> Result:
-    """The result, with the name of the file that it is saved in."""
-    if saved.function is not None:
-        named(saved.function)(result, path)
-        return result
-    result.save(path)
-    return result.model_copy(update={"file": str(path)})
+    """The result, with the name of the file that it is saved in, where it has a field for that."""
+    if saved.function is None:
+        result.save(path)
+        return result.model_copy(update={"file": str(path)})
+    named(saved.function)(result, path)
+    field = f"{_name(saved)}_file"
+    return result.model_copy(update={field: str(path)}) if field in type(result).model_fields else result
 
 
 @contextmanager
