@@ -9,9 +9,6 @@ processes, and on a Dask cluster of two workers where distributed is installed; 
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Iterator
@@ -21,27 +18,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from benchmarks.commands import command_cost, simulated_recordings
 from benchmarks.harness import arguments, write_result
 from forcetorque.fleet.job import AddJob, run_add
 from forcetorque.fleet.pool import DaskPool, LocalPool, Pool
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.fleet.source import RecordingSource
 
-_SCENARIO = """schema = "forcetorque/scenario/1"
-name = "fleet"
-seed = 5
-[robot]
-model = ["arm"]
-[sensors]
-noise_counts = 3.0
-mounting_sd = 0.05
-"""
-_RECORDING = """[[recording]]
-name = "r{seconds:g}"
-motion = {{ kind = "random", duration_s = {seconds} }}
-temperature_degC = [24.0, 25.0]
-"""
-_COMMAND = (sys.executable, "-m", "forcetorque")
 _DAYS, _HOURS, _ROBOTS, _CORE_HOUR_EUR = 365, 8, 1000, 0.05
 """On paper: days of a year, hours of logs a day, robots, and what a core costs for an hour."""
 
@@ -49,14 +32,6 @@ _DAYS, _HOURS, _ROBOTS, _CORE_HOUR_EUR = 365, 8, 1000, 0.05
 def nothing(_: int) -> int:
     """Do nothing."""
     return 0
-
-
-def _experiments(folder: Path, seconds: tuple[float, ...]) -> dict[float, Path]:
-    text = _SCENARIO + "".join(_RECORDING.format(seconds=value) for value in seconds)
-    (folder / "scenario.toml").write_text(text, encoding="utf-8")
-    words = [*_COMMAND, "simulate", folder / "scenario.toml", "-o", folder / "logs"]
-    subprocess.run(words, check=True, capture_output=True)
-    return {value: folder / "logs" / f"r{value:g}.toml" for value in seconds}
 
 
 def _copies(file: Path, number: int, prefix: str) -> list[Path]:
@@ -86,19 +61,6 @@ def _jobs_s(pool: Pool, number: int) -> float:
     begun = time.perf_counter()
     list(pool.outcomes(nothing, range(2 + number)))
     return max(time.perf_counter() - begun - (begun - start), 0.0) / number
-
-
-def _peak_MB(file: Path, dataset: Path) -> float:
-    with subprocess.Popen(
-        [*_COMMAND, "fleet", "add", str(file), "--into", str(dataset)],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    ) as run:
-        _, status, usage = os.wait4(run.pid, 0)
-        run.returncode = os.waitstatus_to_exitcode(status)
-    if run.returncode:
-        raise SystemExit(f"fleet add {file}: exit code {run.returncode}")
-    return usage.ru_maxrss / 1024.0
 
 
 def _by_hand_s(log: Path, rounds: int) -> float:
@@ -135,7 +97,8 @@ def main() -> None:
     figures: dict[str, float] = {}
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        files = _experiments(folder, lengths)
+        made = simulated_recordings(folder, "logs", "arm", {f"r{value:g}": value for value in lengths})
+        files = dict(zip(lengths, made, strict=True))
         short = files[lengths[0]]
         rates: dict[str, float] = {}
         for number in numbers:
@@ -147,7 +110,9 @@ def main() -> None:
         by_hand = _by_hand_s(short.with_suffix(""), 3)
         figures["by hand with pandas, recordings_per_s"] = 1.0 / by_hand
         for seconds, file in files.items():
-            figures[f"{seconds:g} s, peak_MB"] = _peak_MB(file, folder / f"length_{seconds:g}")
+            figures[f"{seconds:g} s, peak_MB"] = command_cost(
+                "fleet", "add", file, "--into", folder / f"length_{seconds:g}"
+            )[1]
         figures["job on processes, ms"] = 1e3 * _jobs_s(LocalPool(workers=2), jobs)
         with _cluster(folder) as address:
             if address is not None:

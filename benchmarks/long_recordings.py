@@ -8,56 +8,17 @@ that of the operating system. Filters of the whole stream are the named peer of 
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
 
+from benchmarks.commands import command_cost, simulated_recordings
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
 from forcetorque.recording.smoothing import DERIVATIVE_WINDOW, FilteredColumns, smooth_columns
 
-_SCENARIO = """schema = "forcetorque/scenario/1"
-name = "long"
-seed = 11
-[robot]
-model = ["{robot}"]
-[sensors]
-noise_counts = 3.0
-offset_counts = 1500.0
-mounting_sd = 0.05
-"""
-_RECORDING = """[[recording]]
-name = "{name}"
-motion = {{ kind = "random", duration_s = {seconds} }}
-temperature_degC = [24.0, 25.0]
-"""
-_COMMAND = (sys.executable, "-m", "forcetorque")
 _ROWS = 400
 """Rows that are looked at in a long stream, evenly."""
-
-
-def _recordings(folder: Path, name: str, robot: str, seconds: dict[str, float]) -> list[Path]:
-    text = _SCENARIO.format(robot=robot)
-    text += "".join(_RECORDING.format(name=key, seconds=value) for key, value in seconds.items())
-    (folder / f"{name}.toml").write_text(text, encoding="utf-8")
-    made = folder / name
-    subprocess.run([*_COMMAND, "simulate", folder / f"{name}.toml", "-o", made], check=True, capture_output=True)
-    return [made / f"{key}.toml" for key in seconds]
-
-
-def _cost(*arguments: object) -> tuple[float, float]:
-    """CPU seconds and peak MB of a command."""
-    with subprocess.Popen(
-        [*_COMMAND, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    ) as run:
-        _, status, usage = os.wait4(run.pid, 0)
-        run.returncode = os.waitstatus_to_exitcode(status)
-    if run.returncode:
-        raise SystemExit(f"{arguments}: exit code {run.returncode}")
-    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0
 
 
 def _filters(rounds: int) -> tuple[dict[str, list[float]], bool]:
@@ -84,12 +45,12 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         lengths = {"quarter": length / 4.0, "whole": length}
-        for name, file in zip(lengths, _recordings(folder, "biped", "biped", lengths), strict=True):
-            cpu, memory = _cost("inspect", file, "--format", "json")
+        for name, file in zip(lengths, simulated_recordings(folder, "biped", "biped", lengths), strict=True):
+            cpu, memory = command_cost("inspect", file, "--format", "json")
             figures |= {f"inspect {name} cpu_s": cpu, f"inspect {name} peak_MB": memory}
-        files = _recordings(folder, "arm", "arm", {f"r{k:03d}": 20.0 for k in range(number)})
+        files = simulated_recordings(folder, "arm", "arm", {f"r{k:03d}": 20.0 for k in range(number)})
         for name, some in (("quarter", files[: number // 4]), ("whole", files)):
-            cpu, memory = _cost("calibrate", *some, "-o", folder / f"fit_{name}")
+            cpu, memory = command_cost("calibrate", *some, "-o", folder / f"fit_{name}")
             figures |= {f"fit {name} cpu_s": cpu, f"fit {name} peak_MB": memory}
     seconds, equal = _filters(rounds)
     write_result(
