@@ -165,6 +165,20 @@ def test_gravity_is_an_argument() -> None:
     np.testing.assert_allclose(double, 2 * single, rtol=0.0, atol=1e-9)  # rounding of derivatives of a constant
 
 
+def test_known_samples_are_those_that_would_be_computed() -> None:
+    """Those of a part of the interval, also beside stamps that come twice; negative control: of another model."""
+    stamps = LATE.copy()
+    stamps[200], stamps[201] = stamps[199], stamps[150]
+    log = recording(_joints(_stamps()), _sensor(stamps))
+    fields = {"sensor": "arm_ft", "stream": "ft", "quantity": "wrench", "interval": WHOLE, "processing": LOGGED}
+    computed, part = _samples(log), _samples(log, _span(0.0, 5.0))
+    again = sensor_samples(log, _arm(), known=[part], **fields)
+    np.testing.assert_array_equal(again.stamp_ns, computed.stamp_ns)
+    np.testing.assert_allclose(again.reference, computed.reference, rtol=1e-12, atol=1e-12)
+    other = sensor_samples(log, _arm(), known=[replace(part, reference=part.reference + 1.0)], **fields)
+    assert np.flatnonzero((other.reference != computed.reference).any(axis=1)).tolist() == list(range(len(part)))
+
+
 def test_ignored_spans_are_cut_out_and_not_counted() -> None:
     """By hand: 800 samples lie in eight seconds, 100 of them in the ignored one, whose end is not in it."""
     ignored = replace(_span(3.0, 4.0, support=None, use=Use.IGNORE), start_ns=int(LATE[300]), end_ns=int(LATE[400]))
